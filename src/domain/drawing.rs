@@ -1,0 +1,108 @@
+//! Curves, names and seeds as found in a file: nothing promised, nothing cleaned.
+
+use crate::curve::Curve;
+use crate::geometry::{Point, Rect};
+use crate::ids::{NameId, Names};
+
+/// A drawing as found.
+#[derive(Clone, Debug, Default)]
+pub struct Drawing {
+    /// The reader that made it: "airfoil (Selig)", "poly", "outline", …
+    pub format: String,
+    /// A short title: the header line, or the file's stem.
+    pub title: String,
+    pub names: Names,
+    pub curves: Vec<DrawnCurve>,
+    pub points: Vec<DrawnPoint>,
+    pub seeds: Vec<Seed>,
+    pub fill: FillRule,
+    /// The physical unit of a coordinate ("m", "mm", "chord", …) and where it was read from, where known.
+    pub unit: Option<(String, String)>,
+    /// What the reader left out, counted.
+    pub skipped: Vec<Skipped>,
+    /// What the reader noticed or mended (format quirks), one sentence each.
+    pub notes: Vec<String>,
+    /// Size requests that came with the drawing (see `size::Source`): name or point sources.
+    pub sizes: Vec<SizeRequest>,
+}
+
+/// A wish about cell size carried by a drawing.
+#[derive(Clone, Debug, PartialEq)]
+pub enum SizeRequest {
+    /// Mesh edges on the boundary of this name no longer than `edge`.
+    Boundary { name: NameId, edge: f64 },
+    /// Mesh edges in the region of this name no longer than `edge`.
+    Region { name: NameId, edge: f64 },
+    /// Cells near the segment `from`–`to` no larger than `edge`, growing by `grade` a unit of distance away from it.
+    Near { from: Point, to: Point, edge: f64, grade: f64 },
+    /// Everywhere.
+    Everywhere { edge: f64 },
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub struct DrawnCurve {
+    pub curve: Curve,
+    /// Name of the boundary that the curve belongs to.
+    pub name: NameId,
+    /// Where it came from, for messages: "line 12", "segment 7", "path outline, curve 3".
+    pub entity: String,
+}
+
+/// A point to be kept as a vertex.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DrawnPoint {
+    pub at: Point,
+    pub name: Option<NameId>,
+    pub entity: String,
+}
+
+/// A point that says something of the face it lies in.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Seed {
+    pub at: Point,
+    pub kind: SeedKind,
+    pub entity: String,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub enum SeedKind {
+    /// The face, and every face reached from it without crossing a curve, is no part of the domain.
+    Hole,
+    /// The face belongs to the region of this name, with an area limit where given.
+    Region { name: NameId, max_area: Option<f64> },
+}
+
+/// Which bounded faces are inside.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum FillRule {
+    /// Winding number not zero.
+    NonZero,
+    /// Odd winding number.
+    #[default]
+    EvenOdd,
+    /// Every bounded face is a region, but those reached from a hole seed.
+    Regions,
+}
+
+/// Entities that a reader left out.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct Skipped {
+    pub entity: String,
+    pub count: usize,
+    pub why: String,
+}
+
+impl Drawing {
+    /// The box around everything drawn; `None` of an empty drawing.
+    pub fn bounds(&self) -> Option<Rect> {
+        let curves = self.curves.iter().map(|c| c.curve.bounds());
+        let points = self.points.iter().map(|p| Rect::from_points(p.at, p.at));
+        curves.chain(points).reduce(|a, b| a.union(b))
+    }
+
+    /// Adds a curve of the named boundary.
+    pub fn add(&mut self, curve: Curve, name: &str, entity: impl Into<String>) {
+        let name = self.names.intern(name);
+        self.curves.push(DrawnCurve { curve, name, entity: entity.into() });
+    }
+}

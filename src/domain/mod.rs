@@ -1,0 +1,9 @@
+//! What is to be meshed: a [`Drawing`] as found, and the [`Domain`] (PRCC) that [`Drawing::arrange`] proves it to be.
+
+mod arrange;
+mod drawing;
+mod planar;
+
+pub use arrange::{ArrangeError, ArrangeOptions, Repair, RepairKind};
+pub use drawing::{Drawing, DrawnCurve, DrawnPoint, FillRule, Seed, SeedKind, SizeRequest, Skipped};
+pub use planar::{Corner, Domain, DomainCurve, Incident, Region};

@@ -1,0 +1,1 @@
+//! Writers: Mesh → files. One file a format; a writer says what its format cannot hold.

@@ -1,0 +1,200 @@
+//! Exact signs: what a kernel may know of coordinates.
+//!
+//! Each sign is decided by a static filter, inlined, and by Shewchuk's adaptive expansions (crate `robust`) where the filter cannot
+//! tell. Coordinates are expected within about 2^±180 ([`super::unit_scale`] brings any drawing there): the expansions have no
+//! overflow guard.
+
+use super::Point;
+use robust::Coord;
+
+/// How three points lie.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Orientation {
+    Clockwise,
+    Collinear,
+    CounterClockwise,
+}
+
+/// How a point lies to a circle.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum CircleSide {
+    Inside,
+    On,
+    Outside,
+}
+
+fn coord(p: Point) -> Coord<f64> {
+    Coord { x: p.x, y: p.y }
+}
+
+/// The orientation of the triangle `a b c`.
+#[inline]
+pub fn orient(a: Point, b: Point, c: Point) -> Orientation {
+    let left = (a.x - c.x) * (b.y - c.y);
+    let right = (a.y - c.y) * (b.x - c.x);
+    let det = left - right;
+    // Shewchuk's ccwerrboundA = (3 + 16ε)ε with ε = 2^-53.
+    let bound = 3.330_669_073_875_472e-16 * (left.abs() + right.abs());
+    let det = if det.abs() > bound { det } else { robust::orient2d(coord(a), coord(b), coord(c)) };
+    match det.total_cmp(&0.0) {
+        _ if det == 0.0 => Orientation::Collinear,
+        std::cmp::Ordering::Less => Orientation::Clockwise,
+        _ => Orientation::CounterClockwise,
+    }
+}
+
+/// Where `d` lies to the circle through the counter-clockwise triangle `a b c`.
+#[inline]
+pub fn in_circle(a: Point, b: Point, c: Point, d: Point) -> CircleSide {
+    let (adx, ady) = (a.x - d.x, a.y - d.y);
+    let (bdx, bdy) = (b.x - d.x, b.y - d.y);
+    let (cdx, cdy) = (c.x - d.x, c.y - d.y);
+    let (bdxcdy, cdxbdy) = (bdx * cdy, cdx * bdy);
+    let (cdxady, adxcdy) = (cdx * ady, adx * cdy);
+    let (adxbdy, bdxady) = (adx * bdy, bdx * ady);
+    let alift = adx * adx + ady * ady;
+    let blift = bdx * bdx + bdy * bdy;
+    let clift = cdx * cdx + cdy * cdy;
+    let det = alift * (bdxcdy - cdxbdy) + blift * (cdxady - adxcdy) + clift * (adxbdy - bdxady);
+    let permanent = (bdxcdy.abs() + cdxbdy.abs()) * alift
+        + (cdxady.abs() + adxcdy.abs()) * blift
+        + (adxbdy.abs() + bdxady.abs()) * clift;
+    // Shewchuk's iccerrboundA = (10 + 96ε)ε with ε = 2^-53.
+    let det = if det.abs() > 1.110_223_024_625_157_7e-15 * permanent {
+        det
+    } else {
+        robust::incircle(coord(a), coord(b), coord(c), coord(d))
+    };
+    if det > 0.0 {
+        CircleSide::Inside
+    } else if det < 0.0 {
+        CircleSide::Outside
+    } else {
+        CircleSide::On
+    }
+}
+
+/// Where `p` lies to the diametral circle of the segment `x y`: the sign of (x − p)·(y − p), exact.
+#[inline]
+pub fn in_diametral(x: Point, y: Point, p: Point) -> CircleSide {
+    let a = (x.x - p.x) * (y.x - p.x);
+    let b = (x.y - p.y) * (y.y - p.y);
+    let dot = a + b;
+    // Each difference and product has relative error ε, the sum one more: as for ccwerrboundA.
+    let dot = if dot.abs() > 3.330_669_073_875_472e-16 * (a.abs() + b.abs()) { dot } else { exact_dot(x, y, p) };
+    if dot < 0.0 {
+        CircleSide::Inside
+    } else if dot > 0.0 {
+        CircleSide::Outside
+    } else {
+        CircleSide::On
+    }
+}
+
+/// A number of the sign of (x − p)·(y − p), by an exact expansion of the eight products.
+fn exact_dot(x: Point, y: Point, p: Point) -> f64 {
+    let mut sum = Expansion::default();
+    for (x, y, p) in [(x.x, y.x, p.x), (x.y, y.y, p.y)] {
+        for (a, b) in [(x, y), (-x, p), (-p, y), (p, p)] {
+            let (high, low) = two_product(a, b);
+            sum.add(low);
+            sum.add(high);
+        }
+    }
+    sum.sign_bearer()
+}
+
+/// A nonoverlapping expansion of at most sixteen components, smallest first.
+#[derive(Default)]
+struct Expansion {
+    parts: [f64; 16],
+    len: usize,
+}
+
+impl Expansion {
+    /// Shewchuk's Grow-Expansion with zero elimination.
+    fn add(&mut self, value: f64) {
+        let (mut carry, mut len) = (value, 0);
+        for i in 0..self.len {
+            let (high, low) = two_sum(carry, self.parts[i]);
+            if low != 0.0 {
+                self.parts[len] = low;
+                len += 1;
+            }
+            carry = high;
+        }
+        if carry != 0.0 {
+            self.parts[len] = carry;
+            len += 1;
+        }
+        self.len = len;
+    }
+
+    /// The largest component, which has the sign of the sum.
+    fn sign_bearer(&self) -> f64 {
+        if self.len == 0 { 0.0 } else { self.parts[self.len - 1] }
+    }
+}
+
+fn two_sum(a: f64, b: f64) -> (f64, f64) {
+    let sum = a + b;
+    let b_virtual = sum - a;
+    let a_virtual = sum - b_virtual;
+    (sum, (a - a_virtual) + (b - b_virtual))
+}
+
+/// Dekker's product, without fused multiply-add.
+fn two_product(a: f64, b: f64) -> (f64, f64) {
+    let product = a * b;
+    let split = |v: f64| {
+        let c = 134_217_729.0 * v; // 2^27 + 1
+        let high = c - (c - v);
+        (high, v - high)
+    };
+    let ((ah, al), (bh, bl)) = (split(a), split(b));
+    (product, al * bl - (((product - ah * bh) - al * bh) - ah * bl))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_right_angle_lies_on_the_diametral_circle_whatever_the_offset() {
+        for offset in [0.0, 1.0, 1e7, 1e-9] {
+            let (x, y) = (Point::new(offset, 0.0), Point::new(offset, 2.0));
+            let p = Point::new(offset + 1.0, 1.0);
+            if (offset + 1.0) - offset == 1.0 {
+                assert_eq!(in_diametral(x, y, p), CircleSide::On);
+            }
+        }
+    }
+
+    #[test]
+    fn one_ulp_decides_the_diametral_side() {
+        let (x, y) = (Point::new(0.1, 0.7), Point::new(0.1, 0.7 + 0.25));
+        let on = Point::new(0.1, 0.8);
+        assert_eq!(in_diametral(x, y, on), CircleSide::Inside);
+        let (x, y) = (Point::new(-1.0, 0.0), Point::new(1.0, 0.0));
+        assert_eq!(in_diametral(x, y, Point::new(0.0, 1.0)), CircleSide::On);
+        assert_eq!(in_diametral(x, y, Point::new(0.0, 1.0f64.next_down())), CircleSide::Inside);
+        assert_eq!(in_diametral(x, y, Point::new(0.0, 1.0f64.next_up())), CircleSide::Outside);
+    }
+
+    #[test]
+    fn signs_of_small_integers_agree_with_integer_arithmetic() {
+        let grid: Vec<(i64, i64)> = (-2..=2).flat_map(|x| (-2..=2).map(move |y| (x, y))).collect();
+        let point = |(x, y): (i64, i64)| Point::new(x as f64 * 0.1, y as f64 * 0.1);
+        for &x in &grid {
+            for &y in &grid {
+                for &p in &grid {
+                    let (x, y, p) = (point(x), point(y), point(p));
+                    let exact = exact_dot(x, y, p);
+                    let side = in_diametral(x, y, p);
+                    assert_eq!(side == CircleSide::Inside, exact < 0.0);
+                    assert_eq!(side == CircleSide::On, exact == 0.0);
+                }
+            }
+        }
+    }
+}

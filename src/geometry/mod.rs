@@ -1,0 +1,39 @@
+//! Ground floor: points and vectors, exact signs, insertion order, box hierarchy. Numbers only, nothing of meshes.
+
+pub mod boxes;
+pub mod exact;
+pub mod order;
+
+pub use kurbo::{Point, Rect, Vec2};
+
+/// The power of two that brings a coordinate magnitude to between ½ and 1.
+///
+/// Multiplying by it is exact, so a computation on scaled coordinates gives the same bits at every scale.
+/// The expansions behind the exact signs overflow near 1e60 and underflow near 1e-60; scaled input never gets there.
+pub fn unit_scale(magnitude: f64) -> f64 {
+    if magnitude == 0.0 || !magnitude.is_finite() {
+        return 1.0;
+    }
+    let (_, exponent) = libm::frexp(magnitude);
+    libm::ldexp(1.0, -exponent)
+}
+
+/// The largest absolute coordinate of a box.
+pub fn magnitude(bounds: Rect) -> f64 {
+    bounds.x0.abs().max(bounds.x1.abs()).max(bounds.y0.abs()).max(bounds.y1.abs())
+}
+
+/// The smallest box around some points; `None` of none.
+pub fn bounds_of(points: impl IntoIterator<Item = Point>) -> Option<Rect> {
+    points.into_iter().map(|p| Rect::from_points(p, p)).reduce(|a, b| a.union(b))
+}
+
+/// `p` times a power of two, exact.
+pub fn scaled(p: Point, factor: f64) -> Point {
+    Point::new(p.x * factor, p.y * factor)
+}
+
+/// Angle from `u` counter-clockwise to `v`, in (−π, π].
+pub fn turn_from(u: Vec2, v: Vec2) -> f64 {
+    libm::atan2(u.cross(v), u.dot(v))
+}

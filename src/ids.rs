@@ -1,0 +1,177 @@
+//! Every index has a type. Arithmetic on ids lives here and in storage, nowhere else.
+
+use serde::{Deserialize, Serialize};
+use std::marker::PhantomData;
+use std::ops::{Index, IndexMut};
+
+/// An index into one kind of table.
+pub trait Id: Copy + Eq + Ord + std::hash::Hash + std::fmt::Debug {
+    fn from_index(index: usize) -> Self;
+    fn index(self) -> usize;
+}
+
+macro_rules! ids {
+    ($($(#[$doc:meta])* $name:ident),* $(,)?) => {$(
+        $(#[$doc])*
+        #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
+        #[serde(transparent)]
+        pub struct $name(pub u32);
+
+        impl Id for $name {
+            #[inline]
+            fn from_index(index: usize) -> Self {
+                debug_assert!(index < u32::MAX as usize);
+                Self(index as u32)
+            }
+            #[inline]
+            fn index(self) -> usize {
+                self.0 as usize
+            }
+        }
+    )*};
+}
+
+ids! {
+    /// A vertex of a triangulation or a node of a mesh.
+    VertexId,
+    /// A triangle of a triangulation or a mesh.
+    TriangleId,
+    /// A point of P, the input points of a domain.
+    PointId,
+    /// A curve of a domain.
+    CurveId,
+    /// A piece of a curve (or of a corner arc) in C′, the subcurves of a refinement.
+    PieceId,
+    /// A kept region of a domain.
+    RegionId,
+    /// A name: of boundaries, of regions, of layers.
+    NameId,
+    /// A protecting ball around an acute corner.
+    BallId,
+}
+
+/// A vector indexed by one kind of id.
+#[derive(Clone, PartialEq, Debug)]
+pub struct IdVec<I, T> {
+    items: Vec<T>,
+    kind: PhantomData<fn(I)>,
+}
+
+impl<I: Id, T> IdVec<I, T> {
+    pub const fn new() -> Self {
+        Self { items: Vec::new(), kind: PhantomData }
+    }
+
+    pub fn with_capacity(n: usize) -> Self {
+        Vec::with_capacity(n).into()
+    }
+
+    pub fn push(&mut self, item: T) -> I {
+        let id = I::from_index(self.items.len());
+        self.items.push(item);
+        id
+    }
+
+    pub fn len(&self) -> usize {
+        self.items.len()
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.items.is_empty()
+    }
+
+    pub fn get(&self, id: I) -> Option<&T> {
+        self.items.get(id.index())
+    }
+
+    pub fn ids(&self) -> impl DoubleEndedIterator<Item = I> + ExactSizeIterator + use<I, T> {
+        (0..self.items.len()).map(I::from_index)
+    }
+
+    pub fn iter(&self) -> std::slice::Iter<'_, T> {
+        self.items.iter()
+    }
+
+    pub fn iter_mut(&mut self) -> std::slice::IterMut<'_, T> {
+        self.items.iter_mut()
+    }
+
+    pub fn enumerate(&self) -> impl DoubleEndedIterator<Item = (I, &T)> + ExactSizeIterator {
+        self.items.iter().enumerate().map(|(i, item)| (I::from_index(i), item))
+    }
+
+    pub fn as_slice(&self) -> &[T] {
+        &self.items
+    }
+
+    pub fn resize(&mut self, n: usize, item: T)
+    where
+        T: Clone,
+    {
+        self.items.resize(n, item);
+    }
+}
+
+impl<I: Id, T> Default for IdVec<I, T> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl<I, T> From<Vec<T>> for IdVec<I, T> {
+    fn from(items: Vec<T>) -> Self {
+        Self { items, kind: PhantomData }
+    }
+}
+
+impl<I: Id, T> FromIterator<T> for IdVec<I, T> {
+    fn from_iter<It: IntoIterator<Item = T>>(items: It) -> Self {
+        items.into_iter().collect::<Vec<_>>().into()
+    }
+}
+
+impl<I: Id, T> Index<I> for IdVec<I, T> {
+    type Output = T;
+    #[inline]
+    fn index(&self, id: I) -> &T {
+        &self.items[id.index()]
+    }
+}
+
+impl<I: Id, T> IndexMut<I> for IdVec<I, T> {
+    #[inline]
+    fn index_mut(&mut self, id: I) -> &mut T {
+        &mut self.items[id.index()]
+    }
+}
+
+/// Names by id, each text once, in the order of first use.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Names {
+    texts: IdVec<NameId, String>,
+    by_text: std::collections::BTreeMap<String, NameId>,
+}
+
+impl Names {
+    /// The id of `text`, which is recorded if it is new.
+    pub fn intern(&mut self, text: &str) -> NameId {
+        if let Some(&id) = self.by_text.get(text) {
+            return id;
+        }
+        let id = self.texts.push(text.to_owned());
+        self.by_text.insert(text.to_owned(), id);
+        id
+    }
+
+    pub fn find(&self, text: &str) -> Option<NameId> {
+        self.by_text.get(text).copied()
+    }
+
+    pub fn text(&self, id: NameId) -> &str {
+        &self.texts[id]
+    }
+
+    pub fn iter(&self) -> impl Iterator<Item = (NameId, &str)> {
+        self.texts.enumerate().map(|(id, text)| (id, text.as_str()))
+    }
+}

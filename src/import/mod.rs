@@ -1,0 +1,1 @@
+//! Readers: files → Drawing. One file a format; no cleaning here.

@@ -1,0 +1,13 @@
+//! squinch: provably good meshes of domains with curved boundaries.
+#![forbid(unsafe_code)]
+
+pub mod curve;
+pub mod domain;
+pub mod export;
+pub mod geometry;
+pub mod ids;
+pub mod import;
+pub mod mesh;
+pub mod plane;
+pub mod refine;
+pub mod size;

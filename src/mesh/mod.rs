@@ -1,0 +1,74 @@
+//! The mesh: plain data, whoever made it. Nodes, cells, regions, boundaries, links back to curves, and the balls that excuse cells.
+
+pub mod quality;
+pub mod verify;
+
+use crate::geometry::Point;
+use crate::ids::{CurveId, IdVec, NameId, Names, PointId, RegionId, TriangleId, VertexId};
+
+/// A triangle mesh in the plane (order 1), with names and links back to the domain where they are known.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Mesh {
+    pub nodes: IdVec<VertexId, Point>,
+    /// Corners of each triangle, counter-clockwise.
+    pub triangles: IdVec<TriangleId, [VertexId; 3]>,
+    /// Region of each triangle (index into `regions`).
+    pub triangle_regions: IdVec<TriangleId, RegionId>,
+    /// Name of each region.
+    pub regions: IdVec<RegionId, NameId>,
+    /// Every mesh edge that lies on a curve, along the curve's direction, grouped by curve and in order along it where links are known.
+    pub edges: Vec<CurveEdge>,
+    pub names: Names,
+    /// For each node that is a point of P: which (sorted by point).
+    pub points: Vec<(PointId, VertexId)>,
+    /// Protecting balls that were set around acute corners.
+    pub balls: Vec<Ball>,
+}
+
+/// A mesh edge on a curve of the domain, or on a named boundary of a foreign mesh.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CurveEdge {
+    pub nodes: [VertexId; 2],
+    pub name: NameId,
+    /// Curve and parameters of the two nodes, where known (ours always; a foreign mesh never).
+    pub link: Option<CurveLink>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CurveLink {
+    pub curve: CurveId,
+    pub t: [f64; 2],
+}
+
+/// A ball B(p) around an acute corner (Pav & Walkington 2005, section 3).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ball {
+    pub corner: PointId,
+    pub radius: f64,
+    pub why: BallReason,
+}
+
+/// What set a ball's radius.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum BallReason {
+    /// (√2−1)·lfs₀, untouched.
+    LocalFeatureSize,
+    /// Shrunk by β because a vertex came in.
+    Encroached,
+    /// Capped at birth so that its spokes and fans meet the size limits: exempt from the lfs check.
+    Size,
+}
+
+impl Mesh {
+    /// All coordinates and radii times a power of two: exact.
+    pub fn scaled(mut self, factor: f64) -> Self {
+        for p in self.nodes.iter_mut() {
+            *p = crate::geometry::scaled(*p, factor);
+        }
+        for ball in &mut self.balls {
+            ball.radius *= factor;
+        }
+        self
+    }
+}

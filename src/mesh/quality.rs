@@ -1,0 +1,1 @@
+//! Angles, areas and lengths of a mesh.

@@ -1,0 +1,1 @@
+//! Locating, cavities (looking) and filling (acting); removal.

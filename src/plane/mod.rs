@@ -1,0 +1,4 @@
+//! The planar kernel and its engines.
+
+pub mod insert;
+pub mod triangulation;
