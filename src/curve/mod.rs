@@ -6,6 +6,10 @@
 //! Pav & Walkington 2005 ask of a curve its *turning* (total variation of the tangent, Definition 4), a point where it crosses the
 //! perpendicular bisector of its chord (Corollaries 1 and 2), and where it leaves a ball around its end point (splitball).
 
+mod meet;
+
+pub use meet::{Meeting, MeetingBudget, MeetingKind, Meetings, Overlap, meetings, self_meetings};
+
 use crate::geometry::{Point, Rect, Vec2};
 
 /// One end of a curve.
