@@ -73,8 +73,9 @@ pub struct MeetingBudget {
     pub at: Point,
 }
 
-/// Pairs of pieces that are compared at most: some 0.2 s of work. A pair of cubics takes about fifty, a tangential touch a few hundred.
-const PAIRS: usize = 1 << 20;
+/// Pairs of pieces that are compared at most: some 0.1 s of work. A pair of cubics takes about fifty, a tangential touch a few hundred,
+/// and curves that run 1e-9 of their size beside each other some ten thousand.
+const PAIRS: usize = 1 << 18;
 
 /// Every meeting of two curves with a gap of at most `tolerance` (a length; at least a few units in the last place of the
 /// coordinates are allowed in any case). Each connected contact is one meeting: two crossings with a lens between them that is
