@@ -1,6 +1,6 @@
 use super::*;
 use crate::geometry::Rect;
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::f64::consts::{PI, TAU};
 
 /// A fixed sequence of numbers in −1..1.
 fn numbers(seed: u64) -> impl FnMut() -> f64 {
