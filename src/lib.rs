@@ -4,6 +4,7 @@
 pub mod curve;
 pub mod domain;
 pub mod export;
+pub mod generate;
 pub mod geometry;
 pub mod ids;
 pub mod import;
