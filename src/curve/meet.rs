@@ -286,9 +286,8 @@ impl<'c> Search<'c> {
         };
         let mut kept: Vec<Meeting> = Vec::new();
         for point in points {
-            let twin = |k: &Meeting| {
-                length(k.at - point.at) <= tolerance && near(&a, k.t, point.t) && near(&b, k.u, point.u)
-            };
+            let twin =
+                |k: &Meeting| length(k.at - point.at) <= tolerance && near(&a, k.t, point.t) && near(&b, k.u, point.u);
             if !kept.iter().any(twin) {
                 kept.push(point);
             }

@@ -187,7 +187,10 @@ impl<'c> Contacts<'c> {
                 step *= 2.0;
                 continue;
             }
-            if at_end && !jumps && let Some(end) = self.end_of_b_between(foot, t, next) {
+            if at_end
+                && !jumps
+                && let Some(end) = self.end_of_b_between(foot, t, next)
+            {
                 if end != here {
                     passed.push(end);
                 }

@@ -85,9 +85,7 @@ impl Span {
             _ if s == 0.0 => from,
             _ if s == 1.0 => to,
             Pace::Even => from + s * (to - from),
-            Pace::Angle(k) => {
-                0.5 * (from + to) + 0.5 * (to - from) * libm::atan(k * (2.0 * s - 1.0)) / libm::atan(k)
-            }
+            Pace::Angle(k) => 0.5 * (from + to) + 0.5 * (to - from) * libm::atan(k * (2.0 * s - 1.0)) / libm::atan(k),
         }
     }
 }

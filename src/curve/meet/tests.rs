@@ -118,9 +118,8 @@ fn crossings_agree_with_polylines() {
 #[test]
 fn meetings_are_the_same_at_every_scale_and_place() {
     let mut next = numbers(2);
-    let base: Vec<(Curve, Curve)> = (0..40)
-        .map(|k| (some_curve(k % KINDS, &mut next), some_curve((k / KINDS + 2) % KINDS, &mut next)))
-        .collect();
+    let base: Vec<(Curve, Curve)> =
+        (0..40).map(|k| (some_curve(k % KINDS, &mut next), some_curve((k / KINDS + 2) % KINDS, &mut next))).collect();
     for (a, b) in &base {
         let plain = checked(a, b, 1e-9);
         for (scale, offset) in [(1e-6, 0.0), (1e6, 0.0), (1.0, 1e7), (1e-6, 10.0), (1e6, 1e13)] {
@@ -211,13 +210,8 @@ fn parabola() -> Curve {
 fn cubic_flex() -> Curve {
     // y = x³ over −1..1
     let third = 1.0 / 3.0;
-    Curve::bezier(vec![
-        Point::new(-1.0, -1.0),
-        Point::new(-third, 1.0),
-        Point::new(third, -1.0),
-        Point::new(1.0, 1.0),
-    ])
-    .unwrap()
+    Curve::bezier(vec![Point::new(-1.0, -1.0), Point::new(-third, 1.0), Point::new(third, -1.0), Point::new(1.0, 1.0)])
+        .unwrap()
 }
 
 #[test]
