@@ -3,8 +3,8 @@
 
 use super::{Point, Rect, bounds_of};
 
-/// Levels of the Hilbert curve: 2^16 cells a side tell 10⁷ points apart well enough; crowded cells get a curve of their own.
-const LEVELS: u32 = 16;
+/// Levels of the Hilbert curve: 2^24 cells tell 10⁷ points apart well enough; crowded cells get a curve of their own.
+const LEVELS: u32 = 12;
 
 /// Levels taken in one step of the curve's automaton.
 const STRIDE: u32 = 4;
@@ -25,7 +25,7 @@ pub fn brio(points: &[Point]) -> Vec<u32> {
 /// come by their indices.
 pub fn hilbert(points: &[Point]) -> Vec<u32> {
     let mut keyed = along_curve(points, 0..points.len() as u32);
-    // Each curve divides a box by 2^16, so that numbers of any two exponents are told apart after a few.
+    // Each curve divides a box by 2^12 along each axis, so that numbers of any two exponents are told apart after a few.
     let mut crowds: Vec<(usize, usize)> = crowded(&keyed, 0).collect();
     while let Some((first, end)) = crowds.pop() {
         let indices: Vec<u32> = keyed[first..end].iter().map(|&k| k as u32).collect();
@@ -47,7 +47,7 @@ fn along_curve(points: &[Point], indices: impl Iterator<Item = u32> + Clone) -> 
     if keyed.len() < FEW {
         keyed.sort_unstable();
     } else {
-        sort_by_upper_half(&mut keyed);
+        sort_by_key(&mut keyed);
     }
     keyed
 }
@@ -61,13 +61,13 @@ fn crowded(keyed: &[u64], from: usize) -> impl Iterator<Item = (usize, usize)> {
     })
 }
 
-/// Sorts by the upper 32 bits and keeps the order of equals: a radix sort in three passes of eleven bits, the least first.
-fn sort_by_upper_half(items: &mut Vec<u64>) {
-    const BITS: u32 = 11;
+/// Sorts by the key, bits 32 to 55, and keeps the order of equals: a radix sort in two passes of twelve bits, the lower first.
+fn sort_by_key(items: &mut Vec<u64>) {
+    const BITS: u32 = LEVELS;
     let mut other = vec![0; items.len()];
-    for pass in 0..3 {
+    for pass in 0..2 {
         let digit = |item: u64| (item >> (32 + pass * BITS)) as usize & ((1 << BITS) - 1);
-        let mut places = [0usize; 1 << BITS];
+        let mut places = vec![0u32; 1 << BITS];
         items.iter().for_each(|&item| places[digit(item)] += 1);
         let mut sum = 0;
         for place in &mut places {
@@ -75,7 +75,7 @@ fn sort_by_upper_half(items: &mut Vec<u64>) {
         }
         for &item in items.iter() {
             let place = &mut places[digit(item)];
-            other[*place] = item;
+            other[*place as usize] = item;
             *place += 1;
         }
         std::mem::swap(items, &mut other);
@@ -115,7 +115,7 @@ fn round_of(place: u32) -> u32 {
     32 - h.trailing_zeros().min(31)
 }
 
-/// Place of a point along the Hilbert curve of a box, in 0..2^32.
+/// Place of a point along the Hilbert curve of a box, in 0..2^24.
 pub fn hilbert_key(p: Point, bounds: Rect) -> u32 {
     let side = bounds.width().max(bounds.height());
     let cells = f64::from(1u32 << LEVELS);
@@ -211,9 +211,9 @@ mod tests {
             state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
             state
         };
-        let items: Vec<u64> = (0..5000u64).map(|i| (next() >> 52 << 32 << (i % 20)) | i).collect();
+        let items: Vec<u64> = (0..5000u64).map(|i| (next() >> 52 << 32 << (i % 13)) | i).collect();
         let (mut radix, mut comparison) = (items.clone(), items);
-        sort_by_upper_half(&mut radix);
+        sort_by_key(&mut radix);
         comparison.sort_unstable();
         assert_eq!(radix, comparison);
     }
