@@ -11,9 +11,12 @@ mod bernstein;
 mod bezier;
 mod ellipse;
 mod line;
+mod meet;
 mod quadrature;
 mod spans;
 mod spline;
+
+pub use meet::{Meeting, MeetingBudget, MeetingKind, Meetings, Overlap, meetings, self_meetings};
 
 use crate::geometry::{Point, Rect, Vec2, bounds_of};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};

@@ -2,8 +2,7 @@
 
 use super::locate::{Axis, Hit, Locator, gap_between, left_of};
 use super::{Domain, Incident};
-use crate::curve::meet;
-use crate::curve::{Curve, End};
+use crate::curve::{Curve, End, meetings, self_meetings};
 use crate::geometry::boxes::BoxHierarchy;
 use crate::geometry::exact::orient;
 use crate::geometry::{Rect, magnitude};
@@ -69,8 +68,8 @@ impl Domain {
             if matches!(curve.curve, Curve::Line(_) | Curve::Arc(_) | Curve::Ellipse(_)) {
                 continue;
             }
-            match meet::self_meetings(&curve.curve, self.rounding()) {
-                Ok(found) if found.points.is_empty() && found.overlaps.is_empty() => {}
+            match self_meetings(&curve.curve, self.rounding()) {
+                Ok(found) if found.is_empty() => {}
                 Ok(_) => flaws.push(format!("{id:?} meets itself")),
                 Err(_) => flaws.push(format!("{id:?}: its meetings with itself cannot be told")),
             }
@@ -141,7 +140,7 @@ impl Domain {
                 }
                 continue;
             }
-            match meet::meetings(p, q, self.rounding()) {
+            match meetings(p, q, self.rounding()) {
                 Err(_) => flaws.push(format!("{ids:?}: their meetings cannot be told")),
                 Ok(found) => {
                     for meeting in found.points.iter().filter(|m| !self.at_common_end(ids, [m.t, m.u])) {

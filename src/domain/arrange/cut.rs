@@ -1,8 +1,7 @@
 //! The network: drawn curves cut into pieces at their breaks and self-meetings, and the places where pieces meet.
 
 use super::{ArrangeError, Drawing, Repair, RepairKind, Tolerances};
-use crate::curve::meet::{self, MeetingKind};
-use crate::curve::{BreakKind, Curve};
+use crate::curve::{BreakKind, Curve, MeetingKind, meetings, self_meetings};
 use crate::geometry::boxes::BoxHierarchy;
 use crate::geometry::exact::{Orientation, orient};
 use crate::geometry::{Point, Rect};
@@ -146,88 +145,89 @@ impl<'a> Network<'a> {
             self.repair(RepairKind::ZeroLength, curve.start(), extent(curve.bounds()), what);
             return Ok(None);
         }
-        let cuts = self.own_cuts(source, curve)?;
         let first = self.add_node(curve.start(), Origin::Curve(source));
         let last = if curve.start() == curve.end() { first } else { self.add_node(curve.end(), Origin::Curve(source)) };
-        let (mut from, mut t0) = (first, 0.0);
-        for &(t1, origin) in &cuts {
-            let part = curve.part(t0, t1);
-            let to = self.add_node(part.end(), origin);
-            self.pieces.push(Piece::new(part, [from, to], source, false));
-            (from, t0) = (to, t1);
+        let parts = self.own_parts(source, curve)?;
+        let (whole, count) = (parts.len() == 1, parts.len());
+        let mut from = first;
+        for (k, (part, origin)) in parts.into_iter().enumerate() {
+            let to = if k + 1 == count { last } else { self.add_node(part.end(), origin) };
+            self.pieces.push(Piece::new(part, [from, to], source, whole));
+            from = to;
         }
-        let part = if cuts.is_empty() { curve.clone() } else { curve.part(t0, 1.0) };
-        self.pieces.push(Piece::new(part, [from, last], source, cuts.is_empty()));
         Ok(Some([first, last]))
     }
 
-    /// Where a drawn curve is cut on its own account: breaks, self-meetings, and once more where a part would be closed.
-    fn own_cuts(&mut self, source: u32, curve: &Curve) -> Result<Vec<(f64, Origin)>, ArrangeError> {
+    /// The parts of a drawn curve when cut on its own account: at breaks, at self-meetings, and once more where a part would be closed.
+    /// Each with what its end is there for.
+    fn own_parts(&mut self, source: u32, curve: &Curve) -> Result<Vec<(Curve, Origin)>, ArrangeError> {
         if matches!(curve, Curve::Line(_)) {
-            return Ok(Vec::new());
+            return Ok(vec![(curve.clone(), Origin::Curve(source))]);
         }
-        let mut cuts = Vec::new();
-        for at_break in curve.breaks() {
+        let mut parts = Vec::new();
+        for regular in self.parts_between_breaks(source, curve) {
+            let mut cuts = self.self_cuts(source, &regular)?;
+            cuts.retain(|&t| 0.0 < t && t < 1.0);
+            cuts.sort_by(f64::total_cmp);
+            cuts.dedup();
+            let regular = split(&regular, &cuts);
+            let last = regular.len() - 1;
+            for (k, part) in regular.into_iter().enumerate() {
+                let origin = if k < last { Origin::Meeting(source) } else { Origin::Curve(source) };
+                self.open_up(part, origin, source, &mut parts);
+            }
+        }
+        Ok(parts)
+    }
+
+    fn parts_between_breaks(&mut self, source: u32, curve: &Curve) -> Vec<Curve> {
+        let breaks = curve.breaks();
+        for at_break in &breaks {
             let kind = match at_break.kind {
-                BreakKind::Cusp => "a cusp",
-                BreakKind::TangentJump => "a tangent jump",
+                BreakKind::Cusp => "cusp",
+                BreakKind::TangentJump => "tangent jump",
             };
             let degrees = at_break.turn_rad.to_degrees();
-            let what = format!("{} of {degrees:.3}° in {} became a corner", kind, self.entity(source));
+            let what = format!("a {kind} of {degrees:.3}° in {} became a corner", self.entity(source));
             self.repair(RepairKind::Corner, curve.point(at_break.t), 0.0, what);
-            cuts.push((at_break.t, Origin::Curve(source)));
         }
-        for [t, u] in self.self_cuts(source, curve)? {
-            let what = format!("{} meets itself and was split there", self.entity(source));
-            self.repair(RepairKind::SelfSplit, curve.point(t), 0.0, what);
-            cuts.extend([t, u].map(|t| (t, Origin::Meeting(source))));
-        }
-        cuts.retain(|&(t, _)| 0.0 < t && t < 1.0);
-        cuts.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        cuts.dedup_by_key(|cut| cut.0);
-        Ok(self.open_up(source, curve, cuts))
+        let cuts: Vec<f64> = breaks.iter().map(|b| b.t).filter(|&t| 0.0 < t && t < 1.0).collect();
+        split(curve, &cuts)
     }
 
-    /// Pairs of parameters at which a curve meets itself, its closing point apart.
-    fn self_cuts(&self, source: u32, curve: &Curve) -> Result<Vec<[f64; 2]>, ArrangeError> {
-        if matches!(curve, Curve::Arc(_) | Curve::Ellipse(_)) {
-            return Ok(Vec::new());
-        }
-        let found = meet::self_meetings(curve, self.tolerances.weld).map_err(|_| ArrangeError {
-            what: format!("{} meets itself at more places than can be told apart", self.entity(source)),
-            at: curve.start(),
+    /// The parameters at which a regular part meets itself.
+    fn self_cuts(&mut self, source: u32, part: &Curve) -> Result<Vec<f64>, ArrangeError> {
+        let found = self_meetings(part, self.tolerances.weld).map_err(|budget| ArrangeError {
+            what: format!("{} runs so near to itself that its meetings cannot be told apart", self.entity(source)),
+            at: budget.at,
             help: "simplify the curve, or raise the tolerance".into(),
         })?;
-        let mut pairs: Vec<[f64; 2]> = found.points.iter().map(|m| [m.t, m.u]).collect();
-        pairs.extend(found.overlaps.iter().flat_map(|o| [[o.t[0], o.u[0]], [o.t[1], o.u[1]]]));
-        let weld = self.tolerances.weld;
-        let is_end = |t: f64, end: Point| curve.point(t).distance(end) <= weld;
-        pairs.retain(|&[t, u]| {
-            let closing = t.min(u) <= 0.0 && t.max(u) >= 1.0;
-            let ends = is_end(t.min(u), curve.start()) && is_end(t.max(u), curve.end());
-            let nearly = ends
-                && extent(curve.bounds_of(0.0, t.min(u).max(f64::EPSILON))) <= weld
-                && extent(curve.bounds_of(t.max(u).min(1.0 - f64::EPSILON), 1.0)) <= weld;
-            !closing && !nearly
-        });
-        Ok(pairs)
+        for meeting in &found {
+            let what = format!("{} meets itself and was split there", self.entity(source));
+            self.repair(RepairKind::SelfSplit, meeting.at, 0.0, what);
+        }
+        Ok(found.iter().flat_map(|m| [m.t, m.u]).collect())
     }
 
-    /// Adds a cut in the middle of every part whose ends are one point.
-    fn open_up(&self, source: u32, curve: &Curve, cuts: Vec<(f64, Origin)>) -> Vec<(f64, Origin)> {
+    /// Adds a part, halved where its ends are one point.
+    fn open_up(&self, part: Curve, origin: Origin, source: u32, parts: &mut Vec<(Curve, Origin)>) {
         let weld = self.tolerances.weld;
-        let mut open = Vec::with_capacity(cuts.len() + 1);
-        let mut t0 = 0.0;
-        for (t1, origin) in cuts.into_iter().map(|(t, o)| (t, Some(o))).chain([(1.0, None)]) {
-            let closed = curve.point(t0).distance(curve.point(t1)) <= weld && extent(curve.bounds_of(t0, t1)) > weld;
-            if closed {
-                open.push(((t0 + t1) / 2.0, Origin::Curve(source)));
-            }
-            open.extend(origin.map(|o| (t1, o)));
-            t0 = t1;
+        if part.start().distance(part.end()) <= weld && extent(part.bounds()) > weld {
+            parts.push((part.part(0.0, 0.5), Origin::Curve(source)));
+            parts.push((part.part(0.5, 1.0), origin));
+        } else {
+            parts.push((part, origin));
         }
-        open
     }
+}
+
+/// The parts of a curve between ascending parameters inside it.
+fn split(curve: &Curve, cuts: &[f64]) -> Vec<Curve> {
+    if cuts.is_empty() {
+        return vec![curve.clone()];
+    }
+    let starts = [0.0].into_iter().chain(cuts.iter().copied());
+    starts.zip(cuts.iter().copied().chain([1.0])).map(|(t0, t1)| curve.part(t0, t1)).collect()
 }
 
 // ---- where pieces meet ----
@@ -300,22 +300,22 @@ impl Network<'_> {
 
     fn meet_curves(&mut self, a: CurveId, b: CurveId, found: &mut Found) -> Result<(), ArrangeError> {
         let [p, q] = [a, b].map(|id| &self.pieces[id]);
-        let meetings = meet::meetings(&p.curve, &q.curve, self.tolerances.weld).map_err(|_| ArrangeError {
+        let found_here = meetings(&p.curve, &q.curve, self.tolerances.weld).map_err(|budget| ArrangeError {
             what: format!(
                 "{} and {} run so near to each other that their meetings cannot be told apart",
                 self.entity(p.source),
                 self.entity(q.source)
             ),
-            at: p.bounds.intersect(q.bounds).center(),
+            at: budget.at,
             help: "remove one of the two, or raise the tolerance so that they become one".into(),
         })?;
         let mut places: Vec<(Point, [f64; 2])> = Vec::new();
-        for meeting in &meetings.points {
+        for meeting in &found_here.points {
             if !self.is_contact([a, b], [meeting.t, meeting.u], meeting.kind) {
                 places.push((meeting.at, [meeting.t, meeting.u]));
             }
         }
-        for overlap in &meetings.overlaps {
+        for overlap in &found_here.overlaps {
             for k in 0..2 {
                 places.push((p.curve.point(overlap.t[k]), [overlap.t[k], overlap.u[k]]));
             }

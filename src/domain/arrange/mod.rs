@@ -176,11 +176,11 @@ impl Drawing {
             let help = "give a welding distance of 0 or a small part of the drawing's size".into();
             Err(ArrangeError { what, at: bounds.center(), help })
         };
-        // Four units in the last place of the largest number that points are computed from: arcs from their centers too, though of
-        // nearly straight ones no more than the default tolerance.
+        // Sixteen units of rounding of the largest number that points are computed from, as in the search for meetings: arcs from
+        // their centers too, though of nearly straight ones no more than the default tolerance.
         let carried = self.curves.iter().map(|c| carrier_magnitude(&c.curve)).fold(magnitude(bounds), f64::max);
-        let coordinates = 4.0 * f64::EPSILON * magnitude(bounds);
-        let rounding = (4.0 * f64::EPSILON * carried).min(1e-9 * diagonal).max(coordinates);
+        let coordinates = 16.0 * f64::EPSILON * magnitude(bounds);
+        let rounding = (16.0 * f64::EPSILON * carried).min(1e-9 * diagonal).max(coordinates);
         let (weld, gap) = match options.tolerance {
             None => (1e-9 * diagonal, 1e-6 * diagonal),
             Some(given) if !(given >= 0.0) => return refuse(format!("a tolerance of {given}")),
