@@ -1,6 +1,7 @@
 //! squinch: provably good meshes of domains with curved boundaries.
 #![forbid(unsafe_code)]
 
+pub mod case;
 pub mod curve;
 pub mod domain;
 pub mod export;
@@ -10,4 +11,5 @@ pub mod import;
 pub mod mesh;
 pub mod plane;
 pub mod refine;
+pub mod request;
 pub mod size;

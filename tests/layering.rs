@@ -126,7 +126,10 @@ fn may_import(file: &str, target: &str) -> bool {
 
 /// The top modules that a source names by `crate::`, or by climbing out of its own module.
 fn imported(text: &str) -> BTreeSet<String> {
-    let code: String = text.lines().filter(|line| !line.trim_start().starts_with("//")).fold(String::new(), |all, line| all + line + "\n");
+    let code: String = text
+        .lines()
+        .filter(|line| !line.trim_start().starts_with("//"))
+        .fold(String::new(), |all, line| all + line + "\n");
     let mut found = BTreeSet::new();
     for (at, _) in code.match_indices("crate::") {
         heads(&code[at + "crate::".len()..], &mut found);
@@ -142,9 +145,8 @@ fn imported(text: &str) -> BTreeSet<String> {
 
 /// The first name of a path, or of every path of a `{…}` group.
 fn heads(path: &str, found: &mut BTreeSet<String>) {
-    let name = |text: &str| -> String {
-        text.trim_start().chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect()
-    };
+    let name =
+        |text: &str| -> String { text.trim_start().chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect() };
     let Some(group) = path.strip_prefix('{') else {
         found.insert(name(path));
         return;
