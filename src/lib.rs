@@ -1,6 +1,7 @@
 //! squinch: provably good meshes of domains with curved boundaries.
 #![forbid(unsafe_code)]
 
+pub mod canvas;
 pub mod case;
 pub mod curve;
 pub mod domain;
