@@ -469,10 +469,10 @@ pub enum EdgeTurning {
 }
 
 impl EdgeTurning {
-    pub fn rad(self) -> Option<f64> {
+    pub fn deg(self) -> Option<f64> {
         match self {
             Self::Off => None,
-            Self::Deg(degrees) => Some(degrees.to_radians()),
+            Self::Deg(degrees) => Some(degrees),
         }
     }
 }

@@ -1,0 +1,153 @@
+//! `mesh IN -o OUT`: reads, arranges, meshes, verifies, writes.
+
+use super::files::{Input, Staged, unwritable};
+use super::options::{Options, Resolved};
+use super::{Halt, Volume, remember, say, write_case};
+use clap::{Args, ValueEnum};
+use squinch::export::picture::{MeshColour, PictureOptions, picture_of_mesh};
+use squinch::export::vtu;
+use squinch::mesh;
+use squinch::pipeline::{self, Exit, Outcome};
+use squinch::request::Request;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+#[derive(Args)]
+pub struct Mesh {
+    /// A drawing: airfoil .dat, .poly, .node, outline .json; - for standard input
+    #[arg(value_name = "IN")]
+    input: PathBuf,
+    /// Where the mesh goes: .vtu, .svg or .png; - for standard output; may be repeated
+    #[arg(short, long, value_name = "OUT", required = true, help_heading = "Output")]
+    output: Vec<PathBuf>,
+    /// Formats of the outputs, in their order, where the suffix is not to tell
+    #[arg(long, value_enum, value_name = "FORMAT", value_delimiter = ',', help_heading = "Output")]
+    format: Vec<Output>,
+    /// The report as JSON; - for standard output
+    #[arg(long, value_name = "FILE.json", help_heading = "Output")]
+    report: Option<PathBuf>,
+    /// The run itself, to be repeated by `replay`
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    case: Option<PathBuf>,
+    #[command(flatten)]
+    options: Options,
+}
+
+/// A format that meshes are written in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Output {
+    Vtu,
+    Svg,
+    Png,
+}
+
+impl Output {
+    /// The format that a suffix names.
+    pub fn of(path: &Path) -> Option<Self> {
+        let suffix = path.extension()?.to_str()?.to_ascii_lowercase();
+        Self::value_variants().iter().copied().find(|f| f.to_possible_value().is_some_and(|v| v.matches(&suffix, true)))
+    }
+}
+
+impl Mesh {
+    pub fn run(self, volume: Volume) -> Result<Exit, Halt> {
+        let outputs = self.outputs()?;
+        let Resolved { request, input_format } = self.options.resolve()?;
+        let input = Input::open(&self.input, input_format)?;
+        remember(&input, &request);
+        let mut outcome = mesh_with_progress(&input, &request, volume);
+        let written = self.write(&outputs, &input, &request, &mut outcome);
+        if let Some(failure) = &outcome.report.failure {
+            say::failure(failure, Some(&input));
+        }
+        let wrote = written?;
+        say::summary(&outcome, &wrote, volume);
+        if outcome.exit == Exit::Bug {
+            write_case(&pipeline::ending(&outcome), "broken");
+        }
+        Ok(outcome.exit)
+    }
+
+    /// Every output with its format.
+    fn outputs(&self) -> Result<Vec<(&Path, Output)>, Halt> {
+        let to_stdout = self.output.iter().chain(&self.report).chain(&self.case).filter(|p| p.as_os_str() == "-").count();
+        if to_stdout > 1 {
+            return Err(Halt::Usage("only one output can go to standard output".into()));
+        }
+        if !self.format.is_empty() && self.format.len() != self.output.len() {
+            let (formats, outputs) = (self.format.len(), self.output.len());
+            return Err(Halt::Usage(format!("--format names {formats} formats for {outputs} outputs")));
+        }
+        let of = |(i, path): (usize, &'_ PathBuf)| self.format.get(i).copied().or_else(|| Output::of(path));
+        let known = self.output.iter().enumerate().map(|(i, path)| match of((i, path)) {
+            Some(format) => Ok((path.as_path(), format)),
+            None => Err(Halt::Usage(format!("-o {}: say its format by --format: vtu, svg or png", path.display()))),
+        });
+        known.collect()
+    }
+
+    /// Writes what there is to write; the names of the mesh files.
+    fn write(
+        &self,
+        outputs: &[(&Path, Output)],
+        input: &Input,
+        request: &Request,
+        outcome: &mut Outcome,
+    ) -> Result<Vec<String>, Halt> {
+        let start = Instant::now();
+        let mut staged = Staged::default();
+        let mut wrote = Vec::new();
+        // A mesh that broke down in our hands must not reach a solver.
+        if let (Some(mesh), false) = (&outcome.mesh, outcome.exit == Exit::Bug) {
+            for (path, format) in outputs {
+                let bytes = encode(mesh, outcome, *format).map_err(unwritable)?;
+                staged.add(path, &bytes).map_err(unwritable)?;
+                wrote.push(path.display().to_string());
+            }
+        }
+        let seconds = &mut outcome.report.seconds;
+        seconds.write = start.elapsed().as_secs_f64();
+        seconds.total += seconds.write;
+        outcome.report.peak_memory_bytes = peak_memory_bytes();
+        if let Some(path) = &self.report {
+            staged.add(path, outcome.report.to_json().as_bytes()).map_err(unwritable)?;
+        }
+        if let Some(path) = &self.case {
+            let case = input.case(&pipeline::ending(outcome), request);
+            staged.add(path, case.to_toml().as_bytes()).map_err(unwritable)?;
+        }
+        staged.commit().map_err(unwritable)?;
+        Ok(wrote)
+    }
+}
+
+/// The pipeline under a progress line.
+pub fn mesh_with_progress(input: &Input, request: &Request, volume: Volume) -> Outcome {
+    let mut bar = say::Bar::new(volume);
+    pipeline::run(&input.source(), request, &mut |progress| {
+        bar.tell(progress);
+        true
+    })
+}
+
+/// A mesh as the bytes of a file.
+fn encode(mesh: &mesh::Mesh, outcome: &Outcome, format: Output) -> io::Result<Vec<u8>> {
+    let picture = || {
+        let options = PictureOptions { title: outcome.report.input.title.clone().unwrap_or_default(), ..Default::default() };
+        picture_of_mesh(mesh, outcome.domain.as_ref(), MeshColour::Quality, &options)
+    };
+    match format {
+        Output::Vtu => vtu::write(mesh),
+        Output::Svg => Ok(picture().svg()?.into_bytes()),
+        Output::Png => picture().png(1.0),
+    }
+}
+
+/// Largest resident memory of this process, where the system tells it.
+fn peak_memory_bytes() -> Option<u64> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
+    let kibibytes: u64 = line.split_whitespace().next()?.parse().ok()?;
+    Some(kibibytes * 1024)
+}
