@@ -71,14 +71,22 @@ pub struct Outcome {
     pub verdict: Option<Verdict>,
 }
 
-/// Reads, arranges, refines and judges. `watch` is told of the progress now and then; `false` stops as a timeout does.
-pub fn run(source: &Source, request: &Request, watch: &mut dyn FnMut(&Progress) -> bool) -> Outcome {
+/// How far the engine goes.
+pub enum Extent<'a> {
+    /// To its end. The closure is told of the progress now and then; `false` stops as a timeout does.
+    Whole(&'a mut dyn FnMut(&Progress) -> bool),
+    /// So many steps.
+    Steps(u64),
+}
+
+/// Reads, arranges, refines and judges.
+pub fn run(source: &Source, request: &Request, extent: Extent) -> Outcome {
     let mut outcome = Outcome::begun(source.path, request);
     let start = Instant::now();
     let drawing = read(source, request);
     outcome.report.seconds.read = start.elapsed().as_secs_f64();
     match drawing {
-        Ok(drawing) => outcome.go_on(&drawing, request, watch),
+        Ok(drawing) => outcome.go_on(&drawing, request, extent),
         Err(failure) => outcome.fail(failure),
     }
     outcome.report.seconds.total = start.elapsed().as_secs_f64();
@@ -86,9 +94,9 @@ pub fn run(source: &Source, request: &Request, watch: &mut dyn FnMut(&Progress) 
 }
 
 /// The run from a drawing on.
-pub fn run_drawing(drawing: &Drawing, request: &Request, watch: &mut dyn FnMut(&Progress) -> bool) -> Outcome {
+pub fn run_drawing(drawing: &Drawing, request: &Request, extent: Extent) -> Outcome {
     let mut outcome = Outcome::begun(&drawing.title, request);
-    outcome.go_on(drawing, request, watch);
+    outcome.go_on(drawing, request, extent);
     outcome
 }
 
@@ -102,18 +110,13 @@ impl Outcome {
         self.report.failure = Some(failure);
     }
 
-    fn go_on(&mut self, drawing: &Drawing, request: &Request, watch: &mut dyn FnMut(&Progress) -> bool) {
-        if let Err(failure) = self.stages(drawing, request, watch) {
+    fn go_on(&mut self, drawing: &Drawing, request: &Request, extent: Extent) {
+        if let Err(failure) = self.stages(drawing, request, extent) {
             self.fail(failure);
         }
     }
 
-    fn stages(
-        &mut self,
-        drawing: &Drawing,
-        request: &Request,
-        watch: &mut dyn FnMut(&Progress) -> bool,
-    ) -> Result<(), FailureReport> {
+    fn stages(&mut self, drawing: &Drawing, request: &Request, extent: Extent) -> Result<(), FailureReport> {
         self.report.input.describe(drawing);
         let mut clock = Clock::start();
         let arranged = arrange(drawing, request)?;
@@ -126,7 +129,10 @@ impl Outcome {
         self.report.request.chord_error = plan.sizing.chord_error;
         self.report.seconds.arrange = clock.lap();
 
-        let refined = plan.refine(&domain, &mut until(request.timeout, watch));
+        let refined = match extent {
+            Extent::Whole(watch) => plan.refine(&domain, &mut until(request.timeout, watch)),
+            Extent::Steps(steps) => plan.refine_steps(&domain, steps),
+        };
         self.report.seconds.mesh = clock.lap();
         let Refined { mesh, stop, counters } = refined?;
         self.report.stop = Some(StopReport::new(&stop));
@@ -359,7 +365,7 @@ impl Plan {
     }
 
     /// The first `steps` steps of [`Plan::refine`].
-    pub fn refine_until(&self, domain: &Domain, steps: u64) -> Result<Refined, FailureReport> {
+    pub fn refine_steps(&self, domain: &Domain, steps: u64) -> Result<Refined, FailureReport> {
         let mut lopping = Lopping::start(domain, &self.options)?;
         for _ in 0..steps {
             if !lopping.step() {

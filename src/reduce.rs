@@ -2,7 +2,7 @@
 
 use crate::case::{Panic, caught};
 use crate::domain::Drawing;
-use crate::pipeline::{Outcome, ending, run_drawing};
+use crate::pipeline::{Extent, Outcome, ending, run_drawing};
 use crate::request::Request;
 
 /// A drawing from which nothing more could be dropped, or not within the budget.
@@ -38,7 +38,7 @@ pub fn reduce(drawing: &Drawing, request: &Request, runs_max: usize, tell: &mut 
 
 /// How the run of a drawing ends, panics included.
 pub fn ending_of(drawing: &Drawing, request: &Request) -> String {
-    ending_or_panic(&caught(|| run_drawing(drawing, request, &mut |_| true)))
+    ending_or_panic(&caught(|| run_drawing(drawing, request, Extent::Whole(&mut |_| true))))
 }
 
 /// How a run ended that may have broken down.

@@ -7,7 +7,8 @@ use clap::{Args, ValueEnum};
 use squinch::export::picture::{MeshColour, PictureOptions, picture_of_mesh};
 use squinch::export::vtu;
 use squinch::mesh;
-use squinch::pipeline::{self, Exit, Outcome};
+use squinch::pipeline::{self, Exit, Extent, Outcome};
+use squinch::refine::Progress;
 use squinch::request::Request;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -125,10 +126,11 @@ impl Mesh {
 /// The pipeline under a progress line.
 pub fn mesh_with_progress(input: &Input, request: &Request, volume: Volume) -> Outcome {
     let mut bar = say::Bar::new(volume);
-    pipeline::run(&input.source(), request, &mut |progress| {
+    let mut watch = |progress: &Progress| {
         bar.tell(progress);
         true
-    })
+    };
+    pipeline::run(&input.source(), request, Extent::Whole(&mut watch))
 }
 
 /// A mesh as the bytes of a file.

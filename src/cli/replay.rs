@@ -6,8 +6,7 @@ use super::{Halt, Volume, remember, say};
 use clap::Args;
 use squinch::case::Case;
 use squinch::import::Format;
-use squinch::pipeline::{self, Exit, Outcome};
-use squinch::request::Request;
+use squinch::pipeline::{self, Exit, Extent};
 use std::path::{Path, PathBuf};
 
 #[derive(Args)]
@@ -41,7 +40,7 @@ impl Replay {
         let (case, input) = open(&self.case)?;
         remember(&input, &case.request);
         let outcome = match self.until {
-            Some(steps) => first_steps(&input, &case.request, steps),
+            Some(steps) => pipeline::run(&input.source(), &case.request, Extent::Steps(steps)),
             None => mesh_with_progress(&input, &case.request, volume),
         };
         if let Some(failure) = &outcome.report.failure {
@@ -54,8 +53,4 @@ impl Replay {
         }
         Ok(outcome.exit)
     }
-}
-
-fn first_steps(input: &Input, request: &Request, steps: u64) -> Outcome {
-    pipeline::run_steps(&input.source(), request, steps)
 }
