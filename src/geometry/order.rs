@@ -6,13 +6,27 @@ use super::{Point, Rect, bounds_of};
 /// Levels of the Hilbert curve: 2^16 cells a side tell 10⁷ points apart well enough.
 const LEVELS: u32 = 16;
 
-/// Indices of `points` in a good order for insertion. Deterministic: the rounds are drawn by a hash of the index.
+/// Indices of `points` in a good order for insertion. Deterministic: the rounds are drawn by a hash of the place along the curve.
 pub fn brio(points: &[Point]) -> Vec<u32> {
+    let curve = hilbert(points);
+    rounds(curve.len()).into_iter().map(|place| curve[place as usize]).collect()
+}
+
+/// Indices of `points` along the Hilbert curve of their box.
+pub fn hilbert(points: &[Point]) -> Vec<u32> {
     let Some(bounds) = bounds_of(points.iter().copied()) else { return Vec::new() };
-    let mut keyed: Vec<(u32, u32, u32)> =
-        points.iter().enumerate().map(|(i, &p)| (round_of(i as u32), hilbert_key(p, bounds), i as u32)).collect();
+    let mut keyed: Vec<(u32, u32)> =
+        points.iter().enumerate().map(|(i, &p)| (hilbert_key(p, bounds), i as u32)).collect();
     keyed.sort_unstable();
-    keyed.into_iter().map(|(_, _, i)| i).collect()
+    keyed.into_iter().map(|(_, i)| i).collect()
+}
+
+/// Places 0..n in rounds, each in the direction opposite to that of the round before, so that it starts where that one ended.
+pub fn rounds(n: usize) -> Vec<u32> {
+    let mut order: Vec<u32> = (0..n as u32).collect();
+    order.sort_by_key(|&i| round_of(i));
+    order.chunk_by_mut(|&i, &j| round_of(i) == round_of(j)).step_by(2).for_each(<[u32]>::reverse);
+    order
 }
 
 /// The round of a point: the last holds half of all, the one before a quarter, and so on.

@@ -1,4 +1,5 @@
 //! The planar kernel and its engines.
 
 pub mod insert;
+mod remove;
 pub mod triangulation;
