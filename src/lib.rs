@@ -6,6 +6,7 @@ pub mod case;
 pub mod curve;
 pub mod domain;
 pub mod export;
+pub mod generate;
 pub mod geometry;
 pub mod ids;
 pub mod import;
