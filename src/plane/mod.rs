@@ -3,7 +3,9 @@
 mod balls;
 mod carve;
 pub mod insert;
+pub mod lopping;
 mod remove;
+mod subcurves;
 pub mod triangulation;
 
 pub use subcurves::Midpoint;
