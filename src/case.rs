@@ -153,10 +153,7 @@ pub fn caught<T>(work: impl FnOnce() -> T) -> Result<T, Panic> {
     CATCHING.set(CATCHING.get() + 1);
     let result = std::panic::catch_unwind(AssertUnwindSafe(work));
     CATCHING.set(CATCHING.get() - 1);
-    result.map_err(|payload| Panic {
-        message: message(payload.as_ref()),
-        place: PLACE.take(),
-    })
+    result.map_err(|payload| Panic { message: message(payload.as_ref()), place: PLACE.take() })
 }
 
 fn message(payload: &dyn Any) -> String {

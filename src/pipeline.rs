@@ -1,15 +1,14 @@
 //! From bytes to a judged mesh: read → arrange → split to turning → refine → verify. Each stage can be had alone.
 
-use crate::curve::Curve;
 use crate::domain::{ArrangeError, ArrangeOptions, Domain, Drawing, DrawnCurve, SizeRequest};
 use crate::geometry::Point;
 use crate::import::{self, AirfoilOptions, Format, ImportError};
 use crate::mesh::Mesh;
 use crate::mesh::quality::Quality;
 use crate::mesh::verify::{Promise, Status, Verdict, verify};
+use crate::plane;
 use crate::plane::lopping::{self, Lopping, RefineError, Refined, Shrinking};
-use crate::plane::subcurves;
-use crate::refine::{Progress, StopReason};
+use crate::refine::{Progress, Stop, StopReason};
 use crate::report::{FailureKind, FailureReport, MeshReport, PromiseReport, Report, StopReport};
 use crate::request::{BallShrinking, Keep, Midpoint, Request, SizeOf, TrailingEdge, metres};
 use crate::size::{Sizing, Source as SizeSource};
@@ -126,7 +125,7 @@ impl Outcome {
         let plan = Plan::new(drawing, &arranged, request)?;
         let domain = arranged.split_to_turning(plan.tau_rad);
         self.report.request.tau_rad = Some(plan.tau_rad);
-        self.report.request.chord_error = plan.sizing.chord_error;
+        self.report.request.chord_error = plan.sizing().chord_error;
         self.report.seconds.arrange = clock.lap();
 
         let refined = match extent {
@@ -137,9 +136,9 @@ impl Outcome {
         let Refined { mesh, stop, counters } = refined?;
         self.report.stop = Some(StopReport::new(&stop));
         self.report.counters = counters;
-        let mesh = mesh.ok_or_else(|| no_mesh(stop.reason, stop.places.first().copied()))?;
+        let mesh = mesh.ok_or_else(|| no_mesh(&stop))?;
 
-        let verdict = plan.judge(&domain, &mesh);
+        let verdict = plan.judge(Some(&domain), &mesh);
         self.report.mesh = Some(MeshReport::new(&mesh));
         self.report.quality = Some(Quality::of(Some(&domain), &mesh, &verdict));
         self.report.promise = Some(PromiseReport::new(&verdict));
@@ -170,10 +169,7 @@ impl Clock {
 }
 
 /// `watch`, which also says stop after `seconds`.
-fn until(
-    seconds: Option<f64>,
-    watch: &mut dyn FnMut(&Progress) -> bool,
-) -> impl FnMut(&Progress) -> bool {
+fn until(seconds: Option<f64>, watch: &mut dyn FnMut(&Progress) -> bool) -> impl FnMut(&Progress) -> bool {
     let limit = seconds.map(|s| Duration::try_from_secs_f64(s).unwrap_or(Duration::MAX));
     let start = Instant::now();
     move |progress| watch(progress) && limit.is_none_or(|limit| start.elapsed() < limit)
@@ -271,7 +267,9 @@ fn scaled(mut drawing: Drawing, factor: f64) -> Drawing {
     }
     for size in &mut drawing.sizes {
         match size {
-            SizeRequest::Boundary { edge, .. } | SizeRequest::Region { edge, .. } | SizeRequest::Everywhere { edge } => {
+            SizeRequest::Boundary { edge, .. }
+            | SizeRequest::Region { edge, .. }
+            | SizeRequest::Everywhere { edge } => {
                 *edge *= factor;
             }
             SizeRequest::Near { from, to, edge, .. } => {
@@ -293,7 +291,11 @@ pub fn arrange(drawing: &Drawing, request: &Request) -> Result<Domain, FailureRe
     let domain = drawing.arrange(&options)?;
     if domain.regions().is_empty() {
         let help = "close the outline, name another --fill-rule, or mesh everything by --keep all";
-        return Err(FailureReport::new(FailureKind::Geometry, "nothing to mesh: the curves enclose no kept region", help));
+        return Err(FailureReport::new(
+            FailureKind::Geometry,
+            "nothing to mesh: the curves enclose no kept region",
+            help,
+        ));
     }
     Ok(domain)
 }
@@ -310,24 +312,30 @@ impl From<RefineError> for FailureReport {
     }
 }
 
-fn no_mesh(reason: StopReason, place: Option<Point>) -> FailureReport {
-    let (what, help) = match reason {
-        StopReason::VertexBudget => ("the vertex budget ended before there was a valid mesh", "give more by --max-vertices"),
-        StopReason::Cancelled => ("the time ended before there was a valid mesh", "give more by --timeout"),
+/// Why a refinement that stopped has no mesh to show.
+pub fn no_mesh(stop: &Stop) -> FailureReport {
+    let (what, help) = match stop.reason {
+        StopReason::VertexBudget => {
+            ("the vertex budget ended before there was a valid mesh", "give more by --max-vertices")
+        }
+        StopReason::Cancelled => ("the run was stopped before there was a valid mesh", "give more by --timeout"),
         StopReason::Done | StopReason::Arithmetic => (
             "features are nearer to each other than the coordinates can tell apart",
             "move the drawing nearer to the origin, or weld by a larger --tolerance",
         ),
     };
     let failure = FailureReport::new(FailureKind::NoMesh, what, help);
-    place.map_or(failure.clone(), |p| failure.at(p))
+    match stop.places.first() {
+        Some(&place) => failure.at(place),
+        None => failure,
+    }
 }
 
 /// A request made ready for one domain: what the engine is asked, and what the judge holds it to.
 #[derive(Clone, Debug)]
 pub struct Plan {
+    /// Largest turning of a curve before it is refined.
     pub tau_rad: f64,
-    pub sizing: Sizing,
     options: lopping::Options,
 }
 
@@ -335,80 +343,103 @@ impl Plan {
     /// # Errors
     /// A `--size-of` whose name the domain does not know.
     pub fn new(drawing: &Drawing, domain: &Domain, request: &Request) -> Result<Self, FailureReport> {
-        let sizing = sizing(drawing, domain, request)?;
-        let options = lopping::Options {
-            angle_min_rad: request.angle_min_rad(),
-            beta: request.beta,
-            shrinking: match request.ball_shrinking {
-                BallShrinking::Batched => Shrinking::Batched,
-                BallShrinking::Literal => Shrinking::Literal,
-            },
-            midpoint: match request.midpoint {
-                Midpoint::Bisector => subcurves::Midpoint::Bisector,
-                Midpoint::Angle => subcurves::Midpoint::Angle,
-            },
-            corner_arcs: request.corner_arcs.is_on().then_some(ARC_TURNING_RAD),
-            sizing: sizing.clone(),
-            max_vertices: request.max_vertices,
-        };
         let tau_rad = request.tau_rad(domain.curves().iter().map(|c| &c.curve));
-        Ok(Self { tau_rad, sizing, options })
+        Ok(Self { tau_rad, options: engine_options(request, sizing(drawing, domain, request)?) })
+    }
+
+    /// Of a mesh whose drawing is not known: a share of its diagonal cannot be told, and any name may be of a boundary or a region.
+    pub fn without_domain(request: &Request) -> Self {
+        let mut sizing = plain_sizing(request, None);
+        for SizeOf { name, edge } in &request.size_of {
+            sizing.sources.push(SizeSource::Boundary { name: name.clone(), edge: *edge });
+            sizing.sources.push(SizeSource::Region { name: name.clone(), edge: *edge });
+        }
+        Self { tau_rad: request.tau_rad([]), options: engine_options(request, sizing) }
+    }
+
+    pub fn sizing(&self) -> &Sizing {
+        &self.options.sizing
     }
 
     /// Refines a domain whose curves turn at most τ.
-    pub fn refine(
-        &self,
-        domain: &Domain,
-        watch: &mut dyn FnMut(&Progress) -> bool,
-    ) -> Result<Refined, FailureReport> {
+    pub fn refine(&self, domain: &Domain, watch: &mut dyn FnMut(&Progress) -> bool) -> Result<Refined, FailureReport> {
         Ok(lopping::refine(domain, &self.options, watch)?)
+    }
+
+    /// [`Plan::refine`], stopped as soon as every piece of a curve is an edge: the triangulation from which it refines.
+    pub fn conform(&self, domain: &Domain) -> Result<Refined, FailureReport> {
+        let mut lopping = Lopping::start(domain, &self.options)?;
+        while lopping.progress().phase == "conforming" && lopping.step() {}
+        lopping.cancel();
+        Ok(lopping.finish()?)
     }
 
     /// The first `steps` steps of [`Plan::refine`].
     pub fn refine_steps(&self, domain: &Domain, steps: u64) -> Result<Refined, FailureReport> {
         let mut lopping = Lopping::start(domain, &self.options)?;
-        for _ in 0..steps {
-            if !lopping.step() {
-                break;
-            }
+        let mut left = steps;
+        while left > 0 && lopping.step() {
+            left -= 1;
         }
-        lopping.cancel();
+        if left == 0 {
+            lopping.cancel();
+        }
         Ok(lopping.finish()?)
     }
 
-    /// What a mesh of ours is held to.
-    pub fn promise(&self) -> Promise {
+    /// Holds a mesh to what was asked: ours by its links to the domain's curves, any other by its coordinates.
+    pub fn judge(&self, domain: Option<&Domain>, mesh: &Mesh) -> Verdict {
         let angle = self.options.angle_min_rad;
-        Promise {
+        let promise = Promise {
             angle_min_rad: (angle > 0.0).then_some(angle),
             tau_rad: self.tau_rad,
             beta: self.options.beta,
             corner_arcs: self.options.corner_arcs.is_some(),
             arc_turning_rad: ARC_TURNING_RAD,
-            midpoint_bisector: self.options.midpoint == subcurves::Midpoint::Bisector,
-            sizing: self.sizing.clone(),
-            foreign: false,
-        }
+            midpoint_bisector: self.options.midpoint == plane::Midpoint::Bisector,
+            sizing: self.options.sizing.clone(),
+            foreign: mesh.edges.iter().any(|edge| edge.link.is_none()),
+        };
+        verify(domain, mesh, &promise)
     }
+}
 
-    pub fn judge(&self, domain: &Domain, mesh: &Mesh) -> Verdict {
-        verify(Some(domain), mesh, &self.promise())
+fn engine_options(request: &Request, sizing: Sizing) -> lopping::Options {
+    lopping::Options {
+        angle_min_rad: request.angle_min_rad(),
+        beta: request.beta,
+        shrinking: match request.ball_shrinking {
+            BallShrinking::Batched => Shrinking::Batched,
+            BallShrinking::Literal => Shrinking::Literal,
+        },
+        midpoint: match request.midpoint {
+            Midpoint::Bisector => plane::Midpoint::Bisector,
+            Midpoint::Angle => plane::Midpoint::Angle,
+        },
+        corner_arcs: request.corner_arcs.is_on().then_some(ARC_TURNING_RAD),
+        sizing,
+        max_vertices: request.max_vertices,
+    }
+}
+
+/// Sizes that the request asks for everywhere. `diagonal` is that of the drawing.
+fn plain_sizing(request: &Request, diagonal: Option<f64>) -> Sizing {
+    Sizing {
+        max_area: request.max_area,
+        max_edge: request.max_edge,
+        min_edge: request.min_edge,
+        chord_error: request.chord_error.and_then(|e| e.length(diagonal)),
+        edge_turning_rad: request.edge_turning.deg().map(f64::to_radians),
+        grade: request.grade,
+        sources: Vec::new(),
     }
 }
 
 /// Sizes of the request and of the drawing.
 fn sizing(drawing: &Drawing, domain: &Domain, request: &Request) -> Result<Sizing, FailureReport> {
-    let diagonal = drawing.bounds().map_or(0.0, |b| libm::hypot(b.width(), b.height()));
-    let named = Sizing {
-        max_area: request.max_area,
-        max_edge: request.max_edge,
-        min_edge: request.min_edge,
-        chord_error: request.chord_error.map(|e| e.length(diagonal)),
-        edge_turning_rad: request.edge_turning.deg().map(f64::to_radians),
-        grade: request.grade,
-        sources: Vec::new(),
-    };
-    let mut sizing = named.with_requests(&drawing.sizes, |name| drawing.names.text(name).to_owned());
+    let diagonal = drawing.bounds().map(|b| libm::hypot(b.width(), b.height()));
+    let plain = plain_sizing(request, diagonal);
+    let mut sizing = plain.with_requests(&drawing.sizes, |name| drawing.names.text(name).to_owned());
     let boundaries: BTreeSet<&str> = domain.curves().iter().map(|c| domain.name(c.name)).collect();
     let regions: BTreeSet<&str> = domain.regions().iter().map(|r| domain.name(r.name)).collect();
     for SizeOf { name, edge } in &request.size_of {
@@ -428,7 +459,6 @@ fn sizing(drawing: &Drawing, domain: &Domain, request: &Request) -> Result<Sizin
     }
     Ok(sizing)
 }
-
 
 /// How a run ended, in words that do not depend on coordinates: what a reduced case must keep.
 pub fn ending(outcome: &Outcome) -> String {

@@ -271,7 +271,8 @@ impl Report {
 
     /// The JSON text, indented, with a line end. Numbers that are not finite become `null`.
     pub fn to_json(&self) -> String {
-        let mut text = serde_json::to_string_pretty(self).expect("a report holds only strings, numbers and lists of them");
+        let mut text =
+            serde_json::to_string_pretty(self).expect("a report holds only strings, numbers and lists of them");
         text.push('\n');
         text
     }
@@ -289,7 +290,16 @@ mod tests {
         assert_eq!(
             keys(&value),
             [
-                "schema", "version", "input", "request", "mesh", "quality", "promise", "stop", "counters", "seconds",
+                "schema",
+                "version",
+                "input",
+                "request",
+                "mesh",
+                "quality",
+                "promise",
+                "stop",
+                "counters",
+                "seconds",
                 "peak_memory_bytes"
             ]
         );

@@ -5,6 +5,7 @@
 
 use crate::curve::Curve;
 use crate::domain::FillRule;
+use crate::mesh::verify::guaranteed_angle;
 use clap::ValueEnum;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::FRAC_PI_3;
@@ -184,7 +185,7 @@ impl Request {
 
 /// The largest τ in 0.1..π/3 with κ(λ = share·τ) ≥ `angle_rad`, else 0.5. κ falls as λ grows, so halving finds it.
 fn largest_tau(angle_rad: f64, lens_share: f64) -> f64 {
-    let covers = |tau: f64| angle_guaranteed_rad(lens_share * tau) >= angle_rad;
+    let covers = |tau: f64| guaranteed_angle(lens_share * tau) >= angle_rad;
     let (mut covered, mut missed) = (TAU_AUTO_LEAST_RAD, FRAC_PI_3);
     if covers(missed) {
         return missed;
@@ -202,20 +203,6 @@ fn largest_tau(angle_rad: f64, lens_share: f64) -> f64 {
         }
     }
     covered
-}
-
-/// κ up to which corner lopping by the bisector rule ends on curves of lens angle ≤ λ:
-/// min(arcsin(1/(2√2·μ)), arcsin(1/(2ζη))) (Pav & Walkington 2005, Theorem 1, with ζ of Lemma 2 for a central angle of 2λ).
-pub fn angle_guaranteed_rad(lens_angle_rad: f64) -> f64 {
-    use std::f64::consts::SQRT_2;
-    let lambda = lens_angle_rad;
-    if lambda == 0.0 {
-        return libm::asin(0.5 / SQRT_2); // η = μ = 1, ζ = √2
-    }
-    let half = libm::tan(0.5 * lambda);
-    let (eta, mu) = ((1.0 + half) / (1.0 - half), 1.0 / (1.0 - half));
-    let zeta = SQRT_2 * libm::sin(lambda) / (libm::sin(lambda) + libm::cos(lambda) - 1.0);
-    libm::asin(0.5 / (SQRT_2 * mu)).min(libm::asin(0.5 / (zeta * eta)))
 }
 
 /// Who refines.
@@ -432,11 +419,11 @@ impl ChordError {
         }
     }
 
-    /// As a length, in a drawing of this diagonal.
-    pub fn length(self, diagonal: f64) -> f64 {
+    /// As a length, in a drawing of this diagonal; `None` of a share of a diagonal that is not known.
+    pub fn length(self, diagonal: Option<f64>) -> Option<f64> {
         match self {
-            Self::Length(length) => length,
-            Self::Percent(percent) => 0.01 * percent * diagonal,
+            Self::Length(length) => Some(length),
+            Self::Percent(percent) => diagonal.map(|d| 0.01 * percent * d),
         }
     }
 }
@@ -590,7 +577,7 @@ mod tests {
             toml::from_str("max-turning = 1\nchord-error = '2%'\nedge-turning = 7.5\nsize-of = ['wing=0.1']").unwrap();
         assert_eq!(request.max_turning, MaxTurning::Rad(1.0));
         assert_eq!(request.chord_error, Some(ChordError::Percent(2.0)));
-        assert_eq!(request.chord_error.unwrap().length(50.0), 1.0);
+        assert_eq!(request.chord_error.unwrap().length(Some(50.0)), Some(1.0));
         assert_eq!(request.edge_turning, EdgeTurning::Deg(7.5));
         for wrong in ["max-turning = 'much'", "max-trning = 1", "size-of = ['0.1']", "order = 2", "engine = 'gcdr'"] {
             assert!(toml::from_str::<Request>(wrong).is_err(), "{wrong}");
@@ -619,30 +606,13 @@ mod tests {
     }
 
     #[test]
-    fn the_guarantee_is_the_table_of_the_theory() {
-        // τ, κ for any curve, κ for circular arcs, in degrees to three decimals.
-        let table = [
-            (0.02, 20.065, 20.382),
-            (0.1, 17.689, 19.141),
-            (0.2, 15.074, 17.689),
-            (0.5, 8.985, 13.893),
-            (FRAC_PI_3, 2.295, 8.594),
-        ];
-        for (tau, any, round) in table {
-            assert!((angle_guaranteed_rad(tau).to_degrees() - any).abs() < 6e-4, "{tau}");
-            assert!((angle_guaranteed_rad(0.5 * tau).to_degrees() - round).abs() < 6e-4, "{tau}");
-        }
-        assert!((angle_guaranteed_rad(0.0).to_degrees() - 20.705).abs() < 6e-4);
-    }
-
-    #[test]
     fn auto_takes_the_largest_turning_that_is_proven() {
         let auto = |degrees: f64, share| largest_tau(degrees.to_radians(), share);
         assert_eq!(auto(20.7, 1.0), TAU_RAD, "no τ ≥ 0.1 covers it");
         assert_eq!(auto(2.0, 1.0), FRAC_PI_3);
         let tau = auto(15.0, 1.0);
-        assert!(angle_guaranteed_rad(tau) >= 15_f64.to_radians());
-        assert!(angle_guaranteed_rad(tau * (1.0 + 1e-9)) < 15_f64.to_radians());
+        assert!(guaranteed_angle(tau) >= 15_f64.to_radians());
+        assert!(guaranteed_angle(tau * (1.0 + 1e-9)) < 15_f64.to_radians());
         assert!(auto(15.0, 0.5) > 1.9 * tau, "arcs have half the lens angle");
     }
 }

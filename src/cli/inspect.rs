@@ -153,10 +153,20 @@ impl Findings {
         }
         row("curves", &say::kinds(&self.curves));
         if self.points + self.seeds > 0 {
-            row("others", &format!("{}, {}", say::plural(self.points, "point", "points"), say::plural(self.seeds, "seed", "seeds")));
+            row(
+                "others",
+                &format!(
+                    "{}, {}",
+                    say::plural(self.points, "point", "points"),
+                    say::plural(self.seeds, "seed", "seeds")
+                ),
+            );
         }
         for b in &self.boundaries {
-            row("boundary", &format!("{}: {}, length {:.6}", b.name, say::plural(b.curves, "curve", "curves"), b.length));
+            row(
+                "boundary",
+                &format!("{}: {}, length {:.6}", b.name, say::plural(b.curves, "curve", "curves"), b.length),
+            );
         }
         if let Some(domain) = &self.domain {
             domain.rows(&mut row);

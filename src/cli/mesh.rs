@@ -72,7 +72,8 @@ impl Mesh {
 
     /// Every output with its format.
     fn outputs(&self) -> Result<Vec<(&Path, Output)>, Halt> {
-        let to_stdout = self.output.iter().chain(&self.report).chain(&self.case).filter(|p| p.as_os_str() == "-").count();
+        let to_stdout =
+            self.output.iter().chain(&self.report).chain(&self.case).filter(|p| p.as_os_str() == "-").count();
         if to_stdout > 1 {
             return Err(Halt::Usage("only one output can go to standard output".into()));
         }
@@ -136,7 +137,8 @@ pub fn mesh_with_progress(input: &Input, request: &Request, volume: Volume) -> O
 /// A mesh as the bytes of a file.
 fn encode(mesh: &mesh::Mesh, outcome: &Outcome, format: Output) -> io::Result<Vec<u8>> {
     let picture = || {
-        let options = PictureOptions { title: outcome.report.input.title.clone().unwrap_or_default(), ..Default::default() };
+        let options =
+            PictureOptions { title: outcome.report.input.title.clone().unwrap_or_default(), ..Default::default() };
         picture_of_mesh(mesh, outcome.domain.as_ref(), MeshColour::Quality, &options)
     };
     match format {

@@ -114,13 +114,24 @@ fn dispatch(verb: Verb, volume: Volume) -> Result<Exit, Halt> {
 
 /// Options and verbs of the contract that this version does not have yet.
 const LATER: &[&str] = &[
-    "--size", "--strokes", "--dpi", "--seed", "--steiner", "--delta1", "--delta2", "--mu", "--radius-edge", "--max-volume", "convert",
+    "--size",
+    "--strokes",
+    "--dpi",
+    "--seed",
+    "--steiner",
+    "--delta1",
+    "--delta2",
+    "--mu",
+    "--radius-edge",
+    "--max-volume",
+    "convert",
     "batch",
 ];
 
 fn usage(error: clap::Error) -> ExitCode {
     use clap::error::{ContextKind, ContextValue};
-    let mut culprits = [ContextKind::InvalidArg, ContextKind::InvalidSubcommand].into_iter().filter_map(|k| error.get(k));
+    let mut culprits =
+        [ContextKind::InvalidArg, ContextKind::InvalidSubcommand].into_iter().filter_map(|k| error.get(k));
     let later = culprits.find_map(|culprit| match culprit {
         ContextValue::String(text) => LATER.iter().find(|later| text.split(['=', ' ']).next() == Some(**later)),
         _ => None,

@@ -6,7 +6,8 @@ use clap::Args;
 use serde::{Deserialize, Serialize};
 use squinch::import::Format;
 use squinch::request::{
-    BallShrinking, ChordError, EdgeTurning, Engine, FillChoice, Keep, MaxTurning, Midpoint, Order, Request, SizeOf, Switch, TrailingEdge,
+    BallShrinking, ChordError, EdgeTurning, Engine, FillChoice, Keep, MaxTurning, Midpoint, Order, Request, SizeOf,
+    Switch, TrailingEdge,
 };
 use std::path::{Path, PathBuf};
 
@@ -202,8 +203,27 @@ mod tests {
     #[test]
     fn what_is_given_reaches_the_request() {
         let line = Line::parse_from([
-            "x", "--min-angle", "15", "--max-turning", "auto", "--size-of", "a=1", "--size-of", "b=2", "--incidence", "-3", "--fill-rule",
-            "evenodd", "--corner-arcs", "off", "--max-vertices", "1000", "--input-format", "poly", "--chord-error", "1%",
+            "x",
+            "--min-angle",
+            "15",
+            "--max-turning",
+            "auto",
+            "--size-of",
+            "a=1",
+            "--size-of",
+            "b=2",
+            "--incidence",
+            "-3",
+            "--fill-rule",
+            "evenodd",
+            "--corner-arcs",
+            "off",
+            "--max-vertices",
+            "1000",
+            "--input-format",
+            "poly",
+            "--chord-error",
+            "1%",
         ]);
         let Ok(Resolved { request, input_format }) = line.options.resolve() else { panic!("refused") };
         assert_eq!(input_format, Some(Format::Poly));

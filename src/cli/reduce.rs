@@ -57,7 +57,10 @@ impl Reduce {
         let input = outline_of(&reduced.drawing);
         let case = input.case(&reduced.ending, request);
         let mut staged = Staged::default();
-        staged.add(Path::new(&self.output), case.to_toml().as_bytes()).and_then(|()| staged.commit()).map_err(unwritable)
+        staged
+            .add(Path::new(&self.output), case.to_toml().as_bytes())
+            .and_then(|()| staged.commit())
+            .map_err(unwritable)
     }
 }
 

@@ -212,7 +212,8 @@ fn input_rows(report: &Report, volume: Volume, row: &dyn Fn(&str, &str)) {
     let input = &report.input;
     let Some(format) = &input.format else { return };
     let unit = input.unit.as_ref().map_or_else(String::new, |unit| format!(", in {unit}"));
-    let area = report.quality.as_ref().and_then(|q| q.exact_measure).map_or_else(String::new, |a| format!(", area {a:.6}"));
+    let area =
+        report.quality.as_ref().and_then(|q| q.exact_measure).map_or_else(String::new, |a| format!(", area {a:.6}"));
     row("input", &format!("{format}: {}{area}{unit}", kinds(&input.curves)));
     for skipped in &input.skipped {
         row("left out", &format!("{} {}: {}", skipped.count, skipped.entity, skipped.why));
@@ -249,7 +250,8 @@ pub fn promise(verdict: &Verdict, ink: Ink) -> String {
     }
     let reached = names(Status::Reached);
     let proven = names(Status::Proven).len();
-    let rest = if reached.is_empty() { String::new() } else { format!("; reached, not proven: {}", reached.join(", ")) };
+    let rest =
+        if reached.is_empty() { String::new() } else { format!("; reached, not proven: {}", reached.join(", ")) };
     format!("{}, {proven} proven{rest}", ink.green("kept"))
 }
 
@@ -266,7 +268,8 @@ pub fn check_lines(check: &Check, ink: Ink) -> Vec<String> {
         Status::Broken => format!("{} of {}", count(check.broken), count(check.checked)),
         _ => count(check.checked),
     };
-    let worst = check.worst.map_or_else(String::new, |w| format!("  worst {:.6} at ({}, {})", w.value, w.at[0], w.at[1]));
+    let worst =
+        check.worst.map_or_else(String::new, |w| format!("  worst {:.6} at ({}, {})", w.value, w.at[0], w.at[1]));
     let head = format!("    {status} {:<17} {counts:>12}{worst}", check.name);
     let flaws = check.flaws.iter().map(|flaw| format!("      {flaw}"));
     std::iter::once(head.trim_end().to_owned()).chain(flaws).collect()
