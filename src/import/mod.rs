@@ -4,6 +4,7 @@
 pub mod airfoil;
 pub mod outline;
 pub mod poly;
+pub mod vtu;
 
 pub use airfoil::{AirfoilOptions, TrailingEdge};
 
