@@ -120,12 +120,9 @@ impl Outcome {
         let mut clock = Clock::start();
         let arranged = arrange(drawing, request)?;
         self.report.input.repairs = arranged.repairs().to_vec();
-        self.report.request.tolerance = Some(arranged.tolerance());
-        self.report.request.length_unit = drawing.unit.as_ref().map(|(unit, _)| unit.clone());
         let plan = Plan::new(drawing, &arranged, request)?;
         let domain = arranged.split_to_turning(plan.tau_rad);
-        self.report.request.tau_rad = Some(plan.tau_rad);
-        self.report.request.chord_error = plan.sizing().chord_error;
+        self.report.request.note_use(drawing, &arranged, &plan);
         self.report.seconds.arrange = clock.lap();
 
         let refined = match extent {

@@ -2,11 +2,12 @@
 //!
 //! All but `seconds` and `peak_memory_bytes` is the same, byte for byte, for the same input.
 
-use crate::domain::{Drawing, Repair, Skipped};
+use crate::domain::{Domain, Drawing, Repair, Skipped};
 use crate::geometry::Point;
 use crate::mesh::Mesh;
 use crate::mesh::quality::{BoundaryMeasure, Quality, RegionMeasure, boundary_measures, region_measures};
 use crate::mesh::verify::{Check, Excuse, Verdict};
+use crate::pipeline::Plan;
 use crate::refine::{Counters, Stop, StopReason};
 use crate::request::Request;
 use serde::Serialize;
@@ -137,6 +138,16 @@ impl RequestReport {
             far_field_chords: request.far_field,
             incidence_deg: request.incidence,
         }
+    }
+}
+
+impl RequestReport {
+    /// What the options came to for a drawing and its domain.
+    pub fn note_use(&mut self, drawing: &Drawing, domain: &Domain, plan: &Plan) {
+        self.length_unit = drawing.unit.as_ref().map(|(unit, _)| unit.clone());
+        self.tolerance = Some(domain.tolerance());
+        self.tau_rad = Some(plan.tau_rad);
+        self.chord_error = plan.sizing().chord_error;
     }
 }
 

@@ -1,15 +1,18 @@
-//! `check MESH`: the judge's verdict on a mesh file.
+//! `check MESH`: the judge's verdict on a mesh file, ours or not.
 
 use super::files::{self, Input, Staged, unwritable};
 use super::options::{Options, Resolved};
 use super::{Halt, Volume, remember, say};
 use clap::Args;
-use squinch::import::vtu;
+use squinch::domain::Domain;
+use squinch::export;
+use squinch::import::vtu::{self, MeshFile};
 use squinch::mesh::quality::Quality;
-use squinch::mesh::verify::{Promise, Status};
-use squinch::pipeline::{self, Exit};
+use squinch::mesh::verify::Status;
+use squinch::pipeline::{self, Exit, Plan};
 use squinch::report::{FailureKind, FailureReport, MeshReport, PromiseReport, Report};
-use std::path::PathBuf;
+use squinch::request::Request;
+use std::path::{Path, PathBuf};
 
 #[derive(Args)]
 pub struct Check {
@@ -22,47 +25,76 @@ pub struct Check {
     /// The report as JSON; - for standard output
     #[arg(long, value_name = "FILE.json")]
     report: Option<PathBuf>,
+    /// What the mesh is held to. A mesh of ours says what it was asked for, which holds where nothing is given here
     #[command(flatten)]
     options: Options,
 }
 
+/// Whether a path is a mesh's by its suffix.
+pub fn is_mesh_file(path: &Path) -> bool {
+    export::format_of(path) == Some(export::Format::Vtu)
+}
+
+/// Reads a mesh file, and its path as it is shown.
+pub fn open(path: &Path) -> Result<(MeshFile, String), Halt> {
+    let shown = path.display().to_string();
+    let bytes = files::read(path).map_err(|e| Halt::Unreadable(format!("{shown}: {e}")))?;
+    match vtu::read(&bytes) {
+        Ok(file) => Ok((file, shown)),
+        Err(error) => {
+            let failure = FailureReport::new(FailureKind::Unreadable, error.what, error.help);
+            let input = Input { path: shown, bytes, format: None, nodes: None };
+            Err(Halt::Failure(Box::new(failure), Some(Box::new(input))))
+        }
+    }
+}
+
+/// Key under which our mesh files say what they were asked for: the options, as in a `--config` file.
+pub const REQUEST_STAMP: &str = "request";
+
 impl Check {
     pub fn run(self, volume: Volume) -> Result<Exit, Halt> {
-        let Resolved { request, input_format } = self.options.resolve()?;
-        let path = self.mesh.display().to_string();
-        let bytes = files::read(&self.mesh).map_err(|e| Halt::Unreadable(format!("{path}: {e}")))?;
-        let mesh = vtu::read(&bytes).map_err(|error| {
-            let file = Input { path: path.clone(), bytes: bytes.clone(), format: None, nodes: None };
-            Halt::Failure(Box::new(error.into()), Some(Box::new(file)))
-        })?;
+        let (MeshFile { mesh, stamps, notes }, path) = open(&self.mesh)?;
+        let stamped = stamps.iter().find(|(key, _)| key == REQUEST_STAMP).map(|(_, text)| text.as_str());
+        let Resolved { request, input_format } = self.options.resolve_over(stamped.unwrap_or(""))?;
         let mut report = Report::new(&path, &request);
-        let (domain, plan) = match &self.against {
-            None => (None, pipeline::Plan::without_domain(&request)),
-            Some(drawing) => {
-                let input = Input::open(drawing, input_format)?;
-                remember(&input, &request);
-                let located = |failure| Halt::Failure(Box::new(failure), Some(Box::new(input.clone())));
-                let drawing = pipeline::read(&input.source(), &request).map_err(located)?;
-                let arranged = pipeline::arrange(&drawing, &request).map_err(located)?;
-                report.input.describe(&drawing);
-                report.input.repairs = arranged.repairs().to_vec();
-                let plan = pipeline::Plan::new(&drawing, &arranged, &request).map_err(located)?;
-                (Some(arranged.split_to_turning(plan.tau_rad)), plan)
-            }
+        let against = match &self.against {
+            Some(drawing) => Some(against(&Input::open(drawing, input_format)?, &request, &mut report)?),
+            None => None,
         };
-        let verdict = plan.judge_foreign(domain.as_ref(), &mesh);
-        report.input.path = path;
-        report.request.tau_rad = domain.is_some().then_some(plan.tau_rad);
+        let (domain, plan) = against.map_or_else(|| (None, Plan::without_domain(&request)), |(d, p)| (Some(d), p));
+        let verdict = plan.judge(domain.as_ref(), &mesh);
+        report.input.notes.extend(notes);
         report.mesh = Some(MeshReport::new(&mesh));
         report.quality = Some(Quality::of(domain.as_ref(), &mesh, &verdict));
         report.promise = Some(PromiseReport::new(&verdict));
-        self.write(&report)?;
+        if let Some(path) = &self.report {
+            let mut staged = Staged::default();
+            staged.add(path, report.to_json().as_bytes()).and_then(|()| staged.commit()).map_err(unwritable)?;
+        }
         if volume > Volume::Quiet {
             let ink = say::Ink::stderr();
-            say::line(&format!("{}: {}", report.input.path, say::promise(&verdict, ink)));
+            say::line(&format!("{} {path}: {}", ink.bold("squinch"), say::promise(&verdict, ink)));
             let shown = verdict.checks.iter().filter(|c| volume == Volume::Verbose || c.status != Status::NotAsked);
             shown.flat_map(|check| say::check_lines(check, ink)).for_each(|text| say::line(&text));
         }
         Ok(if verdict.kept() { Exit::Done } else { Exit::Missed })
     }
+}
+
+/// The domain that a mesh is to be of, and what is asked of it.
+fn against(input: &Input, request: &Request, report: &mut Report) -> Result<(Domain, Plan), Halt> {
+    remember(input, request);
+    let stages = || {
+        let drawing = pipeline::read(&input.source(), request)?;
+        let arranged = pipeline::arrange(&drawing, request)?;
+        let plan = Plan::new(&drawing, &arranged, request)?;
+        Ok((drawing, arranged, plan))
+    };
+    let (drawing, arranged, plan) =
+        stages().map_err(|failure| Halt::Failure(Box::new(failure), Some(Box::new(input.clone()))))?;
+    report.input.describe(&drawing);
+    report.input.repairs = arranged.repairs().to_vec();
+    report.request.note_use(&drawing, &arranged, &plan);
+    Ok((arranged.split_to_turning(plan.tau_rad), plan))
 }

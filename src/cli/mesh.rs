@@ -1,11 +1,11 @@
 //! `mesh IN -o OUT`: reads, arranges, meshes, verifies, writes.
 
+use super::check::REQUEST_STAMP;
 use super::files::{Input, Staged, unwritable};
 use super::options::{Options, Resolved};
 use super::{Halt, Volume, remember, say, write_case};
-use clap::{Args, ValueEnum};
-use squinch::export::picture::{MeshColour, PictureOptions, picture_of_mesh};
-use squinch::export::vtu;
+use clap::Args;
+use squinch::export::{self, Format};
 use squinch::mesh;
 use squinch::pipeline::{self, Exit, Extent, Outcome};
 use squinch::refine::Progress;
@@ -23,8 +23,8 @@ pub struct Mesh {
     #[arg(short, long, value_name = "OUT", required = true, help_heading = "Output")]
     output: Vec<PathBuf>,
     /// Formats of the outputs, in their order, where the suffix is not to tell
-    #[arg(long, value_enum, value_name = "FORMAT", value_delimiter = ',', help_heading = "Output")]
-    format: Vec<Output>,
+    #[arg(long, value_parser = mesh_format, value_name = "FORMAT", value_delimiter = ',', help_heading = "Output")]
+    format: Vec<Format>,
     /// The report as JSON; - for standard output
     #[arg(long, value_name = "FILE.json", help_heading = "Output")]
     report: Option<PathBuf>,
@@ -33,22 +33,6 @@ pub struct Mesh {
     case: Option<PathBuf>,
     #[command(flatten)]
     options: Options,
-}
-
-/// A format that meshes are written in.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Output {
-    Vtu,
-    Svg,
-    Png,
-}
-
-impl Output {
-    /// The format that a suffix names.
-    pub fn of(path: &Path) -> Option<Self> {
-        let suffix = path.extension()?.to_str()?.to_ascii_lowercase();
-        Self::value_variants().iter().copied().find(|f| f.to_possible_value().is_some_and(|v| v.matches(&suffix, true)))
-    }
 }
 
 impl Mesh {
@@ -71,7 +55,7 @@ impl Mesh {
     }
 
     /// Every output with its format.
-    fn outputs(&self) -> Result<Vec<(&Path, Output)>, Halt> {
+    fn outputs(&self) -> Result<Vec<(&Path, Format)>, Halt> {
         let to_stdout =
             self.output.iter().chain(&self.report).chain(&self.case).filter(|p| p.as_os_str() == "-").count();
         if to_stdout > 1 {
@@ -81,7 +65,7 @@ impl Mesh {
             let (formats, outputs) = (self.format.len(), self.output.len());
             return Err(Halt::Usage(format!("--format names {formats} formats for {outputs} outputs")));
         }
-        let of = |(i, path): (usize, &'_ PathBuf)| self.format.get(i).copied().or_else(|| Output::of(path));
+        let of = |(i, path): (usize, &'_ PathBuf)| self.format.get(i).copied().or_else(|| export::format_of(path));
         let known = self.output.iter().enumerate().map(|(i, path)| match of((i, path)) {
             Some(format) => Ok((path.as_path(), format)),
             None => Err(Halt::Usage(format!("-o {}: say its format by --format: vtu, svg or png", path.display()))),
@@ -92,7 +76,7 @@ impl Mesh {
     /// Writes what there is to write; the names of the mesh files.
     fn write(
         &self,
-        outputs: &[(&Path, Output)],
+        outputs: &[(&Path, Format)],
         input: &Input,
         request: &Request,
         outcome: &mut Outcome,
@@ -103,7 +87,7 @@ impl Mesh {
         // A mesh that broke down in our hands must not reach a solver.
         if let (Some(mesh), false) = (&outcome.mesh, outcome.exit == Exit::Bug) {
             for (path, format) in outputs {
-                let bytes = encode(mesh, outcome, *format).map_err(unwritable)?;
+                let bytes = encode(mesh, outcome, request, *format).map_err(unwritable)?;
                 staged.add(path, &bytes).map_err(unwritable)?;
                 wrote.push(path.display().to_string());
             }
@@ -134,18 +118,18 @@ pub fn mesh_with_progress(input: &Input, request: &Request, volume: Volume) -> O
     pipeline::run(&input.source(), request, Extent::Whole(&mut watch))
 }
 
-/// A mesh as the bytes of a file.
-fn encode(mesh: &mesh::Mesh, outcome: &Outcome, format: Output) -> io::Result<Vec<u8>> {
-    let picture = || {
-        let options =
-            PictureOptions { title: outcome.report.input.title.clone().unwrap_or_default(), ..Default::default() };
-        picture_of_mesh(mesh, outcome.domain.as_ref(), MeshColour::Quality, &options)
-    };
-    match format {
-        Output::Vtu => vtu::write(mesh),
-        Output::Svg => Ok(picture().svg()?.into_bytes()),
-        Output::Png => picture().png(1.0),
-    }
+/// A mesh as the bytes of a file, stamped with what it was asked for.
+fn encode(mesh: &mesh::Mesh, outcome: &Outcome, request: &Request, format: Format) -> io::Result<Vec<u8>> {
+    let request = toml::to_string(request).expect("a request holds only words, numbers and lists of them");
+    let stamps =
+        [("program".to_owned(), format!("squinch {}", env!("CARGO_PKG_VERSION"))), (REQUEST_STAMP.to_owned(), request)];
+    let mut bytes = Vec::new();
+    export::write_mesh(mesh, outcome.domain.as_ref(), &stamps, format, &mut bytes)?;
+    Ok(bytes)
+}
+
+fn mesh_format(name: &str) -> Result<Format, String> {
+    Format::named(name).ok_or_else(|| format!("one of {}", Format::ALL.map(Format::name).join(", ")))
 }
 
 /// Largest resident memory of this process, where the system tells it.

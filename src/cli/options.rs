@@ -119,13 +119,18 @@ pub struct Resolved {
 impl Options {
     /// Defaults, under the config file, under the command line; checked, and the threads set.
     pub fn resolve(&self) -> Result<Resolved, Halt> {
-        let mut asked = match &self.config {
-            Some(path) => table(&read_config(path)?),
-            None => toml::Table::new(),
-        };
+        self.resolve_over("")
+    }
+
+    /// As [`Options::resolve`], with a request recorded as TOML between the defaults and the config file.
+    pub fn resolve_over(&self, recorded: &str) -> Result<Resolved, Halt> {
+        let mut asked: toml::Table = recorded.parse().map_err(usage)?;
+        if let Some(path) = &self.config {
+            asked.extend(table(&read_config(path)?));
+        }
         asked.extend(table(self));
         let all: Self = toml::Value::Table(asked.clone()).try_into().map_err(usage)?;
-        asked.retain(|key, _| !OUTSIDE.contains(&key.as_str()));
+        asked.retain(|key, _| !OUTSIDE.contains(&key));
         let request: Request = toml::Value::Table(asked).try_into().map_err(usage)?;
         request.validate().map_err(usage)?;
         if let Some(threads) = all.threads {
