@@ -19,8 +19,15 @@ pub fn print() {
     let write = start.elapsed().as_secs_f64();
     let n = r.mesh.triangles.len();
     println!("{n} triangles, kept: {}", r.verdict.kept());
-    println!("seconds: arrange {:.3}, refine {:.3}, verify {:.3}, write {write:.3}", r.seconds.arrange, r.seconds.refine, r.seconds.verify);
-    println!("refine: {:.3} µs a triangle; file: {:.1} bytes a triangle", 1e6 * r.seconds.refine / n as f64, bytes.len() as f64 / n as f64);
+    println!(
+        "seconds: arrange {:.3}, refine {:.3}, verify {:.3}, write {write:.3}",
+        r.seconds.arrange, r.seconds.refine, r.seconds.verify
+    );
+    println!(
+        "refine: {:.3} µs a triangle; file: {:.1} bytes a triangle",
+        1e6 * r.seconds.refine / n as f64,
+        bytes.len() as f64 / n as f64
+    );
     println!("peak memory: {:.1} bytes a triangle (whole process)", peak_memory() / n as f64);
     for (name, count) in &r.counters.0 {
         println!("    {name}: {count}");
