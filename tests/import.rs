@@ -215,6 +215,52 @@ fn other_chords_are_kept() {
     assert!(drawing.unit.is_none() && noted(&drawing, "chord is 2500"));
 }
 
+fn exact(points: impl Iterator<Item = (f64, f64)>) -> String {
+    points.map(|(x, y)| format!("{x:e} {y:e}\n")).collect()
+}
+
+#[test]
+fn every_scale_gives_the_same_bits() {
+    let full = airfoil(TrailingEdge::Round, 20.0, 0.0);
+    let read_at = |scale: f64| {
+        let text = exact(contour().into_iter().map(|(x, y)| (scale * x, scale * y)));
+        read(text.as_bytes(), Format::Airfoil, "s", &full).unwrap()
+    };
+    let unit = read_at(1.0);
+    for exponent in [-20, -3, 23] {
+        let scale = 2f64.powi(exponent);
+        let drawing = read_at(scale);
+        let shapes = |d: &Drawing, f: f64| d.curves.iter().map(|c| c.curve.scaled(f)).collect::<Vec<_>>();
+        assert_eq!(shapes(&drawing, 1.0), shapes(&unit, scale));
+        let edges = |d: &Drawing| {
+            d.sizes
+                .iter()
+                .map(|s| match *s {
+                    SizeRequest::Boundary { edge, .. } | SizeRequest::Near { edge, .. } => edge,
+                    _ => f64::NAN,
+                })
+                .collect::<Vec<_>>()
+        };
+        let scaled: Vec<f64> = edges(&unit).into_iter().map(|edge| edge * scale).collect();
+        assert_eq!(edges(&drawing), scaled);
+    }
+}
+
+#[test]
+fn far_from_the_origin_the_section_is_the_same_up_to_rounding() {
+    let offset = 1e7;
+    let text = exact(contour().into_iter().map(|(x, y)| (x + offset, y - offset)));
+    let (far, near) = (dat(&text), selig());
+    assert_eq!(far.curves.len(), near.curves.len());
+    for (a, b) in far.curves.iter().zip(&near.curves) {
+        for t in [0.0, 0.2, 0.5, 0.9, 1.0] {
+            let moved = a.curve.point(t) - squinch::geometry::Vec2::new(offset, -offset);
+            // Coordinates near 1e7 are multiples of 2e-9; the header's six decimals add half a millionth.
+            assert!(distance(moved, b.curve.point(t)) < 2e-6, "{moved:?}");
+        }
+    }
+}
+
 // ---- airfoils: trailing edges ----
 
 fn with_gap(gap: f64) -> String {
@@ -389,6 +435,7 @@ fn refusals_of_airfoils_have_a_line_and_a_way_out() {
     refused("", Format::Airfoil);
     refused("just text\nand more\n", Format::Airfoil);
     refused("flat\n1 0\n.5 0\n0 0\n.5 0\n1 0\n", Format::Airfoil);
+    refused("999 999\n999 999\n", Format::Airfoil);
     refused("point\n1 0\n1 0\n1 0\n1 0\n1 0\n", Format::Airfoil);
     refused("nan\nnan nan\ninf 1\n", Format::Airfoil);
     let near = airfoil(TrailingEdge::Keep, 0.3, 0.0);

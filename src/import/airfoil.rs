@@ -334,7 +334,7 @@ fn gather(rows: &[Row], start: usize, notes: &mut Vec<String>) -> Result<Vec<Vec
         notes.push("What follows the first two numbers of a line was passed over.".into());
     }
     elements.retain(|e| !e.is_empty());
-    Ok(elements)
+    if elements.is_empty() { Err(ImportError::new("no coordinates were found", HELP)) } else { Ok(elements) }
 }
 
 /// Fewer than three points behind a line of text make no surface: they are numbers in the text.
