@@ -391,9 +391,9 @@ impl Contour {
         let lines = [samples[0].line, samples[samples.len() - 1].line];
         let wide = width(samples.iter().map(|s| s.at));
         let tall = bounds_of(samples.iter().map(|s| s.at)).map_or(0.0, |b| b.height());
-        // Midway coordinates and squares of them must stay finite.
-        let huge = samples.iter().any(|s| s.at.x.abs().max(s.at.y.abs()) > 1e100);
-        if samples.len() < 4 || !(wide > 0.0 && tall > 0.0) || huge {
+        // Squares and cubes of coordinates and widths must stay within the range of numbers.
+        let in_range = samples.iter().all(|s| s.at.x.abs().max(s.at.y.abs()) < 1e100) && wide > 1e-100;
+        if samples.len() < 4 || !in_range || tall == 0.0 {
             let what = format!("{} points from line {} on make no section", samples.len(), lines[0]);
             return Err(ImportError::at(lines[0], what, HELP));
         }
@@ -436,7 +436,7 @@ impl Contour {
     }
 
     fn chord(&self) -> f64 {
-        length(self.tail() - self.nose_point())
+        (self.tail() - self.nose_point()).hypot()
     }
 
     /// Moves points that lie on the blunt end from the ends of the contour to the base: an upright first or last edge behind a corner.
@@ -444,8 +444,8 @@ impl Contour {
         let upright = |a: Point, b: Point, c: Point| {
             let (ab, bc) = (b - a, c - b);
             // More than 60° of turning, a twentieth of the chord at most, steeper than 45°.
-            ab.dot(bc) < 0.5 * length(ab) * length(bc)
-                && (SHARP * wide..0.05 * wide).contains(&length(ab))
+            ab.dot(bc) < 0.5 * ab.hypot() * bc.hypot()
+                && (SHARP * wide..0.05 * wide).contains(&ab.hypot())
                 && ab.y.abs() > ab.x.abs()
         };
         if self.points.len() < 7 {
@@ -474,15 +474,15 @@ impl Contour {
         let (first, last) = (self.first(), self.last());
         let gap = first - last;
         let n = self.points.len();
-        if length(gap) < SHARP * wide {
+        if gap.hypot() < SHARP * wide {
             let tail = self.tail();
             (self.points[0], self.points[n - 1]) = (tail, tail);
-            notes.push(format!("The trailing edge had a gap of {:.1e} and was closed.", length(gap)));
+            notes.push(format!("The trailing edge had a gap of {:.1e} and was closed.", gap.hypot()));
             return;
         }
         // The closing edge goes on as a surface does (turning less than 45°): the point there is missing, the end is not blunt.
         let goes_on =
-            |along: Vec2, next: Vec2| along.dot(next) > std::f64::consts::FRAC_1_SQRT_2 * length(along) * length(next);
+            |along: Vec2, next: Vec2| along.dot(next) > std::f64::consts::FRAC_1_SQRT_2 * along.hypot() * next.hypot();
         if goes_on(last - self.points[n - 2], gap) {
             self.points.push(first);
         } else if goes_on(gap, self.points[1] - first) {
@@ -524,10 +524,6 @@ impl Contour {
         (self.points[0], self.points[n - 1]) = (tail, tail);
         self.base.clear();
     }
-}
-
-fn length(v: Vec2) -> f64 {
-    v.hypot2().sqrt()
 }
 
 /// The two surfaces of a file that gives one after the other: by its counts, by a blank line between, or by the jump from one to the next.
@@ -573,7 +569,7 @@ fn from_trailing_edge(mut points: Vec<Point>, wide: f64, notes: &mut Vec<String>
         return points;
     }
     notes.push("The contour does not start at the trailing edge and was turned to do so.".into());
-    if length(first - last) < SAME * wide {
+    if (first - last).hypot() < SAME * wide {
         points.pop();
     }
     let n = points.len();
@@ -581,7 +577,7 @@ fn from_trailing_edge(mut points: Vec<Point>, wide: f64, notes: &mut Vec<String>
     // A blunt end is an upright edge at the aftmost point; its ends become the ends of the contour.
     let upright = |i: usize, j: usize| {
         let edge = points[j % n] - points[i % n];
-        edge.y.abs() > 2.0 * edge.x.abs() && (SHARP * wide..0.2 * wide).contains(&length(edge))
+        edge.y.abs() > 2.0 * edge.x.abs() && (SHARP * wide..0.2 * wide).contains(&edge.hypot())
     };
     if upright(tail, tail + 1) {
         points.rotate_left((tail + 1) % n);
@@ -597,7 +593,7 @@ fn from_trailing_edge(mut points: Vec<Point>, wide: f64, notes: &mut Vec<String>
 fn merge_repeated(points: &mut Vec<Point>, tolerance: f64, notes: &mut Vec<String>) {
     let before = points.len();
     let last = points[before - 1];
-    points.dedup_by(|b, a| length(*b - *a) <= tolerance);
+    points.dedup_by(|b, a| (*b - *a).hypot() <= tolerance);
     let n = points.len();
     if n > 1 {
         points[n - 1] = last;
@@ -715,7 +711,7 @@ fn centripetal_knots(points: &[Point]) -> Vec<f64> {
     let mut knots = vec![0.0];
     let mut sum = 0.0;
     for w in points.windows(2) {
-        sum += length(w[1] - w[0]).sqrt();
+        sum += (w[1] - w[0]).hypot().sqrt();
         knots.push(sum);
     }
     knots.iter_mut().for_each(|k| *k /= sum);
@@ -763,21 +759,18 @@ fn crossing(spline: &Curve, base: &[Point]) -> Option<Point> {
     let n = ring.len();
     let ends = |i: usize| (ring[i], ring[(i + 1) % n]);
     let hierarchy = BoxHierarchy::new((0..n).map(|i| Rect::from_points(ends(i).0, ends(i).1)));
-    let mut found = None;
-    for i in 0..n {
-        let (a, b) = ends(i);
-        hierarchy.meeting(Rect::from_points(a, b), |j| {
-            let (c, d) = ends(j);
-            if j > i && cross(a, b, c, d) {
-                found = Some(chords[i]);
-            }
-            found.is_none()
-        });
-        if found.is_some() {
-            break;
-        }
-    }
-    found
+    (0..n)
+        .find(|&i| {
+            let (a, b) = ends(i);
+            let mut crossed = false;
+            hierarchy.meeting(Rect::from_points(a, b), |j| {
+                let (c, d) = ends(j);
+                crossed = j > i && cross(a, b, c, d);
+                !crossed
+            });
+            crossed
+        })
+        .map(|i| chords[i])
 }
 
 /// Whether two segments cross in their insides.
@@ -826,7 +819,7 @@ fn draw(mut contours: Vec<Contour>, options: &AirfoilOptions, drawing: &mut Draw
         sections.push(Section::build(contour, options.trailing_edge, &mut drawing.notes)?);
     }
     let (nose, tail) = reference_chord(&contours);
-    let chord = length(tail - nose);
+    let chord = (tail - nose).hypot();
     // Files are written for a chord of 1, give or take a flap.
     if (0.8..1.5).contains(&chord) {
         drawing.unit = Some(("chord".into(), "airfoil coordinates".into()));
@@ -921,7 +914,7 @@ fn add_far_field(
 ) -> Result<(), ImportError> {
     let bounds = drawing.bounds().unwrap_or(Rect::ZERO);
     let corners = [(bounds.x0, bounds.y0), (bounds.x0, bounds.y1), (bounds.x1, bounds.y0), (bounds.x1, bounds.y1)];
-    let reach = corners.into_iter().map(|c| length(Point::from(c) - center)).fold(0.0, f64::max);
+    let reach = corners.into_iter().map(|c| (Point::from(c) - center).hypot()).fold(0.0, f64::max);
     if reach >= radius {
         let what = format!("a far field of {} chords does not go around the section", radius / chord);
         return Err(ImportError::new(what, "give 1 chord or more, or 0 for the section itself"));

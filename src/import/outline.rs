@@ -31,8 +31,8 @@ pub const SCHEMA: &str = include_str!("outline.schema.json");
 
 /// The version of the format that is read and written.
 const VERSION: u32 = 1;
-/// Evaluation costs the square of the degree: beyond any CAD system's curves, a file is refused rather than served for hours.
-const MAX_DEGREE: usize = 64;
+/// Evaluation costs the square of the degree; this is where `Curve::bezier` ends too.
+const MAX_DEGREE: usize = 300;
 /// How far the stated ends of an arc may lie from where its angles put them, in its size: rounding of a file with six decimals.
 const END_SLACK: f64 = 1e-5;
 const HELP: &str = "src/import/outline.schema.json describes the format";
@@ -369,7 +369,9 @@ impl File {
             notes: self.notes.unwrap_or_default(),
             ..Drawing::default()
         };
-        self.names.iter().flatten().for_each(|name| drop(d.names.intern(name)));
+        for name in self.names.iter().flatten() {
+            d.names.intern(name);
+        }
         for (i, entry) in self.curves.into_iter().enumerate() {
             let name = d.names.intern(entry.name.as_deref().unwrap_or(UNNAMED));
             let whole = entry.entity.unwrap_or_else(|| curve_entity(i));
@@ -433,10 +435,6 @@ fn said(error: impl Display) -> String {
     error.to_string()
 }
 
-fn degree_ok(degree: usize) -> Result<(), String> {
-    if degree > MAX_DEGREE { Err(format!("degree {degree} is above the limit of {MAX_DEGREE}")) } else { Ok(()) }
-}
-
 impl CurveForm {
     fn curves(self) -> Result<Vec<Curve>, String> {
         let mut kinds: Vec<Result<Vec<Curve>, String>> = Vec::new();
@@ -493,12 +491,20 @@ fn polyline(points: &[Point], closed: bool) -> Result<Vec<Curve>, String> {
     edges.map(|[a, b]| Curve::line(a, b).map_err(said)).collect()
 }
 
+/// A Bézier span. Weights are kept as they are, so that what was written reads back the same, unless they are all equal (and say
+/// nothing) or so far from 1 that products of them would leave the range; `Curve::rational_bezier` sees to both.
+fn span(points: &[Pair], weights: Option<Vec<f64>>) -> Result<Bezier, String> {
+    let made = match weights.clone() {
+        None => Curve::bezier(all(points)),
+        Some(weights) => Curve::rational_bezier(all(points), weights),
+    };
+    let Curve::Bezier(made) = made.map_err(said)? else { return Err("is no Bézier curve".into()) };
+    let tame = |w: &Vec<f64>| made.weights.is_some() && w.iter().all(|v| (1e-30..1e30).contains(v));
+    Ok(Bezier { weights: weights.filter(tame).or(made.weights.clone()), ..*made })
+}
+
 fn bezier(points: &[Pair], weights: Option<Vec<f64>>) -> Result<Curve, String> {
-    degree_ok(points.len().saturating_sub(1))?;
-    match weights {
-        None => Curve::bezier(all(points)).map_err(said),
-        Some(weights) => Curve::rational_bezier(all(points), weights).map_err(said),
-    }
+    span(points, weights).map(|b| Curve::Bezier(Box::new(b)))
 }
 
 /// Start and sweep in radians, from whichever unit is given; `None` where neither is.
@@ -520,7 +526,7 @@ impl ArcForm {
                 let arc = Curve::arc(point(center), radius, a[0], a[1]).map_err(said)?;
                 match ends {
                     None => Ok(arc),
-                    Some(ends) => arc_between(&arc, point(center), radius, a, ends),
+                    Some(ends) => with_stated_ends(arc, ends),
                 }
             }
             ((None, None, None, None), (Some(from), Some(through), Some(to), None)) => {
@@ -538,22 +544,26 @@ impl ArcForm {
     }
 }
 
-fn arc_between(arc: &Curve, center: Point, radius: f64, a: [f64; 2], ends: [Pair; 2]) -> Result<Curve, String> {
-    let ends = [point(ends[0]), point(ends[1])];
-    ends_fit(arc, ends, radius + center.x.abs().max(center.y.abs()), a[1])?;
-    Ok(Curve::Arc(CircularArc { center, radius, start_rad: a[0], sweep_rad: a[1], ends }))
-}
-
-/// Stated ends must be those of the arc up to rounding, and equal where it closes.
-fn ends_fit(arc: &Curve, ends: [Point; 2], size: f64, sweep: f64) -> Result<(), String> {
-    let near = |p: Point, q: Point| (p - q).hypot2() <= (END_SLACK * size) * (END_SLACK * size);
+/// The arc with the ends that the file states; they must be its own up to rounding, and equal where it closes.
+fn with_stated_ends(arc: Curve, ends: [Pair; 2]) -> Result<Curve, String> {
+    let ends = ends.map(point);
+    let (size, sweep_rad) = match &arc {
+        Curve::Arc(a) => (a.radius + a.center.to_vec2().hypot(), a.sweep_rad),
+        Curve::Ellipse(e) => (e.u.hypot() + e.v.hypot() + e.center.to_vec2().hypot(), e.sweep_rad),
+        _ => return Err("only arcs have `ends`".into()),
+    };
+    let near = |p: Point, q: Point| (p - q).hypot() <= END_SLACK * size;
     if !(near(ends[0], arc.start()) && near(ends[1], arc.end())) {
         return Err("`ends` do not lie where the angles put them".into());
     }
-    if sweep.abs() >= TAU && ends[0] != ends[1] {
+    if sweep_rad.abs() >= TAU && ends[0] != ends[1] {
         return Err("a full turn needs equal `ends`".into());
     }
-    Ok(())
+    Ok(match arc {
+        Curve::Arc(a) => Curve::Arc(CircularArc { ends, ..a }),
+        Curve::Ellipse(e) => Curve::Ellipse(Box::new(EllipticArc { ends, ..*e })),
+        other => other,
+    })
 }
 
 impl EllipseForm {
@@ -569,18 +579,18 @@ impl EllipseForm {
         };
         let center = point(self.center);
         let arc = Curve::ellipse(center, u, v, turn[0], turn[1]).map_err(said)?;
-        let Some([a, b]) = self.ends else { return Ok(arc) };
-        let ends = [point(a), point(b)];
-        let size = u.hypot2().max(v.hypot2()).sqrt() + center.x.abs().max(center.y.abs());
-        ends_fit(&arc, ends, size, turn[1])?;
-        let exact = EllipticArc { center, u, v, start_rad: turn[0], sweep_rad: turn[1], ends };
-        Ok(Curve::Ellipse(Box::new(exact)))
+        match self.ends {
+            None => Ok(arc),
+            Some(ends) => with_stated_ends(arc, ends),
+        }
     }
 }
 
 impl NurbsForm {
     fn curve(self) -> Result<Curve, String> {
-        degree_ok(self.degree)?;
+        if self.degree > MAX_DEGREE {
+            return Err(format!("degree {} is above the limit of {MAX_DEGREE}", self.degree));
+        }
         Curve::nurbs(self.degree, &self.knots, &all(&self.points), self.weights.as_deref()).map_err(said)
     }
 }
@@ -597,14 +607,12 @@ impl PiecewiseForm {
             return Err("needs one knot more than spans, ascending from 0 to 1".into());
         }
         let mut spans: Vec<Bezier> = Vec::with_capacity(self.spans.len());
-        for (i, span) in self.spans.into_iter().enumerate() {
-            // Built as a curve of its own for the checks alone.
-            bezier(&span.points, span.weights.clone()).map_err(|e| format!("spans[{i}]: {e}"))?;
-            let points = all(&span.points);
-            if spans.last().is_some_and(|before| before.points.last() != points.first()) {
+        for (i, form) in self.spans.into_iter().enumerate() {
+            let next = span(&form.points, form.weights).map_err(|e| format!("spans[{i}]: {e}"))?;
+            if spans.last().is_some_and(|before| before.points.last() != next.points.first()) {
                 return Err(format!("spans[{i}] does not start where the span before it ends"));
             }
-            spans.push(Bezier { points, weights: span.weights });
+            spans.push(next);
         }
         if spans.is_empty() {
             return Err("needs a span".into());

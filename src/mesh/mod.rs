@@ -1,4 +1,5 @@
-//! The mesh: plain data, whoever made it. Nodes, cells, regions, boundaries, links back to curves, and the balls that excuse cells.
+//! The mesh: plain data, whoever made it. Nodes, cells, regions, boundaries, links back to curves, and the balls that
+//! excuse cells.
 
 pub mod quality;
 pub mod verify;
@@ -16,7 +17,8 @@ pub struct Mesh {
     pub triangle_regions: IdVec<TriangleId, RegionId>,
     /// Name of each region.
     pub regions: IdVec<RegionId, NameId>,
-    /// Every mesh edge that lies on a curve, along the curve's direction, grouped by curve and in order along it where links are known.
+    /// Every mesh edge that lies on a curve, along the curve's direction, grouped by curve and in order along it where
+    /// links are known.
     pub edges: Vec<CurveEdge>,
     pub names: Names,
     /// For each node that is a point of P: which (sorted by point).

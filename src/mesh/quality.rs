@@ -7,8 +7,8 @@ use crate::geometry::{Point, Vec2};
 use crate::ids::{Id, TriangleId};
 use serde::{Serialize, Serializer};
 
-/// What a mesh measures; angles in degrees, the rest in the drawing's units. Angles of a mesh without triangles: the smallest is 180,
-/// the largest 0.
+/// What a mesh measures; angles in degrees, the rest in the drawing's units. Angles of a mesh without triangles: the
+/// smallest is 180, the largest 0.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Quality {
     pub min_angle_deg: f64,

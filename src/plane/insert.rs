@@ -9,7 +9,7 @@
 //! points keep the diagonal that was there first. Looking needs only `&self` and the caller's own [`Cavity`], so that cavities of many points can be
 //! looked at in parallel and those that do not touch filled in the serial order later.
 
-use super::triangulation::{GHOST, Net, Side, Triangulation};
+use super::triangulation::{GHOST, Net, Record, Side, Triangulation, after, before};
 use crate::geometry::exact::{self, CircleSide, Orientation};
 use crate::geometry::{Point, order};
 use crate::ids::{Id, IdVec, TriangleId, VertexId};
@@ -47,7 +47,7 @@ pub struct Cavity {
     pub triangles: Vec<TriangleId>,
     /// Sides of those triangles whose twins lie outside, counter-clockwise around the cavity.
     pub border: Vec<Side>,
-    /// Sides of the cavity still to be looked across.
+    /// Sides of triangles still to be looked at, the twins of the cavity's own.
     open: Vec<Side>,
 }
 
@@ -114,7 +114,7 @@ impl<'a> Sight<'a> {
         })
     }
 
-    #[inline]
+    #[inline(always)]
     pub(super) fn in_circle(&mut self, a: Point, b: Point, c: Point, d: Point) -> CircleSide {
         self.work.in_circle += 1;
         exact::in_circle_filtered(a, b, c, d).unwrap_or_else(|| {
@@ -125,14 +125,15 @@ impl<'a> Sight<'a> {
 
     /// Whether a triangle must make room for `p`.
     #[inline]
-    fn conflicts(&mut self, t: TriangleId, p: Point) -> bool {
-        let [a, b, c] = self.net.record(t).corners;
-        if a == GHOST || b == GHOST || c == GHOST {
-            return self.ghost_conflicts([a, b, c], p);
-        }
-        self.in_circle(self.point(a), self.point(b), self.point(c), p) == CircleSide::Inside
+    fn conflicts(&mut self, corners: [VertexId; 3], p: Point) -> bool {
+        // The ghost's number is beyond all points.
+        let [Some(&a), Some(&b), Some(&c)] = corners.map(|v| self.points.get(v.index())) else {
+            return self.ghost_conflicts(corners, p);
+        };
+        self.in_circle(a, b, c, p) == CircleSide::Inside
     }
 
+    #[cold]
     fn ghost_conflicts(&mut self, corners: [VertexId; 3], p: Point) -> bool {
         let [a, b] = hull_side(corners).map(|v| self.point(v));
         match self.orient(a, b, p) {
@@ -145,42 +146,57 @@ impl<'a> Sight<'a> {
     /// The visibility walk (Devillers, Pion & Teillaud 2002), which never looks back across the side it came by. It ends in any
     /// Delaunay triangulation; should another one lead it in a circle, every triangle is asked.
     fn locate(&mut self, p: Point, near: TriangleId) -> Location {
-        let mut t = self.finite_near(near);
-        let mut entry = None;
+        let mut entry = match self.look_from(p, self.finite_near(near)) {
+            Ok(location) => return location,
+            Err(entry) => entry,
+        };
+        let (t, i) = entry.split();
+        let corners = self.net.record(t).corners;
+        // Of the entry a→b, `p` lies strictly left.
+        let (mut a, mut b) = (self.point(corners[i]), self.point(corners[after(i)]));
         for _ in 0..=self.net.len() {
             self.work.walk_steps += 1;
-            match self.look_from(p, t, entry) {
-                Ok(location) => return location,
-                Err(exit) => entry = Some(exit),
+            let (t, i) = entry.split();
+            let record = self.net.record(t);
+            let apex = record.corners[before(i)];
+            let Some(&c) = self.points.get(apex.index()) else { return Location::Triangle(t) };
+            let bc = self.orient(b, c, p);
+            if bc == Orientation::Clockwise {
+                (a, entry) = (c, record.twins[after(i)]);
+                continue;
             }
-            t = entry.map_or(t, Side::triangle);
-            if self.net.record(t).corners.contains(&GHOST) {
-                return Location::Triangle(t);
+            let ca = self.orient(c, a, p);
+            if ca == Orientation::Clockwise {
+                (b, entry) = (c, record.twins[before(i)]);
+                continue;
             }
+            return match (bc == Orientation::Collinear, ca == Orientation::Collinear) {
+                (true, true) => Location::Vertex(apex),
+                (true, false) => Location::Side(t.side_of(after(i))),
+                (false, true) => Location::Side(t.side_of(before(i))),
+                (false, false) => Location::Triangle(t),
+            };
         }
         self.locate_by_scan(p)
     }
 
-    /// Where `p` lies in a finite triangle, or the far side of one that separates it from `p`. Of side `entry`, if there is one, `p` lies strictly left.
-    #[inline]
-    fn look_from(&mut self, p: Point, t: TriangleId, entry: Option<Side>) -> Result<Location, Side> {
+    /// Where `p` lies in a finite triangle, or the far side of one that separates it from `p`.
+    fn look_from(&mut self, p: Point, t: TriangleId) -> Result<Location, Side> {
+        self.work.walk_steps += 1;
         let record = *self.net.record(t);
         let corners = record.corners.map(|v| self.point(v));
-        let (first, sides) = entry.map_or((0, 3), |s| ((s.place() + 1) % 3, 2));
-        let mut on = [None; 2];
-        for k in 0..sides {
-            let i = (first + k) % 3;
-            match self.orient(corners[i], corners[(i + 1) % 3], p) {
+        let mut on = [false; 3];
+        for i in 0..3 {
+            match self.orient(corners[i], corners[after(i)], p) {
                 Orientation::Clockwise => return Err(record.twins[i]),
-                Orientation::Collinear if on[0].is_none() => on[0] = Some(i),
-                Orientation::Collinear => on[1] = Some(i),
+                Orientation::Collinear => on[i] = true,
                 Orientation::CounterClockwise => {}
             }
         }
-        Ok(match on {
-            [Some(i), Some(j)] => Location::Vertex(record.corners[if (i + 1) % 3 == j { j } else { i }]),
-            [Some(i), None] => Location::Side(t.side_of(i)),
-            _ => Location::Triangle(t),
+        // On two sides: at the corner that the second of them starts from.
+        Ok(match (0..3).find(|&i| on[i] && on[before(i)]) {
+            Some(i) => Location::Vertex(record.corners[i]),
+            None => on.iter().position(|&on| on).map_or(Location::Triangle(t), |i| Location::Side(t.side_of(i))),
         })
     }
 
@@ -196,7 +212,7 @@ impl<'a> Sight<'a> {
         };
         let record = self.net.record(t);
         match record.corners.iter().position(|&v| v == GHOST) {
-            Some(i) => record.twins[(i + 1) % 3].triangle(),
+            Some(i) => record.twins[after(i)].triangle(),
             None => t,
         }
     }
@@ -205,7 +221,7 @@ impl<'a> Sight<'a> {
         for t in (0..self.net.len()).map(TriangleId::from_index).filter(|&t| self.net.is_alive(t)) {
             let corners = self.net.record(t).corners;
             if !corners.contains(&GHOST) {
-                if let Ok(location) = self.look_from(p, t, None) {
+                if let Ok(location) = self.look_from(p, t) {
                     return location;
                 }
             } else if self.orient_hull(corners, p) == Orientation::CounterClockwise {
@@ -227,14 +243,22 @@ impl<'a> Sight<'a> {
         border.clear();
         open.clear();
         triangles.push(start);
-        open.extend([2, 1, 0].map(|i| start.side_of(i)));
-        while let Some(s) = open.pop() {
-            let n = self.net.twin(s);
-            if self.conflicts(n.triangle(), p) {
-                triangles.push(n.triangle());
-                open.extend([n.prev(), n.next()]);
-            } else {
-                border.push(s);
+        let [first, second, third] = self.net.record(start).twins;
+        open.extend([third, second]);
+        let mut entry = first;
+        loop {
+            let (t, i) = entry.split();
+            let Record { corners, twins } = *self.net.record(t);
+            if self.conflicts(corners, p) {
+                triangles.push(t);
+                open.push(twins[before(i)]);
+                entry = twins[after(i)];
+                continue;
+            }
+            border.push(twins[i]);
+            match open.pop() {
+                Some(next) => entry = next,
+                None => break,
             }
         }
         self.work.cavity_triangles += triangles.len() as u64;

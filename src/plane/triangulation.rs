@@ -43,20 +43,34 @@ impl Side {
     /// The next side of the same triangle, counter-clockwise.
     #[inline]
     pub fn next(self) -> Self {
-        Self(if self.0 % 3 == 2 { self.0 - 2 } else { self.0 + 1 })
+        let (t, i) = self.split();
+        Self::of(t, after(i))
     }
 
     /// The side before this one in the same triangle.
     #[inline]
     pub fn prev(self) -> Self {
-        Self(if self.0.is_multiple_of(3) { self.0 + 2 } else { self.0 - 1 })
+        let (t, i) = self.split();
+        Self::of(t, before(i))
     }
 
-    /// Which side of its triangle, in 0..3.
+    /// The triangle, and which of its sides this is, in 0..3.
     #[inline]
-    pub(super) fn place(self) -> usize {
-        (self.0 % 3) as usize
+    pub(super) fn split(self) -> (TriangleId, usize) {
+        (TriangleId(self.0 / 3), (self.0 % 3) as usize)
     }
+}
+
+/// The place after `i` of 0, 1, 2.
+#[inline]
+pub(super) fn after(i: usize) -> usize {
+    if i == 2 { 0 } else { i + 1 }
+}
+
+/// The place before `i` of 0, 1, 2.
+#[inline]
+pub(super) fn before(i: usize) -> usize {
+    if i == 0 { 2 } else { i - 1 }
 }
 
 impl TriangleId {
@@ -89,7 +103,9 @@ struct Rim {
 pub(super) struct Net {
     records: Vec<Record>,
     free: Vec<TriangleId>,
+    /// The border and the new triangles while a cavity is filled.
     rim: Vec<Rim>,
+    ids: Vec<TriangleId>,
 }
 
 impl Net {
@@ -116,7 +132,8 @@ impl Net {
     }
 
     pub fn twin(&self, s: Side) -> Side {
-        self.record(s.triangle()).twins[s.place()]
+        let (t, i) = s.split();
+        self.record(t).twins[i]
     }
 
     pub fn is_alive(&self, t: TriangleId) -> bool {
@@ -126,8 +143,10 @@ impl Net {
     /// Makes `s` and `outer` twins.
     #[inline]
     fn join(&mut self, s: Side, outer: Side) {
-        self.records[s.triangle().index()].twins[s.place()] = outer;
-        self.records[outer.triangle().index()].twins[outer.place()] = s;
+        for (s, twin) in [(s, outer), (outer, s)] {
+            let (t, i) = s.split();
+            self.records[t.index()].twins[i] = twin;
+        }
     }
 
     fn take(&mut self) -> TriangleId {
@@ -146,27 +165,27 @@ impl Net {
     /// `(origin, target, apex)`; it takes the id of `triangles[i]`, and the last two take the ids returned.
     pub fn star(&mut self, apex: VertexId, triangles: &[TriangleId], border: &[Side]) -> [TriangleId; 2] {
         assert_eq!(border.len(), triangles.len() + 2, "a cavity is a disk without inner vertices");
-        let mut rim = std::mem::take(&mut self.rim);
-        rim.clear();
-        rim.extend(border.iter().map(|&s| {
-            let (record, i) = (self.record(s.triangle()), s.place());
-            Rim { a: record.corners[i], b: record.corners[(i + 1) % 3], outer: record.twins[i] }
-        }));
         let last = [self.take(), self.take()];
-        let mut before = last[1];
-        for (i, rim) in rim.iter().enumerate() {
-            let here = triangles.get(i).copied().unwrap_or_else(|| last[i - triangles.len()]);
-            let after = if i + 1 == border.len() {
-                triangles[0]
-            } else {
-                triangles.get(i + 1).copied().unwrap_or_else(|| last[i + 1 - triangles.len()])
-            };
-            self.records[here.index()] =
-                Record { corners: [rim.a, rim.b, apex], twins: [rim.outer, Side::of(after, 2), Side::of(before, 1)] };
-            self.records[rim.outer.triangle().index()].twins[rim.outer.place()] = Side::of(here, 0);
-            before = here;
+        let (mut rim, mut ids) = (std::mem::take(&mut self.rim), std::mem::take(&mut self.ids));
+        rim.clear();
+        rim.extend(border.iter().map(|s| {
+            let (t, i) = s.split();
+            let Record { corners, twins } = self.record(t);
+            Rim { a: corners[i], b: corners[after(i)], outer: twins[i] }
+        }));
+        ids.clear();
+        ids.extend_from_slice(triangles);
+        ids.extend(last);
+        let mut previous = last[1];
+        for (k, (&Rim { a, b, outer }, &here)) in rim.iter().zip(&ids).enumerate() {
+            let next = *ids.get(k + 1).unwrap_or(&ids[0]);
+            let twins = [outer, Side::of(next, 2), Side::of(previous, 1)];
+            self.records[here.index()] = Record { corners: [a, b, apex], twins };
+            let (across, i) = outer.split();
+            self.records[across.index()].twins[i] = Side::of(here, 0);
+            previous = here;
         }
-        self.rim = rim;
+        (self.rim, self.ids) = (rim, ids);
         last
     }
 
@@ -229,7 +248,8 @@ impl Triangulation {
 
     #[inline]
     pub fn origin(&self, s: Side) -> VertexId {
-        self.corners(s.triangle())[s.place()]
+        let (t, i) = s.split();
+        self.corners(t)[i]
     }
 
     #[inline]
@@ -286,13 +306,13 @@ impl Triangulation {
     /// The piece of a curve that lies on a side.
     #[inline]
     pub fn piece(&self, s: Side) -> Option<PieceId> {
-        label(self.pieces[s.triangle().index()][s.place()])
+        label(self.piece_label(s))
     }
 
     /// Lays a piece on a side and its twin, or takes it away.
     pub fn set_piece(&mut self, s: Side, piece: Option<PieceId>) {
         for s in [s, self.twin(s)] {
-            self.pieces[s.triangle().index()][s.place()] = piece.map_or(NONE, |p| p.0);
+            self.set_piece_label(s, piece.map_or(NONE, |p| p.0));
         }
     }
 
@@ -320,7 +340,7 @@ impl Triangulation {
         self.net.records[u.index()].corners = [c, a, d];
         for (side, (twin, piece)) in fresh.into_iter().zip(outer) {
             self.net.join(side, twin);
-            self.pieces[side.triangle().index()][side.place()] = piece;
+            self.set_piece_label(side, piece);
         }
         self.net.join(Side::of(t, 2), Side::of(u, 2));
         self.pieces[t.index()][2] = NONE;
@@ -335,7 +355,13 @@ impl Triangulation {
     }
 
     fn piece_label(&self, s: Side) -> u32 {
-        self.pieces[s.triangle().index()][s.place()]
+        let (t, i) = s.split();
+        self.pieces[t.index()][i]
+    }
+
+    fn set_piece_label(&mut self, s: Side, piece: u32) {
+        let (t, i) = s.split();
+        self.pieces[t.index()][i] = piece;
     }
 
     /// Replaces a cavity by the star of a new vertex, the next after all there are. Border sides keep their pieces; each new triangle
@@ -383,11 +409,11 @@ impl Triangulation {
         for (inner, outer) in [(before, before.next()), (after.prev(), after.next())] {
             let (inner, piece) = (self.twin(inner), self.piece_label(outer));
             self.net.join(inner, self.twin(outer));
-            self.pieces[inner.triangle().index()][inner.place()] = piece;
+            self.set_piece_label(inner, piece);
         }
         for &s in spokes.iter().filter(|&&s| s != before && s != after) {
-            let t = s.triangle();
-            self.net.records[t.index()].corners[s.place()] = GHOST;
+            let (t, i) = s.split();
+            self.net.records[t.index()].corners[i] = GHOST;
             self.regions[t.index()] = NONE;
             [s, s.next(), s.prev()].into_iter().for_each(|s| self.anchor(s));
         }

@@ -14,18 +14,25 @@ use std::f64::consts::{FRAC_PI_2, PI, SQRT_2};
 
 /// The guarantee of the angle rule on straight input, arcsin ¼ = 14.4775° in radians.
 ///
-/// Where z encroaches xy, the rule cuts at p with |xp| : |py| = a : b, a = |xz| ≤ b = |yz|. With |xy| = 2 Stewart's theorem gives
-/// |pz|²/|xp|² = (b/a)·((a+b)² − 4)/4, and a² + b² ≤ 4 (z is in the circle) bounds that by b²/2 ≤ 2: η = √2, approached as a → 0; with
-/// ζ = √2, arcsin(1/(2ζη)) = arcsin ¼. No η is known of the rule on curves, so there nothing is proven.
+/// Where z encroaches xy, the rule cuts at p with |xp| : |py| = a : b, a = |xz| ≤ b = |yz|. With |xy| = 2 Stewart's
+/// theorem gives |pz|²/|xp|² = (b/a)·((a+b)² − 4)/4, and a² + b² ≤ 4 (z is in the circle) bounds that by b²/2 ≤ 2: η =
+/// √2, approached as a → 0; with ζ = √2, arcsin(1/(2ζη)) = arcsin ¼. No η is known of the rule on curves, so there
+/// nothing is proven.
 pub const ANGLE_RULE_GUARANTEE_RAD: f64 = 0.252_680_255_142_078_65;
 
-/// The κ (radians) below which corner lopping with the bisector rule is proven to end where no curve has a lens angle above `lambda_rad`
-/// (Pav & Walkington 2005, Corollary 3, with λ for τ; 0 ≤ λ ≤ π/3). 20.705° for straight input.
+/// The κ (radians) below which corner lopping with the bisector rule is proven to end where no curve has a lens angle
+/// above `lambda_rad` (Pav & Walkington 2005, Corollary 3, with λ for τ; 0 ≤ λ ≤ π/3). 20.705° for straight input.
 ///
-/// κ < arcsin(1/(2√2μ)) ∧ arcsin(1/(2ζη)) with t = tan(λ/2), η = (1+t)/(1−t), μ = 1/(1−t). Lemma 2's ζ is *corrected*: the lens' arc
-/// has central angle 2λ (the proof has λ), so ζ = √2·sin λ/(sin λ + cos λ − 1), which is √2/(1−t) and so well defined at λ = 0.
-/// (Counterexample to the printed ζ: the chord (±1, 0), the curve bent at (0, tan(λ/2)), and p = (0, 1).)
+/// κ < arcsin(1/(2√2μ)) ∧ arcsin(1/(2ζη)) with t = tan(λ/2), η = (1+t)/(1−t), μ = 1/(1−t). Lemma 2's ζ is *corrected*:
+/// the lens' arc has central angle 2λ (the proof has λ), so ζ = √2·sin λ/(sin λ + cos λ − 1), which is √2/(1−t) and so
+/// well defined at λ = 0. (Counterexample to the printed ζ: the chord (±1, 0), the curve bent at (0, tan(λ/2)), and p =
+/// (0, 1).)
+///
+/// Beyond λ = π/2 nothing is guaranteed: 0.
 pub fn guaranteed_angle(lambda_rad: f64) -> f64 {
+    if lambda_rad.is_nan() || lambda_rad >= FRAC_PI_2 {
+        return 0.0;
+    }
     let t = libm::tan(0.5 * lambda_rad);
     let (eta, mu, zeta) = ((1.0 + t) / (1.0 - t), 1.0 / (1.0 - t), SQRT_2 / (1.0 - t));
     libm::asin(1.0 / (2.0 * SQRT_2 * mu)).min(libm::asin(1.0 / (2.0 * zeta * eta)))
@@ -33,7 +40,8 @@ pub fn guaranteed_angle(lambda_rad: f64) -> f64 {
 
 /// What κ the theory covers for this domain: whether a bound that holds is proven or merely reached.
 fn status_of_angle_bound(ev: &Evidence, kappa: f64) -> Status {
-    // What theory says of our engine says nothing of a mesh from elsewhere; and triangles left alone for their size are no part of it.
+    // What theory says of our engine says nothing of a mesh from elsewhere; and triangles left alone for their size are
+    // no part of it.
     let ours = ev.domain.filter(|_| !ev.promise.foreign && ev.promise.sizing.min_edge.is_none());
     let covered = |domain: &Domain| {
         let lens = domain.curves().iter().map(|c| c.curve.lens_angle(0.0, 1.0)).fold(0.0, f64::max);
@@ -49,8 +57,9 @@ fn status_of_angle_bound(ev: &Evidence, kappa: f64) -> Status {
     if ours.is_some_and(|domain| kappa < covered(domain)) { Status::Proven } else { Status::Reached }
 }
 
-/// No triangle beside an edge has its far corner inside the circle of the other, exactly. Checked: edges with two triangles. Worst: the
-/// largest sum of the two angles that face an edge, in degrees (180 where all four corners lie on a circle).
+/// No triangle beside an edge has its far corner inside the circle of the other, exactly. Checked: edges with two
+/// triangles. Worst: the largest sum of the two angles that face an edge, in degrees (180 where all four corners lie on
+/// a circle).
 pub fn delaunay(ev: &Evidence) -> Check {
     let mut tally = Tally::highest("delaunay");
     for edge in ev.edges.edges() {
@@ -87,8 +96,8 @@ fn facing([x, y]: [Point; 2], a: Point, b: Point) -> f64 {
 /// Engine and judge compute an angle by different formulas, each a few ε off times at most 1/κ; in radians.
 const ANGLE: f64 = 1e-12;
 
-/// Where asked: every triangle has all angles ≥ κ, or a corner excuses it (Lemma 6; with corner arcs: all three of its nodes lie in one
-/// ball). Worst: the smallest angle without excuse, in degrees. Also returns the excuses, by ball.
+/// Where asked: every triangle has all angles ≥ κ, or a corner excuses it (Lemma 6; with corner arcs: all three of its
+/// nodes lie in one ball). Worst: the smallest angle without excuse, in degrees. Also returns the excuses, by ball.
 pub fn min_angle(ev: &Evidence, balls: &[SoundBall]) -> (Check, Vec<Excuse>) {
     let Some(kappa) = ev.promise.angle_min_rad else { return (Check::not_asked("min_angle"), Vec::new()) };
     let mut tally = Tally::lowest("min_angle");
@@ -131,7 +140,8 @@ fn excuse_of_min_edge(ev: &Evidence, too_small: &[TriangleId]) -> Option<Excuse>
     Some(Excuse { at: [at.x, at.y], radius, why: "min_edge", cells: too_small.iter().map(|t| t.0).collect() })
 }
 
-/// With corner arcs: no angle of any triangle, excused or not, is above max(180° − 2κ, 90°) (section 6). Worst in degrees.
+/// With corner arcs: no angle of any triangle, excused or not, is above max(180° − 2κ, 90°) (section 6). Worst in
+/// degrees.
 pub fn max_angle(ev: &Evidence) -> Check {
     let Some(kappa) = ev.promise.angle_min_rad.filter(|_| ev.promise.corner_arcs) else {
         return Check::not_asked("max_angle");
@@ -167,8 +177,8 @@ struct Corners<'a> {
     hierarchy: BoxHierarchy,
 }
 
-/// Engine and judge each round a circumcenter; 1e-9 of the radius is above either for angles down to 1e-6, and what is thinner gets
-/// the rounding of its own circle on top.
+/// Engine and judge each round a circumcenter; 1e-9 of the radius is above either for angles down to 1e-6, and what is
+/// thinner gets the rounding of its own circle on top.
 const CENTER: f64 = 1e-9;
 
 impl<'a> Corners<'a> {
@@ -230,7 +240,8 @@ impl Circle {
         let to_center = crate::geometry::Vec2::new(v.y * uu - u.y * vv, u.x * vv - v.x * uu) / (2.0 * cross);
         let radius = to_center.hypot();
         let (least, _) = angle_range([a, b, c]);
-        // The cross product of edges that meet at an angle θ is a few ε/sin θ off, and the centre as much of the radius.
+        // The cross product of edges that meet at an angle θ is a few ε/sin θ off, and the centre as much of the
+        // radius.
         let error = 16.0 * f64::EPSILON * radius / libm::sin(least).abs();
         (radius.is_finite() && error.is_finite()).then_some(Self { center: a + to_center, radius, error })
     }
@@ -256,6 +267,15 @@ mod tests {
             approx::assert_abs_diff_eq!(guaranteed_angle(tau).to_degrees(), any, epsilon = 5e-4);
             approx::assert_abs_diff_eq!(guaranteed_angle(0.5 * tau).to_degrees(), arcs, epsilon = 5e-4);
         }
+    }
+
+    #[test]
+    fn the_short_form_of_zeta_is_the_printed_one_with_twice_the_angle() {
+        for lambda in [0.02, 0.1, 0.5, PI / 3.0] {
+            let zeta = SQRT_2 * libm::sin(lambda) / (libm::sin(lambda) + libm::cos(lambda) - 1.0);
+            approx::assert_relative_eq!(zeta, SQRT_2 / (1.0 - libm::tan(0.5 * lambda)), max_relative = 1e-12);
+        }
+        assert_eq!(guaranteed_angle(2.0), 0.0);
     }
 
     #[test]

@@ -26,8 +26,8 @@ pub struct SoundBall {
     pub why: &'static str,
 }
 
-/// `ball_radius`, `lfs_ratio` and the balls that passed both. A foreign mesh has no balls of its own: every acute corner is given the
-/// largest, (√2−1)·lfs₀, and nothing is checked.
+/// `ball_radius`, `lfs_ratio` and the balls that passed both. A foreign mesh has no balls of its own: every acute
+/// corner is given the largest, (√2−1)·lfs₀, and nothing is checked.
 pub fn judge(ev: &Evidence, domain: &Domain) -> (Check, Check, Vec<SoundBall>) {
     let lfs0 = domain.lfs0();
     if ev.promise.foreign {
@@ -105,8 +105,8 @@ fn balls_that_meet(ev: &Evidence, domain: &Domain) -> Vec<Option<PointId>> {
     met
 }
 
-/// lfs(p) ≤ C₀·d(p) (Lemma 4; with corner arcs C₀ = max(1+√2, 1.5/β)). Balls that a size limit capped are exempt, where there is such a
-/// limit. Worst: the largest lfs/d.
+/// lfs(p) ≤ C₀·d(p) (Lemma 4; with corner arcs C₀ = max(1+√2, 1.5/β)). Balls that a size limit capped are exempt, where
+/// there is such a limit. Worst: the largest lfs/d.
 fn ratio(ev: &Evidence, domain: &Domain) -> (Check, Vec<bool>) {
     let mut tally = Tally::highest("lfs_ratio");
     let lfs = domain.lfs();

@@ -1,4 +1,5 @@
-//! What the curves of the domain ask of the mesh: nodes on them, chains of edges along them, empty diametral circles, small errors.
+//! What the curves of the domain ask of the mesh: nodes on them, chains of edges along them, empty diametral circles,
+//! small errors.
 
 use super::evidence::{Evidence, Piece, is_kept, place};
 use super::tally::Tally;
@@ -11,8 +12,9 @@ use crate::geometry::exact::{CircleSide, in_diametral};
 use crate::geometry::{Point, Rect};
 use crate::ids::{CurveId, Id, IdVec, PointId, VertexId};
 
-/// Every linked node lies where its curve has the parameter, within the welding distance and rounding; ends lie exactly on points of P.
-/// Of a foreign mesh: every node at which a region ends lies on some curve. Worst: the largest distance.
+/// Every linked node lies where its curve has the parameter, within the welding distance and rounding; ends lie exactly
+/// on points of P. Of a foreign mesh: every node at which a region ends lies on some curve. Worst: the largest
+/// distance.
 pub fn on_curve(ev: &Evidence, domain: &Domain) -> Check {
     let mut tally = Tally::highest("on_curve");
     // A weld moves a curve by at most the tolerance; evaluation and storing round.
@@ -74,8 +76,8 @@ fn stray_nodes(ev: &Evidence, domain: &Domain, tally: &mut Tally) {
     }
 }
 
-/// Every curve with a kept side is one chain of edges from its first point to its last, its parameters ascending, without a gap, and
-/// grouped by curve. Checked: curves.
+/// Every curve with a kept side is one chain of edges from its first point to its last, its parameters ascending,
+/// without a gap, and grouped by curve. Checked: curves.
 pub fn curve_chain(ev: &Evidence, domain: &Domain) -> Check {
     let mut tally = Tally::highest("curve_chain");
     let node = nodes_of_points(ev, domain);
@@ -114,8 +116,9 @@ fn gap_in(ev: &Evidence, chain: &[Piece], ends: [Option<VertexId>; 2]) -> Option
     Some(format!("has a gap after t = {}, node {} at {}", torn[0].t[1], torn[0].nodes[1].0, at(torn[0].nodes[1])))
 }
 
-/// No node lies inside the diametral circle of a curve's edge (Lemma 6): the apexes beside each edge first, then every node of the mesh
-/// by a hierarchy over the circles' boxes. Checked: edges. Worst: the smallest distance of a node from the circle's centre, in radii.
+/// No node lies inside the diametral circle of a curve's edge (Lemma 6): the apexes beside each edge first, then every
+/// node of the mesh by a hierarchy over the circles' boxes. Checked: edges. Worst: the smallest distance of a node from
+/// the circle's centre, in radii.
 pub fn empty_diametral(ev: &Evidence, domain: &Domain) -> Check {
     let mut tally = Tally::lowest("empty_diametral");
     let mut intruder: Vec<Option<VertexId>> = vec![None; ev.pieces.len()];
@@ -185,8 +188,8 @@ pub fn edge_turning(ev: &Evidence, domain: &Domain) -> Check {
     along_pieces(ev, domain, "edge_turning", limit, "turns", Curve::turning)
 }
 
-/// Equal cuts of a curve are found by iteration and stored as rounded parameters; 1e-9 of the limit is far above either and below
-/// what anyone can see.
+/// Equal cuts of a curve are found by iteration and stored as rounded parameters; 1e-9 of the limit is far above either
+/// and below what anyone can see.
 const MEASURED_TWICE: f64 = 1e-9;
 
 fn along_pieces(

@@ -12,8 +12,8 @@ use crate::size::Source;
 /// A length is measured from rounded coordinates: a few ε, and 1e-12 is thousands of them.
 const MEASURED: f64 = 1.0 + 1e-12;
 
-/// Where asked: no cell exceeds a limit: edges against `max_edge` and the sources, areas against `max_area` and the regions' own limits.
-/// Checked: triangles and listed edges. Worst: the largest size, in limits.
+/// Where asked: no cell exceeds a limit: edges against `max_edge` and the sources, areas against `max_area` and the
+/// regions' own limits. Checked: triangles and listed edges. Worst: the largest size, in limits.
 pub fn size(ev: &Evidence) -> Check {
     let limits = Limits::of(ev);
     if !limits.any() {
@@ -135,8 +135,8 @@ impl Near {
     }
 }
 
-/// For every region name: the triangles' area and that between the chords and their curves add up to what the curves enclose.
-/// Checked: region names. Worst: the largest difference.
+/// For every region name: the triangles' area and that between the chords and their curves add up to what the curves
+/// enclose. Checked: region names. Worst: the largest difference.
 pub fn area(ev: &Evidence, domain: &Domain) -> Check {
     let mut tally = Tally::highest("area");
     let mut sums = vec![Sums::default(); ev.classes.names.len()];
@@ -152,8 +152,8 @@ pub fn area(ev: &Evidence, domain: &Domain) -> Check {
         tally.count();
         let off = (sum.triangles + sum.lenses - sum.asked).abs();
         tally.measure(off, bounds.center());
-        // Sums of a million rounded terms keep about nine digits of the box at worst; a rim that moved by the weld or by rounding
-        // sweeps its own length times that.
+        // Sums of a million rounded terms keep about nine digits of the box at worst; a rim that moved by the weld or
+        // by rounding sweeps its own length times that.
         let slack = 1e-9 * bounds.area() + (domain.tolerance() + ev.rounding) * sum.rim;
         if off.is_nan() || off > slack {
             let (has, asked) = (sum.triangles + sum.lenses, sum.asked);
@@ -199,8 +199,8 @@ fn add_lenses(ev: &Evidence, domain: &Domain, sums: &mut [Sums]) {
     }
 }
 
-/// Every region name and every name of a curve with a kept side is in the mesh, and each edge on a curve has the curve's name. n/a of a
-/// foreign mesh without names. Checked: names and edges.
+/// Every region name and every name of a curve with a kept side is in the mesh, and each edge on a curve has the
+/// curve's name. n/a of a foreign mesh without names. Checked: names and edges.
 pub fn names(ev: &Evidence, domain: &Domain) -> Check {
     let mesh = ev.mesh;
     if ev.promise.foreign && mesh.edges.is_empty() && mesh.regions.len() <= 1 {

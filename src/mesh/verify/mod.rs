@@ -1,18 +1,21 @@
-//! The judge: (Domain, Mesh, Promise) → Verdict. It shares with the kernels only what lies below them, and believes nothing.
+//! The judge: (Domain, Mesh, Promise) → Verdict. It shares with the kernels only what lies below them, and believes
+//! nothing.
 //!
-//! Links between nodes and curves are evaluated again, balls are measured against the domain, edges are counted from the triangles.
-//! What the single checks say adds up: every triangle runs counter-clockwise (*orientation*), every edge has at most one triangle on
-//! either side (*manifold*), and the edges at which a region ends are exactly the chords of its curves, each once and with the region
-//! on the right side (*conforming*, *curve_chain*). The number of triangles of a region that cover a point is therefore the winding
-//! number of the chords around it; and since no two chords cross (*empty_diametral*: of two crossing segments one has an end in the
-//! other's circle), that number is 0 or 1: the triangles tile the region, without overlap. Locally Delaunay edges (*delaunay*) and
-//! empty diametral circles at the rim then make the tiling Delaunay as a whole.
+//! Links between nodes and curves are evaluated again, balls are measured against the domain, edges are counted from
+//! the triangles. What the single checks say adds up: every triangle runs counter-clockwise (*orientation*), every edge
+//! has at most one triangle on either side (*manifold*), and the edges at which a region ends are exactly the chords of
+//! its curves, each once and with the region on the right side (*conforming*, *curve_chain*). The number of triangles
+//! of a region that cover a point is therefore the winding number of the chords around it; and since no two chords
+//! cross (*conforming*) and none has a node on it (*empty_diametral*), that number is 0 or 1: the triangles tile the
+//! region, without overlap. Locally Delaunay edges (*delaunay*) and empty diametral circles at the rim then make the
+//! tiling Delaunay as a whole.
 //!
-//! **Proven or reached.** A check of the output is `proven` where it holds, since nothing is left to believe. The angle bounds are
-//! `proven` only where [`guaranteed_angle`] covers κ, so that no input of that turning could have missed it; else `reached`.
+//! **Proven or reached.** A check of the output is `proven` where it holds, since nothing is left to believe. The angle
+//! bounds are `proven` only where [`guaranteed_angle`] covers κ, so that no input of that turning could have missed it;
+//! else `reached`.
 //!
-//! Signs come from [`crate::geometry::exact`] on coordinates scaled to unit magnitude; everything measured is plain `f64` and its
-//! tolerance is derived where it stands.
+//! Signs come from [`crate::geometry::exact`] on coordinates scaled to unit magnitude; everything measured is plain
+//! `f64` and its tolerance is derived where it stands.
 
 mod angles;
 mod balls;
@@ -68,7 +71,8 @@ pub struct Check {
     /// How many things were checked, and how many failed.
     pub checked: usize,
     pub broken: usize,
-    /// How many things the check does not apply to, for a reason that stands elsewhere (balls that a size limit capped).
+    /// How many things the check does not apply to, for a reason that stands elsewhere (balls that a size limit
+    /// capped).
     #[serde(skip_serializing_if = "is_zero")]
     pub exempt: usize,
     /// The worst value met, and where.
@@ -111,10 +115,11 @@ fn is_zero(n: &usize) -> bool {
     *n == 0
 }
 
-/// Judges a mesh against the domain (already τ-split) and a promise. `None` for a mesh whose curves are unknown: checks that need them are n/a.
+/// Judges a mesh against the domain (already τ-split) and a promise. `None` for a mesh whose curves are unknown: checks
+/// that need them are n/a.
 ///
-/// The checks come in the contract's order, each once, `n/a` included. A mesh whose ids lead nowhere or whose coordinates are not
-/// finite has `manifold` broken, with the culprits, and everything else `n/a`.
+/// The checks come in the contract's order, each once, `n/a` included. A mesh whose ids lead nowhere or whose
+/// coordinates are not finite has `manifold` broken, with the culprits, and everything else `n/a`.
 pub fn verify(domain: Option<&Domain>, mesh: &Mesh, promise: &Promise) -> Verdict {
     let unreadable = evidence::unreadable(domain, mesh);
     if !unreadable.is_empty() {
