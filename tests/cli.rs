@@ -126,13 +126,17 @@ fn help_and_version_answer() {
     }
 }
 
+/// A meshing of the square with more options.
+fn with<'a>(more: &[&'a str]) -> Vec<&'a str> {
+    [&["mesh", "square.poly", "-o", "a.vtu"], more].concat()
+}
+
 #[test]
 fn wrong_usage_is_2_and_leaves_nothing() {
     let bench = Bench::new("usage");
     fs::write(bench.0.join("word.toml"), "beta = 'much'\n").unwrap();
     fs::write(bench.0.join("key.toml"), "beto = 0.9\n").unwrap();
     let inputs = bench.made();
-    let with = |more: &[&str]| [&["mesh", "square.poly", "-o", "a.vtu"], more].concat();
     let wrong: Vec<Vec<&str>> = vec![
         vec![],
         vec!["mash"],
