@@ -23,6 +23,7 @@ use crate::geometry::boxes::BoxHierarchy;
 use crate::geometry::exact::{Orientation, orient};
 use crate::geometry::{Point, Rect, Vec2, bounds_of, magnitude, scaled, unit_scale};
 use std::borrow::Cow;
+use std::f64::consts::FRAC_1_SQRT_2;
 
 /// Part of the chord below which two points are one: files carry five or six decimals, so nearer is rounding.
 const SAME: f64 = 1e-6;
@@ -317,26 +318,30 @@ fn gather(rows: &[Row], start: usize, notes: &mut Vec<String>) -> Result<Vec<Vec
                 ));
             }
             _ => {
+                drop_numbers_in_text(&mut elements[here], before_text);
                 (gap, before_text) = (true, Some(elements[here].len()));
                 text_lines += 1;
             }
         }
-        if let Some(cut) = before_text.filter(|_| i + 1 == rows.len()) {
-            let here = elements.len() - 1;
-            // Fewer than three points make no surface: numbers in the text.
-            if elements[here].len() - cut < 3 {
-                elements[here].truncate(cut);
-            }
-        }
+    }
+    if let Some(last) = elements.last_mut() {
+        drop_numbers_in_text(last, before_text);
     }
     if text_lines > 0 {
-        notes.push(format!("Text among or behind the coordinates was passed over ({text_lines} lines)."));
+        notes.push(format!("Lines of text among or behind the coordinates, passed over: {text_lines}."));
     }
     if extra_columns {
         notes.push("What follows the first two numbers of a line was passed over.".into());
     }
     elements.retain(|e| !e.is_empty());
     Ok(elements)
+}
+
+/// Fewer than three points behind a line of text make no surface: they are numbers in the text.
+fn drop_numbers_in_text(element: &mut Vec<Sample>, before_text: Option<usize>) {
+    if let Some(cut) = before_text.filter(|&cut| cut > 0 && element.len() - cut < 3) {
+        element.truncate(cut);
+    }
 }
 
 /// Sections that span 50 to 150 are in percent of chord.
@@ -480,9 +485,11 @@ impl Contour {
             notes.push(format!("The trailing edge had a gap of {:.1e} and was closed.", gap.hypot()));
             return;
         }
-        // The closing edge goes on as a surface does (turning less than 45°): the point there is missing, the end is not blunt.
-        let goes_on =
-            |along: Vec2, next: Vec2| along.dot(next) > std::f64::consts::FRAC_1_SQRT_2 * along.hypot() * next.hypot();
+        // The closing edge lies along the chord and goes on as a surface does (turning less than 45°): the point there is missing,
+        // the end is not blunt.
+        let goes_on = |along: Vec2, next: Vec2| {
+            gap.x.abs() > gap.y.abs() && along.dot(next) > FRAC_1_SQRT_2 * along.hypot() * next.hypot()
+        };
         if goes_on(last - self.points[n - 2], gap) {
             self.points.push(first);
         } else if goes_on(gap, self.points[1] - first) {
@@ -556,6 +563,10 @@ fn join(mut a: Vec<Point>, mut b: Vec<Point>) -> Vec<Point> {
     } else {
         b.reverse();
     }
+    // The nose ends the one and starts the other.
+    if a.last() == b.first() {
+        a.pop();
+    }
     a.extend(b);
     a
 }
@@ -599,7 +610,7 @@ fn merge_repeated(points: &mut Vec<Point>, tolerance: f64, notes: &mut Vec<Strin
         points[n - 1] = last;
     }
     if n < before {
-        notes.push(format!("{} repeated points became one with their neighbours.", before - n));
+        notes.push(format!("Repeated points that became one with their neighbours: {}.", before - n));
     }
 }
 

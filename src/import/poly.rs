@@ -53,24 +53,23 @@ impl<'a> Iterator for Rows<'a> {
     }
 }
 
-impl Row<'_> {
-    /// The first `N` numbers of the row.
-    fn take<const N: usize>(self, what: &str) -> Result<[f64; N], ImportError> {
+impl<'a> Row<'a> {
+    /// The first `N` numbers of the row, and the tokens after them.
+    fn take<const N: usize>(self, what: &str) -> Result<([f64; N], impl Iterator<Item = &'a [u8]>), ImportError> {
         let mut values = [0.0; N];
-        let mut tokens = numbers(self.text);
+        let mut rest = tokens(self.text);
         for (i, value) in values.iter_mut().enumerate() {
-            *value = match tokens.next() {
-                Some(Some(value)) => value,
-                Some(None) => return Err(self.error(format!("{what}: item {} is not a finite number", i + 1))),
-                None => return Err(self.error(format!("{what} needs {N} numbers, but has {i}"))),
-            };
+            let token = rest.next().ok_or_else(|| self.error(format!("{what} needs {N} numbers, but has {i}")))?;
+            let wrong = || self.error(format!("{what}: item {} is not a finite number", i + 1));
+            *value = number(token).ok_or_else(wrong)?;
         }
-        Ok(values)
+        Ok((values, rest))
     }
 
-    /// Number `i` of the row, where there is one.
-    fn optional(self, i: usize) -> Option<f64> {
-        tokens(self.text).nth(i).and_then(number)
+    /// A row that starts with a count.
+    fn take_count(self, what: &str) -> Result<usize, ImportError> {
+        let ([count], _) = self.take(&format!("the count of {what}"))?;
+        self.count(count, what)
     }
 
     fn error(self, what: impl Into<String>) -> ImportError {
@@ -117,15 +116,20 @@ fn whole(value: f64) -> Option<i64> {
     (value == value.trunc() && value.abs() < 9_007_199_254_740_992.0).then_some(value as i64)
 }
 
+/// A boundary marker: 0 where there is none, or what stands there is no whole number.
+fn as_marker(token: Option<&[u8]>) -> i64 {
+    token.and_then(number).and_then(whole).unwrap_or(0)
+}
+
 /// The header `count dimension attributes markers`, the last two optional.
 fn vertex_header(row: Row) -> Result<(usize, usize, bool), ImportError> {
-    let [count, dimension] = row.take("the vertex header (count, dimension, attributes, markers)")?;
+    let ([count, dimension], mut rest) = row.take("the vertex header (count, dimension, attributes, markers)")?;
     let count = row.count(count, "vertices")?;
     if dimension != 2.0 {
         return Err(row.error(format!("the dimension is {dimension}, but a planar file has 2")));
     }
-    let attributes = row.count(row.optional(2).unwrap_or(0.0), "attributes")?;
-    Ok((count, attributes, row.optional(3).unwrap_or(0.0) != 0.0))
+    let attributes = row.count(rest.next().and_then(number).unwrap_or(0.0), "attributes")?;
+    Ok((count, attributes, rest.next().and_then(number).unwrap_or(0.0) != 0.0))
 }
 
 fn read_vertices(rows: &mut Rows, header: Row, notes: &mut Vec<String>) -> Result<Vertices, ImportError> {
@@ -136,11 +140,11 @@ fn read_vertices(rows: &mut Rows, header: Row, notes: &mut Vec<String>) -> Resul
     let mut given = Vec::with_capacity(room);
     for i in 0..count {
         let row = expect(rows, header, "vertices", i, count)?;
-        let [n, x, y] = row.take("a vertex (number, x, y)")?;
+        let ([n, x, y], mut rest) = row.take("a vertex (number, x, y)")?;
         given.push((whole(n).ok_or_else(|| row.error(format!("{n} is no vertex number")))?, row.line));
         points.push(Point::new(x, y));
-        let marker = marked.then(|| row.optional(3usize.saturating_add(attributes))).flatten();
-        markers.push(marker.and_then(whole).unwrap_or(0));
+        let marker = if marked { rest.nth(attributes) } else { None };
+        markers.push(as_marker(marker));
     }
     Ok(Vertices { points, markers, numbering: numbering(&given, notes)? })
 }
@@ -245,8 +249,8 @@ fn read_segments(rows: &mut Rows, vertices: &Vertices, drawing: &mut Drawing) ->
         drawing.notes.push("The file ends before the segments.".into());
         return Ok(add_hull(vertices, drawing));
     };
-    let [count] = header.take("the segment header (count, markers)")?;
-    let marked = header.optional(1).unwrap_or(0.0);
+    let ([count], mut rest) = header.take("the segment header (count, markers)")?;
+    let marked = rest.next().and_then(number).unwrap_or(0.0);
     if marked != 0.0 && marked != 1.0 {
         let what = "expected the segment header (count, then 0 or 1 for markers), found something else";
         return Err(ImportError::at(header.line, what, "does the count of vertices fit the lines that follow it?"));
@@ -261,7 +265,7 @@ fn read_segments(rows: &mut Rows, vertices: &Vertices, drawing: &mut Drawing) ->
     drawing.curves.reserve(count.min(rows.rest.len() / 6 + 1));
     for i in 0..count {
         let row = expect(rows, header, "segments", i, count)?;
-        let [n, a, b] = row.take("a segment (number, start, end)")?;
+        let ([n, a, b], mut rest) = row.take("a segment (number, start, end)")?;
         let end = |v: f64| vertices.find(v).ok_or_else(|| row.error(format!("segment {n}: there is no vertex {v}")));
         let (a, b) = (end(a)?, end(b)?);
         if a == b {
@@ -269,7 +273,7 @@ fn read_segments(rows: &mut Rows, vertices: &Vertices, drawing: &mut Drawing) ->
             continue;
         }
         (used[a], used[b]) = (true, true);
-        let marker = if marked == 1.0 { row.optional(3).and_then(whole).unwrap_or(0) } else { 0 };
+        let marker = if marked == 1.0 { as_marker(rest.next()) } else { 0 };
         let name = names.name(&mut drawing.names, marker);
         let curve =
             Curve::line(vertices.points[a], vertices.points[b]).map_err(|e| row.error(format!("segment {n}: {e}")))?;
@@ -287,10 +291,10 @@ fn read_holes(rows: &mut Rows, drawing: &mut Drawing) -> Result<(), ImportError>
         drawing.notes.push("The file ends before the hole points; there are none.".into());
         return Ok(());
     };
-    let count = header.count(header.take::<1>("the count of holes")?[0], "holes")?;
+    let count = header.take_count("holes")?;
     for i in 0..count {
         let row = expect(rows, header, "holes", i, count)?;
-        let [n, x, y] = row.take("a hole point (number, x, y)")?;
+        let ([n, x, y], _) = row.take("a hole point (number, x, y)")?;
         drawing.seeds.push(Seed { at: Point::new(x, y), kind: SeedKind::Hole, entity: format!("hole {n}") });
     }
     Ok(())
@@ -298,14 +302,14 @@ fn read_holes(rows: &mut Rows, drawing: &mut Drawing) -> Result<(), ImportError>
 
 fn read_regions(rows: &mut Rows, drawing: &mut Drawing) -> Result<(), ImportError> {
     let Some(header) = rows.next() else { return Ok(()) };
-    let count = header.count(header.take::<1>("the count of regions")?[0], "regions")?;
+    let count = header.take_count("regions")?;
     for i in 0..count {
         let row = expect(rows, header, "regions", i, count)?;
-        let [n, x, y] = row.take("a region point (number, x, y, attribute, largest area)")?;
-        let attribute = row.optional(3).unwrap_or(n);
+        let ([n, x, y], mut rest) = row.take("a region point (number, x, y, attribute, largest area)")?;
+        let attribute = rest.next().and_then(number).unwrap_or(n);
         let name = drawing.names.intern(&attribute.to_string());
         // Triangle reads a negative area as "no limit".
-        let kind = SeedKind::Region { name, max_area: row.optional(4).filter(|&a| a > 0.0) };
+        let kind = SeedKind::Region { name, max_area: rest.next().and_then(number).filter(|&a| a > 0.0) };
         drawing.seeds.push(Seed { at: Point::new(x, y), kind, entity: format!("region {n}") });
     }
     Ok(())
