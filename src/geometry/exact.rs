@@ -207,12 +207,12 @@ mod tests {
 
     #[test]
     fn a_right_angle_lies_on_the_diametral_circle_whatever_the_offset() {
-        for offset in [0.0, 1.0, 1e7, 1e-9] {
+        // 2^-20 and 1e7 can be added to 1 and taken away again without rounding.
+        for offset in [0.0, 1.0, 1e7, 0.000_000_953_674_316_406_25] {
             let (x, y) = (Point::new(offset, 0.0), Point::new(offset, 2.0));
             let p = Point::new(offset + 1.0, 1.0);
-            if (offset + 1.0) - offset == 1.0 {
-                assert_eq!(in_diametral(x, y, p), CircleSide::On);
-            }
+            assert_eq!(p.x - offset, 1.0);
+            assert_eq!(in_diametral(x, y, p), CircleSide::On);
         }
     }
 

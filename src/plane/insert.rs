@@ -4,7 +4,7 @@
 //! changes nothing, [`Delaunay::fill`] replaces it. All signs are exact, so a cavity is always a disk without inner vertices: its
 //! triangles hang together as a tree, and a walk around that tree needs no marks and meets the border in counter-clockwise order.
 //!
-//! **Serial order.** [`Delaunay::new`] inserts in rounds of doubling size, each along a Hilbert curve (`geometry::order`); afterwards
+//! **Serial order.** [`Delaunay::new`] inserts in rounds that grow eightfold, each along a Hilbert curve (`geometry::order`); afterwards
 //! the order is that of the calls. The triangulation, ids included, is a function of the points and that order alone: cocircular
 //! points keep the diagonal that was there first. Looking needs only `&self` and the caller's own [`Cavity`], so that cavities of many points can be
 //! looked at in parallel and those that do not touch filled in the serial order later.

@@ -493,12 +493,12 @@ impl Triangulation {
                 flaws.push(format!("vertex {} is a corner of {degree} triangles but has no side", v.0));
                 continue;
             }
-            if let Some(s) = self.sides_from(v).next().filter(|s| !self.is_alive(s.triangle()) || self.origin(*s) != v)
-            {
+            let s = self.anchors[place];
+            if degree > 0 && (!self.is_alive(s.triangle()) || self.origin(s) != v) {
                 flaws.push(format!("vertex {} has side {}, which does not start there", v.0, s.0));
                 continue;
             }
-            let star = self.sides_from(v).count();
+            let star = if degree > 0 { self.sides_from(v).count() } else { 0 };
             if star != degree {
                 flaws.push(format!("vertex {} is a corner of {degree} triangles, {star} of them in its star", v.0));
             }
@@ -509,5 +509,97 @@ impl Triangulation {
             flaws.push(format!("{vertices} vertices (with infinity), {triangles} triangles: not a sphere"));
         }
         flaws
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A triangle with a vertex in its middle: three finite triangles, three ghosts.
+    fn wheel() -> Triangulation {
+        let mut net = Net::of_triangle([0, 1, 2].map(VertexId), 4);
+        net.star(VertexId(3), &[TriangleId(0)], &[0, 1, 2].map(Side));
+        Triangulation::unlabelled(net, 4)
+    }
+
+    fn assert_flaw(spoil: impl FnOnce(&mut Triangulation), words: &str) {
+        let mut t = wheel();
+        assert_eq!(t.flaws(), Vec::<String>::new());
+        spoil(&mut t);
+        let flaws = t.flaws();
+        assert!(flaws.iter().any(|flaw| flaw.contains(words)), "{words:?} is not among {flaws:?}");
+    }
+
+    #[test]
+    fn planted_damage_is_named() {
+        assert_flaw(|t| t.net.records[0].twins[1] = Side(0), "whose twin is");
+        assert_flaw(|t| t.net.records[2].corners[0] = VertexId(1), "has a corner twice");
+        assert_flaw(|t| t.net.records[2].corners[0] = VertexId(17), "unknown corner 17");
+        assert_flaw(|t| t.net.records[1].corners.swap(0, 1), "its twin ends at");
+        assert_flaw(|t| t.net.records[3] = DEAD, "in a dead triangle");
+        assert_flaw(|t| t.net.records[3] = DEAD, "1 dead triangles, but 0 on the free list");
+        assert_flaw(|t| t.pieces[0][0] = 5, "PieceId(5)");
+        assert_flaw(|t| t.regions.truncate(2), "2 regions");
+        assert_flaw(|t| t.anchors[2] = Side(NONE), "vertex 1 is a corner of 4 triangles but has no side");
+        assert_flaw(|t| t.anchors[2] = t.anchors[3], "vertex 1 has side");
+        assert_flaw(|t| t.anchors[4] = Side(NONE - 2), "vertex 3 has side");
+    }
+
+    #[test]
+    fn two_spheres_or_a_pinched_star_are_no_triangulation() {
+        // The same wheel once more, over the same vertices: every side is sound, no star is whole.
+        let twice = |t: &mut Triangulation| {
+            let shift = t.net.len() as u32;
+            let copy: Vec<Record> = t.net.records.clone();
+            t.net
+                .records
+                .extend(copy.into_iter().map(|r| Record { twins: r.twins.map(|s| Side(s.0 + 3 * shift)), ..r }));
+            t.pieces.resize(t.net.len(), [NONE; 3]);
+            t.regions.resize(t.net.len(), NONE);
+        };
+        assert_flaw(twice, "6 triangles, 3 of them in its star");
+        assert_flaw(twice, "not a sphere");
+    }
+
+    #[test]
+    fn sides_turn_counter_clockwise_and_know_their_ends() {
+        let t = wheel();
+        let around: Vec<u32> = t.sides_from(VertexId(3)).map(|s| t.target(s).0).collect();
+        let first = around.iter().position(|&v| v == 0).unwrap();
+        assert_eq!([0, 1, 2].map(|i| around[(first + i) % 3]), [0, 1, 2]);
+        let hull: Vec<u32> = t.sides_from(GHOST).map(|s| t.target(s).0).collect();
+        let first = hull.iter().position(|&v| v == 0).unwrap();
+        assert_eq!([0, 1, 2].map(|i| hull[(first + i) % 3]), [0, 2, 1], "clockwise as seen from within");
+        for s in (0..t.triangle_capacity()).flat_map(|k| (0..3).map(move |i| TriangleId::from_index(k).side_of(i))) {
+            assert_eq!(s.next().next(), s.prev());
+            assert_eq!(s.next().prev(), s);
+            assert_eq!((t.origin(s), t.target(s)), (t.target(t.twin(s)), t.origin(t.twin(s))));
+            assert_eq!(t.side_between(t.origin(s), t.target(s)), Some(s));
+        }
+        assert_eq!(t.side_between(VertexId(3), GHOST), None);
+        assert_eq!(t.triangles().count(), 3);
+        assert_eq!(t.sides_from(VertexId(99)).count(), 0);
+    }
+
+    #[test]
+    fn a_flip_carries_the_labels_of_the_outer_sides() {
+        let mut t = wheel();
+        let s = t.side_between(VertexId(3), VertexId(1)).unwrap();
+        let outer = [(0, 1), (1, 2), (2, 3), (3, 0)].map(|(a, b)| (VertexId(a), VertexId(b)));
+        for (i, &(a, b)) in outer.iter().enumerate() {
+            let side = t.side_between(a, b).unwrap();
+            t.set_piece(side, Some(PieceId(i as u32)));
+        }
+        t.set_piece(s, Some(PieceId(77)));
+        t.flip(s);
+        assert_eq!(t.flaws(), Vec::<String>::new());
+        assert_eq!(t.side_between(VertexId(3), VertexId(1)), None);
+        let diagonal = t.side_between(VertexId(0), VertexId(2)).unwrap();
+        assert_eq!(t.piece(diagonal), None);
+        for (i, &(a, b)) in outer.iter().enumerate() {
+            assert_eq!(t.piece(t.side_between(a, b).unwrap()), Some(PieceId(i as u32)));
+            assert_eq!(t.piece(t.side_between(b, a).unwrap()), Some(PieceId(i as u32)));
+        }
     }
 }
