@@ -278,6 +278,7 @@ pub enum Midpoint {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Keep {
+    /// The faces that the fill rule says are inside.
     Inside,
     /// Adds an axis-parallel box named `box` and keeps every bounded face.
     All,
@@ -311,7 +312,9 @@ pub enum TrailingEdge {
 pub enum FillChoice {
     /// The file's own rule.
     Auto,
+    /// Winding number not zero.
     NonZero,
+    /// Odd winding number.
     EvenOdd,
     /// Every bounded face, but those reached from a hole point.
     Regions,

@@ -35,8 +35,15 @@ struct Cli {
 }
 
 const EXIT_CODES: &str = "\
-Exit codes: 0 done, every promise kept · 2 usage · 3 input unreadable · 4 geometry invalid · 5 a requested bound
-missed, or a budget ran out · 6 output not written · 70 our bug (a case file was written) · 130 cancelled";
+Exit codes:
+  0    done, every promise kept
+  2    usage
+  3    input unreadable
+  4    geometry invalid
+  5    a requested bound missed, or a budget ran out
+  6    output not written
+  70   our bug; a case file was written
+  130  cancelled";
 
 #[derive(Subcommand)]
 enum Verb {
@@ -62,8 +69,10 @@ enum Volume {
     Verbose,
 }
 
-/// What ends a verb early: said already, or to be said.
+/// What ends a verb early.
 enum Halt {
+    /// All is said.
+    Said(Exit),
     Usage(String),
     Unreadable(String),
     /// Told by a stage, with the file to point into.

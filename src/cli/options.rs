@@ -5,6 +5,7 @@ use super::say;
 use clap::Args;
 use serde::{Deserialize, Serialize};
 use squinch::import::Format;
+use squinch::pipeline::Exit;
 use squinch::request::{
     BallShrinking, ChordError, EdgeTurning, Engine, FillChoice, Keep, MaxTurning, Midpoint, Order, Request, SizeOf,
     Switch, TrailingEdge,
@@ -161,11 +162,12 @@ fn table(options: &Options) -> toml::Table {
 fn read_config(path: &Path) -> Result<Options, Halt> {
     let shown = path.display().to_string();
     let text = std::fs::read_to_string(path).map_err(|e| Halt::Usage(format!("--config {shown}: {e}")))?;
-    toml::from_str(&text).map_err(|error| {
-        if let Some(span) = error.span() {
+    toml::from_str(&text).map_err(|error| match error.span() {
+        Some(span) => {
             say::pointing(error.message(), None, &shown, &text, span);
+            Halt::Said(Exit::Usage)
         }
-        Halt::Usage(format!("--config {shown}: {}", error.message()))
+        None => Halt::Usage(format!("--config {shown}: {}", error.message())),
     })
 }
 

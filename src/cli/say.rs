@@ -30,6 +30,7 @@ pub fn help(text: &str) {
 /// Says why a verb ended early; the exit code that belongs to it.
 pub fn halt(halt: Halt) -> Exit {
     match halt {
+        Halt::Said(exit) => exit,
         Halt::Usage(text) => {
             error(&text);
             Exit::Usage
@@ -173,12 +174,12 @@ pub fn repair_line(repair: &Repair) -> String {
     format!("({}, {}) {}, moved by {:e}", repair.at[0], repair.at[1], repair.what, repair.size)
 }
 
-/// The end of a run: what went in, what came out, what of it is promised.
+/// The end of a run: what went in, what came out, what of it is promised. Without a mesh the failure says it all.
 pub fn summary(outcome: &Outcome, wrote: &[String], volume: Volume) {
-    if volume == Volume::Quiet {
+    let report = &outcome.report;
+    if volume == Volume::Quiet || report.mesh.is_none() && volume < Volume::Verbose {
         return;
     }
-    let report = &outcome.report;
     let ink = Ink::stderr();
     let row = |name: &str, text: &str| line(&format!("  {}  {text}", ink.dim(&format!("{name:<8}"))));
     line(&format!("{} {}", ink.bold("squinch"), report.input.path));
