@@ -186,6 +186,30 @@ fn ends_are_exact_and_part_reversed_and_welded_curves_keep_the_points() {
 }
 
 #[test]
+fn welding_moves_no_point_much_farther_than_the_ends() {
+    let nearly: Vec<Curve> = vec![
+        Curve::arc(p(0.3, 0.1), 1.0, 0.2, TAU - 1e-6).unwrap(),
+        Curve::ellipse(p(0.3, 0.1), Vec2::new(1., 0.), Vec2::new(0.2, 0.4), 0.2, 1e-6 - TAU).unwrap(),
+        bezier(&[(0., 0.), (1.4, 1.), (-0.4, 1.), (1e-6, 1e-7)]),
+        nurbs_circle(),
+    ];
+    let all = samples().into_iter().map(|(_, curve)| curve).chain(nearly);
+    for (curve, step) in all.flat_map(|c| [(c.clone(), 1e-3), (c, 1e-7)]) {
+        let ends = (curve.start() + Vec2::new(step, 0.0), curve.end() + Vec2::new(-0.3, -0.9) * step);
+        // Opened, moved, and closed.
+        for (start, end) in [ends, (ends.0, ends.0)] {
+            let welded = curve.with_ends(start, end);
+            assert_eq!((welded.point(0.0), welded.point(1.0)), (start, end));
+            let farthest = (start - curve.start()).hypot().max((end - curve.end()).hypot());
+            for t in grid(50, 0.0, 1.0) {
+                let moved = (welded.point(t) - curve.point(t)).hypot();
+                assert!(moved <= 5.0 * farthest + 1e-14, "{curve:?} moved by {moved:e} at {t} for {farthest:e}");
+            }
+        }
+    }
+}
+
+#[test]
 fn derivatives_are_the_limits_of_differences() {
     for Case { name, curve, size, grain } in cases() {
         for t in [0.11, 0.37, 0.52, 0.83] {

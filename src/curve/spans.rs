@@ -315,6 +315,9 @@ pub(super) fn length_of(curve: &Curve, t0: f64, t1: f64) -> f64 {
 pub(super) fn lens_angle(curve: &Curve, t0: f64, t1: f64) -> f64 {
     let (x, y) = (curve.point(t0), curve.point(t1));
     let chord = y - x;
+    if chord == Vec2::ZERO {
+        return std::f64::consts::PI;
+    }
     let pieces = spans(curve, t0, t1);
     let last = pieces.len() - 1;
     // At x and at y the quotient's limit is that of the tangent.
