@@ -254,7 +254,11 @@ impl<'c> Search<'c> {
             piece.t[0] - slack <= t && t <= piece.t[1] + slack
         };
         if inside(p, t) && inside(q, u) {
-            let is_clear = [p.first(), p.last(), q.first(), q.last()].iter().all(|&end| length(end - place) > reach);
+            let is_in = |piece: &Piece, t: f64| {
+                let far = [piece.first(), piece.last()].iter().all(|&end| length(end - place) > reach);
+                far && piece.t[0] <= t && t <= piece.t[1]
+            };
+            let is_clear = is_in(p, t) && is_in(q, u);
             guesses.push(Guess { t, u, root: true, clear: if is_clear { reach } else { 0.0 } });
         }
         true
