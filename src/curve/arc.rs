@@ -1,6 +1,6 @@
 //! Part of a circle.
 
-use super::{CircularArc, CurveError, End, check_finite, length};
+use super::{CircularArc, CurveError, EllipticArc, End, check_finite, length};
 use crate::geometry::{Point, Vec2};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -119,26 +119,52 @@ impl CircularArc {
         CircularArc { start_rad, sweep_rad: self.sweep_rad * (t1 - t0), ends, ..*self }
     }
 
-    /// Candidates for the nearest point: the two where the circle's normal passes through p.
-    pub(super) fn normals_through(&self, p: Point, t0: f64, t1: f64) -> Vec<f64> {
-        let from_center = p - self.center;
-        let angle = libm::atan2(from_center.y, from_center.x);
-        passages(self.start_rad, self.sweep_rad, angle, PI, t0, t1)
+    pub(super) fn as_ellipse(&self) -> EllipticArc {
+        let (u, v) = (Vec2::new(self.radius, 0.0), Vec2::new(0.0, self.radius));
+        let CircularArc { center, start_rad, sweep_rad, ends, .. } = *self;
+        EllipticArc { center, u, v, start_rad, sweep_rad, ends }
     }
 
-    /// Where the line meets the circle.
+    /// The image under a similarity (up to 4 ulp); `None` where the map is none.
+    pub(super) fn transformed(&self, map: kurbo::Affine) -> Option<Self> {
+        let [a, b, c, d, _, _] = map.as_coeffs();
+        let slack = 4.0 * f64::EPSILON * length(Vec2::new(a, b));
+        let turn = libm::atan2(b, a);
+        let (start_rad, sweep_rad) = if (a - d).abs() <= slack && (b + c).abs() <= slack {
+            (self.start_rad + turn, self.sweep_rad)
+        } else if (a + d).abs() <= slack && (b - c).abs() <= slack {
+            (turn - self.start_rad, -self.sweep_rad)
+        } else {
+            return None;
+        };
+        let radius = self.radius * length(Vec2::new(a, b));
+        Some(CircularArc { center: map * self.center, radius, start_rad, sweep_rad, ends: self.ends.map(|p| map * p) })
+    }
+
+    /// Candidates for the nearest point: the two where the circle's normal passes through p, by their angles from the start, which
+    /// keep their digits however flat the arc is.
+    pub(super) fn normals_through(&self, p: Point, t0: f64, t1: f64) -> Vec<f64> {
+        let outward = on_circle(self.start_rad).0;
+        let offset = p - self.ends[0];
+        let angle = libm::atan2(outward.cross(offset), self.radius + outward.dot(offset));
+        passages(0.0, self.sweep_rad, angle, PI, t0, t1)
+    }
+
+    /// Where the line meets the circle: with u = tan(φ/2) of the angle φ from the start, h the distance of the start from the line
+    /// and n the line's unit normal, (h/R − 2 n·e) u² + 2 (n·e⊥) u + h/R = 0.
     pub(super) fn line_crossings(&self, a: Point, direction: Vec2, t0: f64, t1: f64) -> Vec<f64> {
-        let unit = direction / length(direction);
-        // Distance of the center from the line, left of it positive; the normal points to the right.
-        let distance = unit.cross(self.center - a);
-        let half_chord = (self.radius - distance) * (self.radius + distance);
-        if !(half_chord > 0.0) {
+        let normal = Vec2::new(-direction.y, direction.x) / length(direction);
+        let (outward, along) = on_circle(self.start_rad);
+        let start = normal.dot(self.ends[0] - a) / self.radius;
+        let (square, half_linear) = (start - 2.0 * normal.dot(outward), normal.dot(along));
+        let discriminant = half_linear * half_linear - start * square;
+        if discriminant <= 0.0 || discriminant.is_nan() {
             return Vec::new();
         }
-        let opening = libm::atan2(half_chord.sqrt(), distance);
-        let normal = libm::atan2(-unit.x, unit.y);
-        let mut found = passages(self.start_rad, self.sweep_rad, normal - opening, TAU, t0, t1);
-        found.extend(passages(self.start_rad, self.sweep_rad, normal + opening, TAU, t0, t1));
+        // The sum without cancellation; the other root by the product of the two.
+        let sum = -(half_linear + discriminant.sqrt().copysign(half_linear));
+        let mut found = passages(0.0, self.sweep_rad, 2.0 * libm::atan2(sum, square), TAU, t0, t1);
+        found.extend(passages(0.0, self.sweep_rad, 2.0 * libm::atan2(start, sum), TAU, t0, t1));
         found.sort_by(f64::total_cmp);
         found
     }
