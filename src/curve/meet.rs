@@ -254,7 +254,11 @@ impl<'c> Search<'c> {
             piece.t[0] - slack <= t && t <= piece.t[1] + slack
         };
         if inside(p, t) && inside(q, u) {
-            let is_clear = [p.first(), p.last(), q.first(), q.last()].iter().all(|&end| length(end - place) > reach);
+            let is_in = |piece: &Piece, t: f64| {
+                let far = [piece.first(), piece.last()].iter().all(|&end| length(end - place) > reach);
+                far && piece.t[0] <= t && t <= piece.t[1]
+            };
+            let is_clear = is_in(p, t) && is_in(q, u);
             guesses.push(Guess { t, u, root: true, clear: if is_clear { reach } else { 0.0 } });
         }
         true
@@ -281,14 +285,15 @@ impl<'c> Search<'c> {
         overlaps.sort_by(|p, q| p.t[0].total_cmp(&q.t[0]).then(p.u[0].total_cmp(&q.u[0])));
         let near = |track: &Track, t: f64, other: f64| {
             let seam = t.min(other) == 0.0 && t.max(other) == 1.0 && track.curve.start() == track.curve.end();
-            let step = tolerance / track.size;
-            seam || (t - other).abs() <= step
+            seam || (t - other).abs() <= tolerance / track.size
+        };
+        let is_one = |at: Point, t: f64, u: f64, other: &Meeting| {
+            length(at - other.at) <= tolerance && near(&a, t, other.t) && near(&b, u, other.u)
         };
         let mut kept: Vec<Meeting> = Vec::new();
         for point in points {
-            let twin =
-                |k: &Meeting| length(k.at - point.at) <= tolerance && near(&a, k.t, point.t) && near(&b, k.u, point.u);
-            if !kept.iter().any(twin) {
+            let ends_stretch = |o: &Overlap| (0..2).any(|k| is_one(a.curve.point(o.t[k]), o.t[k], o.u[k], &point));
+            if !kept.iter().any(|k| is_one(k.at, k.t, k.u, &point)) && !overlaps.iter().any(ends_stretch) {
                 kept.push(point);
             }
         }

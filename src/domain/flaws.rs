@@ -149,7 +149,8 @@ impl Domain {
                         flaws.push(format!("{:?} and {:?} meet at {:?}", ids[0], ids[1], meeting.at));
                     }
                     for overlap in found.overlaps.iter().filter(|o| {
-                        !self.at_common_end(ids, [o.t[0], o.u[0]], rounding) || !self.at_common_end(ids, [o.t[1], o.u[1]], rounding)
+                        !self.at_common_end(ids, [o.t[0], o.u[0]], rounding)
+                            || !self.at_common_end(ids, [o.t[1], o.u[1]], rounding)
                     }) {
                         flaws.push(format!("{:?} and {:?} overlap over {:?}", ids[0], ids[1], overlap.t));
                     }

@@ -185,21 +185,67 @@ fn circles_touch_once_outside_and_inside() {
 
 #[test]
 fn nearly_tangent_circles_are_decided_by_the_depth() {
-    let tolerance = 1e-9;
+    let tolerance = 2e-9;
     for e in 3..=12 {
         let depth = libm::pow(10.0, -f64::from(e));
         let deep = depth > tolerance;
         for make in [circle, round_ellipse] {
-            let (a, b) = (turned(&circle(0.0, 0.0, 1.0), 1.0), turned(&make(2.0 - depth, 0.0, 1.0), 0.5));
-            let b = b.transformed(kurbo::Affine::rotate(-0.5));
-            let found = checked(&a, &b, tolerance);
+            let a = turned(&circle(0.0, 0.0, 1.0), 1.0);
+            let found = checked(&a, &make(2.0 - depth, 0.0, 1.0), tolerance);
             let expected = if deep { (2, 0) } else { (0, 1) };
             let counts = (count_of(&found, MeetingKind::Crossing), count_of(&found, MeetingKind::Touching));
             assert_eq!(counts, expected, "{depth} {found:?}");
-            let apart = turned(&make(2.0 + depth, 0.0, 1.0), 0.0);
+            let apart = make(2.0 + depth, 0.0, 1.0);
             assert_eq!(checked(&a, &apart, tolerance).points.len(), usize::from(!deep), "{depth}");
         }
     }
+}
+
+/// `b` moved so that its point at u is `depth` to the left of a's point at t, with parallel tangents.
+fn laid_on(a: &Curve, t: f64, b: &Curve, u: f64, depth: f64) -> Curve {
+    let (da, db) = (a.derivative(t), b.derivative(u));
+    let angle = libm::atan2(db.cross(da), db.dot(da));
+    let turned = turned(b, angle);
+    let target = a.point(t) + Vec2::new(-da.y, da.x) * (depth / length(da));
+    turned.transformed(kurbo::Affine::translate(target - turned.point(u)))
+}
+
+#[test]
+fn tangent_pairs_of_all_kinds_are_decided_by_the_depth() {
+    let tolerance = 2e-9;
+    let mut next = numbers(12);
+    let mut seen = [0; 3];
+    for k in 0..300 * KINDS * KINDS {
+        let (a, b) = (some_curve(k % KINDS, &mut next), some_curve(k / KINDS % KINDS, &mut next));
+        let (t, u) = (0.5 + 0.3 * next(), 0.5 + 0.3 * next());
+        let depth = libm::pow(10.0, -3.0 - (k % 10) as f64) * next().signum();
+        let b = laid_on(&a, t, &b, u, depth);
+        let bending = b.curvature(u) - a.curvature(t);
+        // The quadratic part of the gap is to govern it up to both crossings, inside both curves.
+        let half = (2.0 * (depth / bending).abs()).sqrt();
+        let room = 0.05 * length(a.derivative(t)).min(length(b.derivative(u)));
+        let bound = 0.2 / (1.0 + a.curvature(t).abs() + b.curvature(u).abs());
+        let bending_at = |along: f64| {
+            let (dt, du) = (along / length(a.derivative(t)), along / length(b.derivative(u)));
+            b.curvature(u + du) - a.curvature(t + dt)
+        };
+        let changes = [-4.0, -2.0, 2.0, 4.0].iter().any(|k| (bending_at(k * half) / bending - 1.0).abs() > 0.3);
+        if bending.abs() < 0.1 || 4.0 * half > room.min(bound) || changes {
+            continue;
+        }
+        let expected = match (depth.abs() > tolerance, depth * bending < 0.0) {
+            (false, _) => vec![MeetingKind::Touching],
+            (true, true) => vec![MeetingKind::Crossing; 2],
+            (true, false) => vec![],
+        };
+        let found = checked(&a, &b, tolerance);
+        let place = a.point(t);
+        let near = |p: &&Meeting| length(p.at - place) < 2.0 * half && (p.t - t).abs().max((p.u - u).abs()) < 0.1;
+        let kinds: Vec<MeetingKind> = found.points.iter().filter(near).map(|p| p.kind).collect();
+        assert_eq!(kinds, expected, "{k} {depth} {bending} {half} {found:?}\n{a:?}\n{b:?} {t} {u}");
+        seen[expected.len()] += 1;
+    }
+    assert!(seen.iter().all(|&n| n > 10), "{seen:?}");
 }
 
 fn parabola() -> Curve {
