@@ -61,6 +61,7 @@ impl Domain {
     }
 
     fn check_regularity(&self, flaws: &mut Vec<String>) {
+        let rounding = self.rounding();
         for (id, curve) in self.curves.enumerate() {
             for at_break in curve.curve.breaks() {
                 flaws.push(format!("{id:?} has a {:?} at t = {}", at_break.kind, at_break.t));
@@ -68,7 +69,7 @@ impl Domain {
             if matches!(curve.curve, Curve::Line(_) | Curve::Arc(_) | Curve::Ellipse(_)) {
                 continue;
             }
-            match self_meetings(&curve.curve, self.rounding()) {
+            match self_meetings(&curve.curve, rounding) {
                 Ok(found) if found.is_empty() => {}
                 Ok(_) => flaws.push(format!("{id:?} meets itself")),
                 Err(_) => flaws.push(format!("{id:?}: its meetings with itself cannot be told")),
@@ -126,6 +127,7 @@ impl Domain {
     }
 
     fn check_meetings(&self, flaws: &mut Vec<String>) {
+        let rounding = self.rounding();
         let boxes = BoxHierarchy::new(self.curves.iter().map(|c| c.curve.bounds()));
         let mut pairs = Vec::new();
         boxes.pairs(|i, j| pairs.push([i, j].map(CurveId::from_index)));
@@ -140,14 +142,15 @@ impl Domain {
                 }
                 continue;
             }
-            match meetings(p, q, self.rounding()) {
+            match meetings(p, q, rounding) {
                 Err(_) => flaws.push(format!("{ids:?}: their meetings cannot be told")),
                 Ok(found) => {
-                    for meeting in found.points.iter().filter(|m| !self.at_common_end(ids, [m.t, m.u])) {
+                    for meeting in found.points.iter().filter(|m| !self.at_common_end(ids, [m.t, m.u], rounding)) {
                         flaws.push(format!("{:?} and {:?} meet at {:?}", ids[0], ids[1], meeting.at));
                     }
                     for overlap in found.overlaps.iter().filter(|o| {
-                        !self.at_common_end(ids, [o.t[0], o.u[0]]) || !self.at_common_end(ids, [o.t[1], o.u[1]])
+                        !self.at_common_end(ids, [o.t[0], o.u[0]], rounding)
+                            || !self.at_common_end(ids, [o.t[1], o.u[1]], rounding)
                     }) {
                         flaws.push(format!("{:?} and {:?} overlap over {:?}", ids[0], ids[1], overlap.t));
                     }
@@ -157,9 +160,9 @@ impl Domain {
     }
 
     /// Whether a meeting is the contact at a common end: from there to the meeting the curves are not apart by more than rounding.
-    fn at_common_end(&self, ids: [CurveId; 2], ts: [f64; 2]) -> bool {
+    fn at_common_end(&self, ids: [CurveId; 2], ts: [f64; 2], rounding: f64) -> bool {
         let [p, q] = ids.map(|id| &self.curves[id]);
-        let rounding = 4.0 * self.rounding();
+        let rounding = 4.0 * rounding;
         (0..2).flat_map(|i| (0..2).map(move |j| (i, j))).filter(|&(i, j)| p.ends[i] == q.ends[j]).any(|(i, j)| {
             let near = |t: f64, end: usize, from: &Curve, to: &Curve| {
                 (1..4).all(|k| {
@@ -263,7 +266,7 @@ impl Domain {
 
     /// Along a level line through every component, each crossing agrees with the next on the region between, and both ends see none.
     fn check_levels(&self, flaws: &mut Vec<String>) {
-        let locator = Locator::new(self);
+        let (locator, rounding) = (Locator::new(self), self.rounding());
         for id in self.first_curves() {
             let bounds = self.curves[id].curve.bounds();
             let (axis, low, high) = match bounds.height() > bounds.width() {
@@ -272,7 +275,7 @@ impl Domain {
             };
             // Another irrational spread than the arranging has: √2 − 1.
             let mut levels = (1..=LINES).map(|k| low + (high - low) * (k as f64 * (2f64.sqrt() - 1.0)).fract());
-            let hits = levels.find_map(|level| locator.hits(axis, level, f64::INFINITY, self.rounding()));
+            let hits = levels.find_map(|level| locator.hits(axis, level, f64::INFINITY, rounding));
             if let Some(hits) = hits {
                 self.check_level(&hits, flaws);
             }
