@@ -18,7 +18,8 @@ struct Frame {
 
 const PLAIN: Frame = Frame { offset: 0, exponent: 0 };
 
-/// Plain, an offset of 10⁴ to 10⁹ times the size, sizes of 1e-6 and 1e7, and neighbours one unit in the last place apart.
+/// Plain, an offset of 10⁴ to 10⁹ times the size, sizes of 1e-6 and 1e7, and neighbours one unit in the last place
+/// apart.
 const FRAMES: [Frame; 5] = [
     PLAIN,
     Frame { offset: 10_000_000_000, exponent: 0 },
@@ -74,7 +75,8 @@ fn line_and_one() -> Vec<Whole> {
     (0..60).map(|i| (3 * ((i * 37) % 60), 5 * ((i * 37) % 60))).chain([(7, 3)]).collect()
 }
 
-/// All on the circle of radius 1105 around the origin: every pair of whole legs of that hypotenuse, with the centre or without.
+/// All on the circle of radius 1105 around the origin: every pair of whole legs of that hypotenuse, with the centre or
+/// without.
 fn on_a_circle(centre: bool) -> Vec<Whole> {
     let r = 1105i64;
     let legs = (-r..=r).flat_map(|x| {
@@ -146,8 +148,8 @@ fn triangles(d: &Delaunay) -> BTreeSet<[u32; 3]> {
     topology.triangles().map(sorted).collect()
 }
 
-/// Proves in whole numbers that `d` is a Delaunay triangulation of those `points` that are `here`: empty circles, all points used,
-/// the hull filled exactly, Euler's number of triangles.
+/// Proves in whole numbers that `d` is a Delaunay triangulation of those `points` that are `here`: empty circles, all
+/// points used, the hull filled exactly, Euler's number of triangles.
 fn prove(name: &str, d: &Delaunay, points: &[Whole], here: impl Fn(usize) -> bool) {
     assert_eq!(d.flaws(), Vec::<String>::new(), "{name}");
     let living: Vec<usize> = (0..points.len()).filter(|&i| here(i)).collect();
@@ -181,7 +183,8 @@ fn insert(d: &mut Delaunay, p: Point, near: TriangleId, cavity: &mut Cavity) -> 
     d.fill(p, cavity)
 }
 
-/// Inserts the points one by one after the first three that span a triangle; vertex i is not point i, so the order is returned.
+/// Inserts the points one by one after the first three that span a triangle; vertex i is not point i, so the order is
+/// returned.
 fn one_by_one(points: &[Whole], frame: Frame) -> (Delaunay, Vec<Whole>) {
     let third = (2..points.len()).find(|&i| doubled_area(points[0], points[1], points[i]) != 0).unwrap();
     let mut order = points.to_vec();
@@ -473,7 +476,8 @@ fn counters_tell_the_work_and_static_filters_settle_random_points() {
     let d = Delaunay::new(PLAIN.place_all(&points)).unwrap();
     let work = d.counters();
     let n = points.len() as u64;
-    // Peers need 9 in-circle tests a point in random order; a point lies in 4 to 6 circles; a walk along the curve is short.
+    // Peers need 9 in-circle tests a point in random order; a point lies in 4 to 6 circles; a walk along the curve is
+    // short.
     assert!((5 * n..14 * n).contains(&work.in_circle), "{work:?}");
     assert!((3 * n..6 * n).contains(&work.cavity_triangles), "{work:?}");
     assert!(work.walk_steps < 10 * n && work.orient < 20 * n, "{work:?}");

@@ -1,8 +1,8 @@
 //! Exact signs: what a kernel may know of coordinates.
 //!
-//! Each sign is decided by a static filter, inlined, and by Shewchuk's adaptive expansions (crate `robust`) where the filter cannot
-//! tell. Coordinates are expected within about 2^±180 ([`super::unit_scale`] brings any drawing there): the expansions have no
-//! overflow guard.
+//! Each sign is decided by a static filter, inlined, and by Shewchuk's adaptive expansions (crate `robust`) where the
+//! filter cannot tell. Coordinates are expected within about 2^±180 ([`super::unit_scale`] brings any drawing there):
+//! the expansions have no overflow guard.
 
 use super::Point;
 use robust::Coord;
@@ -46,7 +46,8 @@ pub fn orient_filtered(a: Point, b: Point, c: Point) -> Option<Orientation> {
     } else if -det > bound {
         Some(Orientation::Clockwise)
     } else if bound == 0.0 {
-        // Both products have a factor 0, and a difference is 0 only of equal numbers: the common case of axis-parallel points.
+        // Both products have a factor 0, and a difference is 0 only of equal numbers: the common case of axis-parallel
+        // points.
         Some(Orientation::Collinear)
     } else {
         None
@@ -106,11 +107,11 @@ pub fn in_circle_filtered(a: Point, b: Point, c: Point, d: Point) -> Option<Circ
     }
 }
 
-/// Where `d` lies to the circle through the counter-clockwise triangle `a b c`, by expansions: for what [`in_circle_filtered`] cannot
-/// tell.
+/// Where `d` lies to the circle through the counter-clockwise triangle `a b c`, in short whole numbers or by
+/// expansions: for what [`in_circle_filtered`] cannot tell.
 #[cold]
 pub fn in_circle_adaptive(a: Point, b: Point, c: Point, d: Point) -> CircleSide {
-    let det = robust::incircle(coord(a), coord(b), coord(c), coord(d));
+    let det = in_circle_short(a, b, c, d).unwrap_or_else(|| robust::incircle(coord(a), coord(b), coord(c), coord(d)));
     if det > 0.0 {
         CircleSide::Inside
     } else if det < 0.0 {
@@ -118,6 +119,30 @@ pub fn in_circle_adaptive(a: Point, b: Point, c: Point, d: Point) -> CircleSide 
     } else {
         CircleSide::On
     }
+}
+
+/// The in-circle determinant, exact, where the points lie on a common coarse grid, as cocircular points of drawings
+/// mostly do.
+///
+/// Where all differences are exact and whole multiples of one u, of at most 2^12 u, then two products make at most 2^25
+/// u², and the three terms at most 3·2^50 u⁴: every number is a multiple of its unit below 2^53 of them, and nothing is
+/// rounded. Measured on a square grid: less than half the time for the whole triangulation.
+fn in_circle_short(a: Point, b: Point, c: Point, d: Point) -> Option<f64> {
+    let pairs = [(a.x, d.x), (a.y, d.y), (b.x, d.x), (b.y, d.y), (c.x, d.x), (c.y, d.y)];
+    let v = pairs.map(|(from, to)| from - to);
+    let largest = v.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+    // With 2^e the leading bit of the largest, u = 2^(e − 11); next to 1.5·2^52·u, numbers are rounded to multiples of
+    // u.
+    let leading = f64::from_bits(largest.to_bits() & (0x7ff << 52));
+    let anchor = 1.5 * (1u64 << 41) as f64 * leading;
+    let coarse = v.iter().all(|&v| (v + anchor) - anchor == v);
+    let exact = pairs.iter().all(|&(from, to)| two_sum(from, -to).1 == 0.0);
+    (coarse && exact).then(|| {
+        let [ax, ay, bx, by, cx, cy] = v;
+        (ax * ax + ay * ay) * (bx * cy - cx * by)
+            + (bx * bx + by * by) * (cx * ay - ax * cy)
+            + (cx * cx + cy * cy) * (ax * by - bx * ay)
+    })
 }
 
 /// Where `p` lies to the diametral circle of the segment `x y`: the sign of (x − p)·(y − p), exact.
@@ -225,6 +250,40 @@ mod tests {
         assert_eq!(in_diametral(x, y, Point::new(0.0, 1.0)), CircleSide::On);
         assert_eq!(in_diametral(x, y, Point::new(0.0, 1.0f64.next_down())), CircleSide::Inside);
         assert_eq!(in_diametral(x, y, Point::new(0.0, 1.0f64.next_up())), CircleSide::Outside);
+    }
+
+    #[test]
+    fn in_circle_agrees_with_whole_numbers_at_any_length() {
+        let mut state = 1u64;
+        let mut below = |bound: i64| {
+            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            (state >> 33) as i64 % bound
+        };
+        let (mut on, mut short) = (0, 0);
+        for i in 0..60_000 {
+            // From small grids, rich in cocircular points, across the longest that the short way takes, to long
+            // numbers.
+            let size = 1i64 << [2, 3, 11, 12, 13, 14, 26][i % 7];
+            let unit = [1.0, 1024.0, 9.313225746154785e-10][i % 3]; // powers of two: 0, 10, -30
+            let offset = [0, 1 << 40][i % 2];
+            let [a, b, c, d] = [0; 4].map(|_| (below(size), below(size)));
+            let at = |(x, y): (i64, i64)| Point::new((offset + x) as f64 * unit, (offset + y) as f64 * unit);
+            let row = |p: (i64, i64)| {
+                let (x, y) = (i128::from(p.0 - d.0), i128::from(p.1 - d.1));
+                (x, y, x * x + y * y)
+            };
+            let ((ax, ay, az), (bx, by, bz), (cx, cy, cz)) = (row(a), row(b), row(c));
+            let det = az * (bx * cy - cx * by) + bz * (cx * ay - ax * cy) + cz * (ax * by - bx * ay);
+            let expected = [CircleSide::Outside, CircleSide::On, CircleSide::Inside][(det.signum() + 1) as usize];
+            assert_eq!(in_circle(at(a), at(b), at(c), at(d)), expected, "{a:?} {b:?} {c:?} {d:?}");
+            assert_eq!(in_circle_adaptive(at(a), at(b), at(c), at(d)), expected);
+            if let Some(value) = in_circle_short(at(a), at(b), at(c), at(d)) {
+                assert_eq!(value, det as f64 * unit * unit * unit * unit);
+                short += 1;
+            }
+            on += usize::from(det == 0);
+        }
+        assert!(on > 4_000 && (30_000..50_000).contains(&short), "{on} cocircular, {short} short");
     }
 
     #[test]

@@ -1,5 +1,5 @@
-//! The order in which points are inserted: rounds that grow eightfold, each along a Hilbert curve (Amenta, Choi & Rote 2003, BRIO),
-//! so that a walk from the last point to the next is short and the expected cost of a cavity is constant.
+//! The order in which points are inserted: rounds that grow eightfold, each along a Hilbert curve (Amenta, Choi & Rote
+//! 2003, BRIO), so that a walk from the last point to the next is short and the expected cost of a cavity is constant.
 
 use super::{Point, Rect, bounds_of};
 
@@ -9,23 +9,26 @@ const LEVELS: u32 = 12;
 /// Levels taken in one step of the curve's automaton.
 const STRIDE: u32 = 4;
 
-/// A cell with more points than this is ordered along a curve of its own; fewer lie within a short walk of each other anyway.
+/// A cell with more points than this is ordered along a curve of its own; fewer lie within a short walk of each other
+/// anyway.
 const CROWD: usize = 16;
 
 /// Fewer points than this are sorted by comparison: below it, clearing the counts of a radix sort costs more.
 const FEW: usize = 2048;
 
-/// Indices of `points` in a good order for insertion. Deterministic: the rounds are drawn by a hash of the place along the curve.
+/// Indices of `points` in a good order for insertion. Deterministic: the rounds are drawn by a hash of the place along
+/// the curve.
 pub fn brio(points: &[Point]) -> Vec<u32> {
     let curve = hilbert(points);
     rounds(curve.len()).into_iter().map(|place| curve[place as usize]).collect()
 }
 
-/// Indices of `points` along the Hilbert curve of their box; in a cell with many, along the curve of the box of those. Equal points
-/// come by their indices.
+/// Indices of `points` along the Hilbert curve of their box; in a cell with many, along the curve of the box of those.
+/// Equal points come by their indices.
 pub fn hilbert(points: &[Point]) -> Vec<u32> {
     let mut keyed = along_curve(points, 0..points.len() as u32);
-    // Each curve divides a box by 2^12 along each axis, so that numbers of any two exponents are told apart after a few.
+    // Each curve divides a box by 2^12 along each axis, so that numbers of any two exponents are told apart after a
+    // few.
     let mut crowds: Vec<(usize, usize)> = crowded(&keyed, 0).collect();
     while let Some((first, end)) = crowds.pop() {
         let indices: Vec<u32> = keyed[first..end].iter().map(|&k| k as u32).collect();
@@ -61,7 +64,8 @@ fn crowded(keyed: &[u64], from: usize) -> impl Iterator<Item = (usize, usize)> {
     })
 }
 
-/// Sorts by the key, bits 32 to 55, and keeps the order of equals: a radix sort in two passes of twelve bits, the lower first.
+/// Sorts by the key, bits 32 to 55, and keeps the order of equals: a radix sort in two passes of twelve bits, the lower
+/// first.
 fn sort_by_key(items: &mut Vec<u64>) {
     const BITS: u32 = LEVELS;
     let mut other = vec![0; items.len()];
@@ -85,7 +89,8 @@ fn sort_by_key(items: &mut Vec<u64>) {
 /// Number of the last round: a hash of 32 zeros belongs to round 0.
 const LAST: u32 = 10;
 
-/// Places 0..n in rounds, each in the direction opposite to that of the round before, so that it starts where that one ended.
+/// Places 0..n in rounds, each in the direction opposite to that of the round before, so that it starts where that one
+/// ended.
 pub fn rounds(n: usize) -> Vec<u32> {
     let mut ends = [0usize; LAST as usize + 1];
     (0..n as u32).for_each(|i| ends[round_of(i) as usize] += 1);
@@ -108,8 +113,9 @@ pub fn rounds(n: usize) -> Vec<u32> {
     order
 }
 
-/// The round of a place: the last, [`LAST`], holds 7/8 of all, the one before 7/64, and so on. Rounds that double, as in the paper,
-/// were measured to take 15 % longer (longer walks), rounds that grow by 16 or 32 no less (larger cavities).
+/// The round of a place: the last, [`LAST`], holds 7/8 of all, the one before 7/64, and so on. Rounds that double, as
+/// in the paper, were measured to take 15 % longer (longer walks), rounds that grow by 16 or 32 no less (larger
+/// cavities).
 fn round_of(place: u32) -> u32 {
     // Finalizer of MurmurHash3 (Appleby): every bit of the index stirs every bit of the result.
     let mut h = place;
@@ -123,7 +129,8 @@ fn round_of(place: u32) -> u32 {
 pub fn hilbert_key(p: Point, bounds: Rect) -> u32 {
     let side = bounds.width().max(bounds.height());
     let cells = f64::from(1u32 << LEVELS);
-    // Conversion saturates, so that a quotient which is no number or too large (a tiny box) ends in some cell all the same.
+    // Conversion saturates, so that a quotient which is no number or too large (a tiny box) ends in some cell all the
+    // same.
     let cell = |v: f64, low: f64| (((v - low) / side * cells) as u32).min((1 << LEVELS) - 1);
     let (x, y) = (cell(p.x, bounds.x0), cell(p.y, bounds.y0));
     let (mut key, mut turn) = (0u32, 0);
@@ -136,8 +143,8 @@ pub fn hilbert_key(p: Point, bounds: Rect) -> u32 {
     key
 }
 
-/// How the curve lies in a quadrant: bit 0, axes exchanged; bit 1, both reversed. By that, and the next [`STRIDE`] digits of x and
-/// of y: the next `2 · STRIDE` digits of the key, and how the curve lies in the cell arrived at.
+/// How the curve lies in a quadrant: bit 0, axes exchanged; bit 1, both reversed. By that, and the next [`STRIDE`]
+/// digits of x and of y: the next `2 · STRIDE` digits of the key, and how the curve lies in the cell arrived at.
 static STEPS: [[[(u8, u8); 1 << STRIDE]; 1 << STRIDE]; 4] = steps();
 
 const fn steps() -> [[[(u8, u8); 1 << STRIDE]; 1 << STRIDE]; 4] {

@@ -1,13 +1,15 @@
 //! Points joined to topology: bulk construction, locating, cavities (looking) and filling (acting).
 //!
-//! Insertion is that of Bowyer (1981) and Watson (1981), in two steps: [`Delaunay::cavity`] looks at what a point would replace and
-//! changes nothing, [`Delaunay::fill`] replaces it. All signs are exact, so a cavity is always a disk without inner vertices: its
-//! triangles hang together as a tree, and a walk around that tree needs no marks and meets the border in counter-clockwise order.
+//! Insertion is that of Bowyer (1981) and Watson (1981), in two steps: [`Delaunay::cavity`] looks at what a point would
+//! replace and changes nothing, [`Delaunay::fill`] replaces it. All signs are exact, so a cavity is always a disk
+//! without inner vertices: its triangles hang together as a tree, and a walk around that tree needs no marks and meets
+//! the border in counter-clockwise order.
 //!
-//! **Serial order.** [`Delaunay::new`] inserts in rounds that grow eightfold, each along a Hilbert curve (`geometry::order`); afterwards
-//! the order is that of the calls. The triangulation, ids included, is a function of the points and that order alone: cocircular
-//! points keep the diagonal that was there first. Looking needs only `&self` and the caller's own [`Cavity`], so that cavities of many points can be
-//! looked at in parallel and those that do not touch filled in the serial order later.
+//! **Serial order.** [`Delaunay::new`] inserts in rounds that grow eightfold, each along a Hilbert curve
+//! (`geometry::order`); afterwards the order is that of the calls. The triangulation, ids included, is a function of
+//! the points and that order alone: cocircular points keep the diagonal that was there first. Looking needs only
+//! `&self` and the caller's own [`Cavity`], so that cavities of many points can be looked at in parallel and those that
+//! do not touch filled in the serial order later.
 
 use super::triangulation::{GHOST, Net, Record, Side, Triangulation, after, before};
 use crate::geometry::exact::{self, CircleSide, Orientation};
@@ -143,8 +145,8 @@ impl<'a> Sight<'a> {
         }
     }
 
-    /// The visibility walk (Devillers, Pion & Teillaud 2002), which never looks back across the side it came by. It ends in any
-    /// Delaunay triangulation; should another one lead it in a circle, every triangle is asked.
+    /// The visibility walk (Devillers, Pion & Teillaud 2002), which never looks back across the side it came by. It
+    /// ends in any Delaunay triangulation; should another one lead it in a circle, every triangle is asked.
     fn locate(&mut self, p: Point, near: TriangleId) -> Location {
         let mut entry = match self.look_from(p, self.finite_near(near)) {
             Ok(location) => return location,
@@ -285,7 +287,8 @@ pub struct Delaunay {
 }
 
 impl Delaunay {
-    /// The Delaunay triangulation of some points, in any unit; vertex i is `points[i]`. Expected time O(n log n), most of it linear.
+    /// The Delaunay triangulation of some points, in any unit; vertex i is `points[i]`. Expected time O(n log n), most
+    /// of it linear.
     pub fn new(points: Vec<Point>) -> Result<Self, Degenerate> {
         if points.len() < 3 {
             return Err(Degenerate::TooFew);
@@ -293,7 +296,8 @@ impl Delaunay {
         if let Some(index) = points.iter().position(|p| !(in_range(p.x) && in_range(p.y))) {
             return Err(Degenerate::OutOfRange { index });
         }
-        // Vertices are numbered along the curve while inserting, so that neighbours in the plane are neighbours in memory.
+        // Vertices are numbered along the curve while inserting, so that neighbours in the plane are neighbours in
+        // memory.
         let curve = order::hilbert(&points);
         let along: Vec<Point> = curve.iter().map(|&i| points[i as usize]).collect();
         let (mut net, work) = match triangulate(&along) {
@@ -339,14 +343,19 @@ impl Delaunay {
         seen
     }
 
-    /// Where a point lies. The walk starts at `near` (any id will do) and takes time in proportion to the triangles on the way.
+    /// Where a point lies. The walk starts at `near` (any id will do) and takes time in proportion to the triangles on
+    /// the way.
     pub fn locate(&self, p: Point, near: TriangleId) -> Location {
         self.in_sight(|sight| sight.locate(p, near))
     }
 
-    /// Looks: all triangles whose open circumdisk holds `p`, given where `p` lies. A ghost triangle's disk is the open half-plane
-    /// beyond its hull side, with that side's inner points. Cocircular triangles stay outside. Empty where `p` is a vertex.
+    /// Looks: all triangles whose open circumdisk holds `p`, given where `p` lies. A ghost triangle's disk is the open
+    /// half-plane beyond its hull side, with that side's inner points. Cocircular triangles stay outside. Empty where
+    /// `p` is a vertex.
+    /// The coordinates of `p` must be numbers within 2^±180, as those of all vertices.
     pub fn cavity(&self, p: Point, at: Location, cavity: &mut Cavity) {
+        // Beyond that range signs contradict each other, and the walk around the cavity need not end.
+        assert!(in_range(p.x) && in_range(p.y), "{p:?} is beyond exact signs");
         let start = match at {
             Location::Vertex(_) => {
                 cavity.triangles.clear();
@@ -361,13 +370,21 @@ impl Delaunay {
 
     /// Acts: replaces the cavity of `p` by the triangles that join `p` to its border, and returns the new vertex.
     ///
-    /// Border sides keep their pieces; each new triangle has the region of the cavity's triangle that its border side belonged to.
-    /// The triangle on `border[i]` is `(origin, target, p)` and takes the id of `triangles[i]`; the last two have other ids.
-    /// The cavity must be the one looked at for this very `p`, with nothing changed since.
+    /// Border sides keep their pieces; each new triangle has the region of the cavity's triangle that its border side
+    /// belonged to. The triangle on `border[i]` is `(origin, target, p)` and takes the id of `triangles[i]`; the last
+    /// two have other ids. The cavity must be the one looked at for this very `p`, with nothing changed since.
     pub fn fill(&mut self, p: Point, cavity: &Cavity) -> VertexId {
         let v = self.points.push(p);
         self.topology.star(v, &cavity.triangles, &cavity.border);
+        self.check_slowly();
         v
+    }
+
+    /// With feature `slow-checks`: the first change that spoils something is the one reported.
+    pub(super) fn check_slowly(&self) {
+        if cfg!(feature = "slow-checks") {
+            assert_eq!(self.flaws(), Vec::<String>::new());
+        }
     }
 
     /// Work done so far.
@@ -382,8 +399,8 @@ impl Delaunay {
         }
     }
 
-    /// What is wrong, with culprits: structure, orientation, convexity of the hull, and sides with a vertex inside the circle of the
-    /// triangle across them. All signs exact. Empty when all is well. Takes linear time.
+    /// What is wrong, with culprits: structure, orientation, convexity of the hull, and sides with a vertex inside the
+    /// circle of the triangle across them. All signs exact. Empty when all is well. Takes linear time.
     pub fn flaws(&self) -> Vec<String> {
         let mut flaws = self.topology.flaws();
         if !flaws.is_empty() {

@@ -1,8 +1,8 @@
 //! Removal of a vertex.
 //!
-//! Sides at the vertex are flipped away, ear by ear, until three are left (or, on the hull, until what is left of its star lies
-//! outside the new hull); then the vertex goes, and flips (Lawson 1977) make the hole Delaunay. Every step is a plane triangulation,
-//! whatever points are cocircular.
+//! Sides at the vertex are flipped away, ear by ear, until three are left (or, on the hull, until what is left of its
+//! star lies outside the new hull); then the vertex goes, and flips (Lawson 1977) make the hole Delaunay. Every step is
+//! a plane triangulation, whatever points are cocircular.
 
 use super::insert::Delaunay;
 use super::triangulation::{GHOST, Side};
@@ -10,11 +10,12 @@ use crate::geometry::exact::{CircleSide, Orientation};
 use crate::ids::{TriangleId, VertexId};
 
 impl Delaunay {
-    /// Deletes a vertex of any degree, inside or on the hull; the triangulation is that of the other points, and the id is dead.
+    /// Deletes a vertex of any degree, inside or on the hull; the triangulation is that of the other points, and the id
+    /// is dead.
     ///
-    /// Pieces on the vertex's own sides are lost. A new triangle has the region of a lost one next to it: where a lost piece parted two
-    /// regions, the caller mends them. Returns `false`, and changes nothing, where the vertex is dead already or the other points lie
-    /// on one line.
+    /// Pieces on the vertex's own sides are lost. A new triangle has the region of a lost one next to it: where a lost
+    /// piece parted two regions, the caller mends them. Returns `false`, and changes nothing, where the vertex is dead
+    /// already or the other points lie on one line.
     pub fn remove(&mut self, v: VertexId) -> bool {
         if v == GHOST || self.carries_the_plane(v) {
             return false;
@@ -26,11 +27,12 @@ impl Delaunay {
             self.topology.merge_star(v);
         }
         self.make_delaunay(&mut diagonals);
+        self.check_slowly();
         true
     }
 
-    /// Whether no triangle would be left without `v` (or none is there at all): every link side has a ghost across, and the link
-    /// is straight.
+    /// Whether no triangle would be left without `v` (or none is there at all): every link side has a ghost across, and
+    /// the link is straight.
     fn carries_the_plane(&self, v: VertexId) -> bool {
         let topology = &self.topology;
         let mut spokes = topology.sides_from(v).filter(|s| !topology.is_ghost(s.triangle())).peekable();
@@ -44,9 +46,9 @@ impl Delaunay {
 
     /// Flips sides of `v` away as long as any may be, in time linear in the degree; returns the diagonals that came.
     ///
-    /// The link is star-shaped around `v`: a neighbour w between neighbours u and x is an ear where u w x turns left and v is not
-    /// strictly inside u w x. Inside the hull a link of four or more has one: of the two ears that any triangulation of it has, v, which
-    /// lies inside or on one side of it, spoils at most one.
+    /// The link is star-shaped around `v`: a neighbour w between neighbours u and x is an ear where u w x turns left
+    /// and v is not strictly inside u w x. Inside the hull a link of four or more has one: of the two ears that any
+    /// triangulation of it has, v, which lies inside or on one side of it, spoils at most one.
     fn clip_ears(&mut self, v: VertexId) -> Vec<Side> {
         let mut diagonals = Vec::new();
         let mut left = self.topology.sides_from(v).count();
@@ -84,8 +86,8 @@ impl Delaunay {
         })
     }
 
-    /// Flips sides that are not locally Delaunay, from those on the stack on. With exact signs each flip lowers the lifted surface, so
-    /// that no side comes twice (Lawson 1977).
+    /// Flips sides that are not locally Delaunay, from those on the stack on. With exact signs each flip lowers the
+    /// lifted surface, so that no side comes twice (Lawson 1977).
     fn make_delaunay(&mut self, stack: &mut Vec<Side>) {
         while let Some(s) = stack.pop() {
             if !self.is_locally_delaunay(s) {

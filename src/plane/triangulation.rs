@@ -1,8 +1,8 @@
 //! Storage and topology of a triangulation of the whole plane: ids only, never a coordinate.
 //!
-//! Every triangle has three *sides*; side `3t + i` runs from corner i to corner i+1 of triangle t, counter-clockwise, and knows its
-//! twin in the neighbour. The outside of the hull is covered by *ghost* triangles, which share the one vertex [`GHOST`] at infinity,
-//! so that every side has a twin and the topology is that of a sphere.
+//! Every triangle has three *sides*; side `3t + i` runs from corner i to corner i+1 of triangle t, counter-clockwise,
+//! and knows its twin in the neighbour. The outside of the hull is covered by *ghost* triangles, which share the one
+//! vertex [`GHOST`] at infinity, so that every side has a twin and the topology is that of a sphere.
 //!
 //! ```text
 //!            c                 side s  = a→b in triangle t, its apex c
@@ -13,7 +13,8 @@
 //!            d
 //! ```
 //!
-//! 24 bytes a triangle for corners and twins, 16 for pieces and region, 4 a vertex: 84 bytes a vertex. Room for 7·10⁸ vertices.
+//! 24 bytes a triangle for corners and twins, 16 for pieces and region, 4 a vertex: 84 bytes a vertex. Room for 7·10⁸
+//! vertices.
 
 use crate::ids::{Id, PieceId, RegionId, TriangleId, VertexId};
 
@@ -109,7 +110,8 @@ pub(super) struct Net {
 }
 
 impl Net {
-    /// The sphere made of the counter-clockwise triangle `a b c` and its three ghosts, with room for `vertices` vertices.
+    /// The sphere made of the counter-clockwise triangle `a b c` and its three ghosts, with room for `vertices`
+    /// vertices.
     pub fn of_triangle([a, b, c]: [VertexId; 3], vertices: usize) -> Self {
         let side = |t, i| Side::of(TriangleId(t), i);
         let mut records = Vec::with_capacity(2 * vertices);
@@ -161,8 +163,9 @@ impl Net {
         self.free.push(t);
     }
 
-    /// Replaces a cavity (a disk of triangles without inner vertices) by the star of `apex`. The triangle on `border[i]` becomes
-    /// `(origin, target, apex)`; it takes the id of `triangles[i]`, and the last two take the ids returned.
+    /// Replaces a cavity (a disk of triangles without inner vertices) by the star of `apex`. The triangle on
+    /// `border[i]` becomes `(origin, target, apex)`; it takes the id of `triangles[i]`, and the last two take the ids
+    /// returned.
     pub fn star(&mut self, apex: VertexId, triangles: &[TriangleId], border: &[Side]) -> [TriangleId; 2] {
         assert_eq!(border.len(), triangles.len() + 2, "a cavity is a disk without inner vertices");
         let last = [self.take(), self.take()];
@@ -199,8 +202,8 @@ impl Net {
     }
 }
 
-/// A triangulation of the sphere that the plane becomes with a vertex at infinity, with labels: the piece of a curve that lies on
-/// a side, the region that a triangle belongs to.
+/// A triangulation of the sphere that the plane becomes with a vertex at infinity, with labels: the piece of a curve
+/// that lies on a side, the region that a triangle belongs to.
 pub struct Triangulation {
     net: Net,
     /// The piece on each side of a triangle, the same on both twins; NONE for no piece.
@@ -291,8 +294,8 @@ impl Triangulation {
         self.net.len()
     }
 
-    /// The outgoing sides of a vertex, counter-clockwise, those of ghost triangles included; none of a dead vertex. Those of
-    /// [`GHOST`] lead to the hull's vertices, clockwise as seen from within.
+    /// The outgoing sides of a vertex, counter-clockwise, those of ghost triangles included; none of a dead vertex.
+    /// Those of [`GHOST`] lead to the hull's vertices, clockwise as seen from within.
     pub fn sides_from(&self, v: VertexId) -> impl Iterator<Item = Side> {
         let first = self.anchors.get(place_of(v)).copied().filter(|&s| s != Side(NONE));
         std::iter::successors(first, move |s| Some(self.twin(s.prev())).filter(|&s| Some(s) != first))
@@ -327,9 +330,9 @@ impl Triangulation {
 
     /// Replaces side a→b of the quadrilateral `a d b c` by the other diagonal.
     ///
-    /// The triangle of `s` becomes `(d, b, c)`, that of its twin `(c, a, d)`: the new diagonal is side 2 of both. The four outer sides
-    /// keep their pieces, a piece on the old diagonal is lost, and the two ids keep their regions. That the quadrilateral is convex is
-    /// the caller's to know.
+    /// The triangle of `s` becomes `(d, b, c)`, that of its twin `(c, a, d)`: the new diagonal is side 2 of both. The
+    /// four outer sides keep their pieces, a piece on the old diagonal is lost, and the two ids keep their regions.
+    /// That the quadrilateral is convex is the caller's to know.
     pub fn flip(&mut self, s: Side) {
         let n = self.twin(s);
         let (t, u) = (s.triangle(), n.triangle());
@@ -364,8 +367,8 @@ impl Triangulation {
         self.pieces[t.index()][i] = piece;
     }
 
-    /// Replaces a cavity by the star of a new vertex, the next after all there are. Border sides keep their pieces; each new triangle
-    /// has the region of the cavity's triangle on its border side.
+    /// Replaces a cavity by the star of a new vertex, the next after all there are. Border sides keep their pieces;
+    /// each new triangle has the region of the cavity's triangle on its border side.
     pub(super) fn star(&mut self, apex: VertexId, triangles: &[TriangleId], border: &[Side]) {
         let mut labels = std::mem::take(&mut self.labels);
         labels.clear();
@@ -400,11 +403,13 @@ impl Triangulation {
         self.anchors[place_of(v)] = Side(NONE);
     }
 
-    /// Moves a vertex of the hull to infinity: the finite triangles around it become ghosts without region, its two ghosts vanish.
+    /// Moves a vertex of the hull to infinity: the finite triangles around it become ghosts without region, its two
+    /// ghosts vanish.
     pub(super) fn move_to_infinity(&mut self, v: VertexId) {
         let spokes: Vec<Side> = self.sides_from(v).collect();
         let ghost = spokes.iter().position(|&s| self.target(s) == GHOST).expect("a vertex of the hull has a ghost");
-        // Counter-clockwise around v: v→r₁, …, v→rₘ (before), v→GHOST (after). The ghosts on either side of v→GHOST collapse.
+        // Counter-clockwise around v: v→r₁, …, v→rₘ (before), v→GHOST (after). The ghosts on either side of v→GHOST
+        // collapse.
         let (before, after) = (spokes[(ghost + spokes.len() - 1) % spokes.len()], spokes[ghost]);
         for (inner, outer) in [(before, before.next()), (after.prev(), after.next())] {
             let (inner, piece) = (self.twin(inner), self.piece_label(outer));
@@ -428,8 +433,8 @@ impl Triangulation {
         self.regions[t.index()] = NONE;
     }
 
-    /// What is wrong with the structure, with culprits: sides and twins that do not match, pieces that differ on twins, stars that
-    /// do not close, an Euler number other than a sphere's. Empty when all is well. Takes linear time.
+    /// What is wrong with the structure, with culprits: sides and twins that do not match, pieces that differ on twins,
+    /// stars that do not close, an Euler number other than a sphere's. Empty when all is well. Takes linear time.
     pub fn flaws(&self) -> Vec<String> {
         let mut flaws = self.side_flaws();
         // A walk around a vertex ends only where twins are sound.
