@@ -186,6 +186,30 @@ fn ends_are_exact_and_part_reversed_and_welded_curves_keep_the_points() {
 }
 
 #[test]
+fn welding_moves_no_point_much_farther_than_the_ends() {
+    let nearly: Vec<Curve> = vec![
+        Curve::arc(p(0.3, 0.1), 1.0, 0.2, TAU - 1e-6).unwrap(),
+        Curve::ellipse(p(0.3, 0.1), Vec2::new(1., 0.), Vec2::new(0.2, 0.4), 0.2, 1e-6 - TAU).unwrap(),
+        bezier(&[(0., 0.), (1.4, 1.), (-0.4, 1.), (1e-6, 1e-7)]),
+        nurbs_circle(),
+    ];
+    let all = samples().into_iter().map(|(_, curve)| curve).chain(nearly);
+    for (curve, step) in all.flat_map(|c| [(c.clone(), 1e-3), (c, 1e-7)]) {
+        let ends = (curve.start() + Vec2::new(step, 0.0), curve.end() + Vec2::new(-0.3, -0.9) * step);
+        // Opened, moved, and closed.
+        for (start, end) in [ends, (ends.0, ends.0)] {
+            let welded = curve.with_ends(start, end);
+            assert_eq!((welded.point(0.0), welded.point(1.0)), (start, end));
+            let farthest = (start - curve.start()).hypot().max((end - curve.end()).hypot());
+            for t in grid(50, 0.0, 1.0) {
+                let moved = (welded.point(t) - curve.point(t)).hypot();
+                assert!(moved <= 5.0 * farthest + 1e-14, "{curve:?} moved by {moved:e} at {t} for {farthest:e}");
+            }
+        }
+    }
+}
+
+#[test]
 fn derivatives_are_the_limits_of_differences() {
     for Case { name, curve, size, grain } in cases() {
         for t in [0.11, 0.37, 0.52, 0.83] {
@@ -210,7 +234,7 @@ fn derivatives_are_the_limits_of_differences() {
             assert!(angle_between(curve.tangent(t, End::Start), curve.derivative(t)) < 1e-9, "{name}");
             let (d, dd) = (curve.derivative(t), curve.second_derivative(t));
             let curvature = d.cross(dd) / d.hypot().powi(3);
-            assert!((curve.curvature(t) - curvature).abs() <= 1e-12 * curvature.abs(), "{name}");
+            assert!((curve.curvature(t) - curvature).abs() <= 1e-12 * curvature.abs() + 1e-13 / size, "{name}");
         }
         let step = 1e-5f64.max((grain / size).sqrt());
         if curve.breaks().is_empty() && !name.starts_with("double") {
@@ -232,8 +256,9 @@ fn boxes_hold_the_samples_and_are_touched() {
             let slack = 4.0 * grain;
             assert!(b.x0 <= inner.x0 + slack && b.y0 <= inner.y0 + slack, "{name}");
             assert!(b.x1 >= inner.x1 - slack && b.y1 >= inner.y1 - slack, "{name}");
-            // Between samples the curve bulges by at most |P″|/8n².
-            let bulge = 400.0 * size / f64::from(8 * n * n) + slack;
+            // Between samples the curve bulges by at most |P″|/8n², and a corner sticks out by |P′|/n.
+            let kink = if curve.breaks().is_empty() { 0.0 } else { 3.0 * size / f64::from(n) };
+            let bulge = 400.0 * size / f64::from(8 * n * n) + kink + slack;
             assert!(inner.x0 - b.x0 <= bulge && inner.y0 - b.y0 <= bulge, "{name}");
             assert!(b.x1 - inner.x1 <= bulge && b.y1 - inner.y1 <= bulge, "{name}");
         }
@@ -330,7 +355,7 @@ fn breaks_and_inflections_are_where_they_are_known_to_be() {
     let back = by_name("there and back");
     let breaks = back.breaks();
     assert!(
-        breaks.len() == 1 && breaks[0].kind == BreakKind::Cusp && (breaks[0].turn_rad - PI).abs() < 0.2,
+        breaks.len() == 1 && breaks[0].kind == BreakKind::Cusp && (breaks[0].turn_rad - PI).abs() < 1e-9,
         "{breaks:?}"
     );
     let corner = by_name("corner spline").breaks();
@@ -344,7 +369,7 @@ fn breaks_and_inflections_are_where_they_are_known_to_be() {
         assert!(by_name(name).breaks().is_empty() && by_name(name).inflections().is_empty(), "{name}");
     }
     for (name, curve) in samples() {
-        let straight = ["line", "degree 1", "straight cubic"].contains(&name);
+        let straight = ["line", "degree 1", "straight cubic", "double ends"].contains(&name);
         assert_eq!(curve.is_straight(), straight, "{name}");
     }
     // Collinear, with a derivative that vanishes in the middle but does not reverse.
@@ -524,8 +549,13 @@ fn lens_angle_and_chord_error_bound_the_samples_and_are_met() {
                     turn = turn.max(angle_between(z - x, y - z) - 8.0 * grain / near);
                 }
             }
+            if x != y {
+                turn = turn.max(angle_between(curve.tangent(t0, End::Start), y - x) - 8.0 * grain / (y - x).hypot());
+                turn = turn.max(angle_between(y - x, curve.tangent(t1, End::Finish)) - 8.0 * grain / (y - x).hypot());
+            }
             let lens = curve.lens_angle(t0, t1);
-            assert!(turn <= lens + 1e-12, "{name} {t0}..{t1}: {turn} > {lens}");
+            // The end of the thin ellipse is a hundredth of its size: so much more does a grain turn there.
+            assert!(turn <= lens + 1e-12 + 100.0 * grain / size, "{name} {t0}..{t1}: {turn} > {lens}");
             let regular = !curve.breaks().iter().any(|b| b.t > t0 && b.t < t1);
             if regular && x != y && curve.turning(t0, t1) <= FRAC_PI_3 + 1e-6 {
                 assert!(lens <= 1.03 * turn + 1e-4, "{name} {t0}..{t1}: {lens} for {turn}");
@@ -556,7 +586,8 @@ fn arcs_and_circles_agree_with_their_rational_twins() {
         assert!((circle.length_of(t0, t1) - twin.length_of(t0, t1)).abs() < 1e-13);
         assert!((circle.turning(t0, t1) - twin.turning(t0, t1)).abs() < 1e-13);
     }
-    assert_eq!(circle.bounds(), kurbo::Rect::new(-1.0, -1.0, 1.0, 1.0));
+    let b = circle.bounds();
+    assert!([b.x0, b.y0, b.x1, b.y1].iter().all(|v| (v.abs() - 1.0).abs() <= f64::EPSILON), "{b}");
 }
 
 #[test]

@@ -141,26 +141,30 @@ impl CircularArc {
         Some(CircularArc { center: map * self.center, radius, start_rad, sweep_rad, ends: self.ends.map(|p| map * p) })
     }
 
-    /// Candidates for the nearest point: the two where the circle's normal passes through p.
+    /// Candidates for the nearest point: the two where the circle's normal passes through p, by their angles from the start, which
+    /// keep their digits however flat the arc is.
     pub(super) fn normals_through(&self, p: Point, t0: f64, t1: f64) -> Vec<f64> {
-        let from_center = p - self.center;
-        let angle = libm::atan2(from_center.y, from_center.x);
-        passages(self.start_rad, self.sweep_rad, angle, PI, t0, t1)
+        let outward = on_circle(self.start_rad).0;
+        let offset = p - self.ends[0];
+        let angle = libm::atan2(outward.cross(offset), self.radius + outward.dot(offset));
+        passages(0.0, self.sweep_rad, angle, PI, t0, t1)
     }
 
-    /// Where the line meets the circle.
+    /// Where the line meets the circle: with u = tan(φ/2) of the angle φ from the start, h the distance of the start from the line
+    /// and n the line's unit normal, (h/R − 2 n·e) u² + 2 (n·e⊥) u + h/R = 0.
     pub(super) fn line_crossings(&self, a: Point, direction: Vec2, t0: f64, t1: f64) -> Vec<f64> {
-        let unit = direction / length(direction);
-        // Distance of the center from the line, left of it positive; the normal points to the right.
-        let distance = unit.cross(self.center - a);
-        let half_chord = (self.radius - distance) * (self.radius + distance);
-        if half_chord <= 0.0 || half_chord.is_nan() {
+        let normal = Vec2::new(-direction.y, direction.x) / length(direction);
+        let (outward, along) = on_circle(self.start_rad);
+        let start = normal.dot(self.ends[0] - a) / self.radius;
+        let (square, half_linear) = (start - 2.0 * normal.dot(outward), normal.dot(along));
+        let discriminant = half_linear * half_linear - start * square;
+        if discriminant <= 0.0 || discriminant.is_nan() {
             return Vec::new();
         }
-        let opening = libm::atan2(half_chord.sqrt(), distance);
-        let normal = libm::atan2(-unit.x, unit.y);
-        let mut found = passages(self.start_rad, self.sweep_rad, normal - opening, TAU, t0, t1);
-        found.extend(passages(self.start_rad, self.sweep_rad, normal + opening, TAU, t0, t1));
+        // The sum without cancellation; the other root by the product of the two.
+        let sum = -(half_linear + discriminant.sqrt().copysign(half_linear));
+        let mut found = passages(0.0, self.sweep_rad, 2.0 * libm::atan2(sum, square), TAU, t0, t1);
+        found.extend(passages(0.0, self.sweep_rad, 2.0 * libm::atan2(start, sum), TAU, t0, t1));
         found.sort_by(f64::total_cmp);
         found
     }

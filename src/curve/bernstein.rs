@@ -209,15 +209,15 @@ pub(super) fn crossing(f: impl Fn(f64) -> f64, change: &SignChange) -> f64 {
     let sign = if rising { 1.0 } else { -1.0 };
     let (mut a, mut b) = (lo, hi);
     let (mut fa, mut fb) = (sign * f(a), sign * f(b));
-    if hi <= lo || (fa >= 0.0 && fb <= 0.0) {
+    if hi <= lo {
         return lo;
     }
-    // The sign inside is known even where the value at the end is zero or lost in rounding (another root lies there).
-    if fa >= 0.0 {
-        fa = -fb;
-    }
-    if fb <= 0.0 {
-        fb = -fa;
+    // The signs inside are known even where the value at an end is zero or lost in rounding (another root lies there).
+    match (fa < 0.0, fb > 0.0) {
+        (true, true) => {}
+        (true, false) => fb = -fa,
+        (false, true) => fa = -fb,
+        (false, false) => (fa, fb) = (-1.0, 1.0),
     }
     let mut step = 0.5;
     for _ in 0..BUDGET {

@@ -285,6 +285,9 @@ impl Bezier {
     pub(super) fn is_straight(&self, noise: f64) -> bool {
         let chord = self.points[self.degree()] - self.points[0];
         let len = length(chord);
+        if len <= noise {
+            return self.points.iter().all(|p| length(*p - self.points[0]) <= noise);
+        }
         self.points.iter().all(|p| (*p - self.points[0]).cross(chord).abs() <= noise * len)
             && self.points.windows(2).all(|p| (p[1] - p[0]).dot(chord) >= -noise * len)
     }

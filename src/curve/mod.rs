@@ -16,6 +16,7 @@ mod quadrature;
 mod spans;
 mod spline;
 mod turning;
+mod weld;
 
 pub use meet::{Meeting, MeetingBudget, MeetingKind, Meetings, Overlap, meetings, self_meetings};
 
@@ -483,53 +484,10 @@ impl Curve {
         }
     }
     /// The curve moved by the similarity that takes its ends to `start` and `end` (exactly those bits). For a small move: welding.
-    /// A closed curve is translated, and both ends must be equal.
+    /// A closed curve is translated. Where the similarity would move other points much farther than the ends (a curve that nearly
+    /// closes), and where a curve closes or opens, the moves of the ends are spread along the curve instead.
     pub fn with_ends(&self, start: Point, end: Point) -> Self {
-        let (from, chord, wanted) = (self.start(), self.end() - self.start(), end - start);
-        if from == start && self.end() == end {
-            return self.clone();
-        }
-        // The similarity as a complex factor; a chord to or from nothing can only be moved.
-        let square = chord.dot(chord);
-        let factor = Vec2::new(chord.dot(wanted), chord.cross(wanted)) / square;
-        let scale = length(factor);
-        let (factor, scale) =
-            if scale > 0.0 && scale.is_finite() { (factor, scale) } else { (Vec2::new(1.0, 0.0), 1.0) };
-        let turn = libm::atan2(factor.y, factor.x);
-        let vector = |v: Vec2| Vec2::new(factor.x * v.x - factor.y * v.y, factor.y * v.x + factor.x * v.y);
-        let point = |p: Point| start + vector(p - from);
-        let ends = [start, end];
-        match self {
-            Curve::Line(_) => Curve::Line(Line { start, end }),
-            Curve::Arc(a) => Curve::Arc(CircularArc {
-                center: point(a.center),
-                radius: a.radius * scale,
-                start_rad: a.start_rad + turn,
-                sweep_rad: a.sweep_rad,
-                ends,
-            }),
-            Curve::Ellipse(e) => Curve::Ellipse(Box::new(EllipticArc {
-                center: point(e.center),
-                u: vector(e.u),
-                v: vector(e.v),
-                ends,
-                ..**e
-            })),
-            Curve::Bezier(b) => {
-                let mut moved = b.mapped(point);
-                let last = moved.degree();
-                (moved.points[0], moved.points[last]) = (start, end);
-                Curve::Bezier(Box::new(moved))
-            }
-            Curve::Spline(s) => {
-                let mut moved = s.mapped(point);
-                moved.spans[0].points[0] = start;
-                if let Some(end_of_last) = moved.spans.last_mut().and_then(|span| span.points.last_mut()) {
-                    *end_of_last = end;
-                }
-                Curve::Spline(Box::new(moved))
-            }
-        }
+        weld::with_ends(self, start, end)
     }
     /// All coordinates times a power of two: exact.
     pub fn scaled(&self, factor: f64) -> Self {

@@ -7,7 +7,7 @@ use super::bezier::Polygon;
 use super::ellipse::conic_parameter;
 use super::quadrature::integral;
 use super::{Bezier, Curve, EllipticArc, End, length};
-use crate::geometry::{Point, Rect, Vec2, boxes::distance_to_box};
+use crate::geometry::{Point, Rect, Vec2, boxes::distance_to_box, turn_from};
 use std::borrow::Cow;
 
 /// A Bézier piece of a curve, restricted to part of its own parameter.
@@ -280,7 +280,7 @@ pub(super) fn chord_error(curve: &Curve, t0: f64, t1: f64) -> f64 {
         let offsets = span.about(x);
         let hodograph = span.hodograph();
         let mut forms = vec![hodograph.iter().map(|d| d.cross(chord)).collect::<Vec<f64>>()];
-        let past = offsets.points().iter().any(|v| !(0.0..=square).contains(&v.dot(chord)));
+        let past = square == 0.0 || offsets.points().iter().any(|v| !(0.0..=square).contains(&v.dot(chord)));
         if past {
             let from_end = span.about(y);
             for polygon in [&offsets, &from_end] {
@@ -315,9 +315,14 @@ pub(super) fn length_of(curve: &Curve, t0: f64, t1: f64) -> f64 {
 pub(super) fn lens_angle(curve: &Curve, t0: f64, t1: f64) -> f64 {
     let (x, y) = (curve.point(t0), curve.point(t1));
     let chord = y - x;
+    if chord == Vec2::ZERO {
+        return std::f64::consts::PI;
+    }
     let pieces = spans(curve, t0, t1);
     let last = pieces.len() - 1;
-    let mut largest = 0.0f64;
+    // At x and at y the quotient's limit is that of the tangent.
+    let at_x = turn_from(curve.tangent(t0, End::Start), chord).abs();
+    let mut largest = turn_from(chord, curve.tangent(t1, End::Finish)).abs().max(at_x);
     for (k, span) in pieces.iter().enumerate() {
         let (e, f) = lens_quotient(&span.about(x), chord, k == 0, k == last);
         let (de, df) = (bernstein::derivative(&e), bernstein::derivative(&f));
@@ -327,7 +332,8 @@ pub(super) fn lens_angle(curve: &Curve, t0: f64, t1: f64) -> f64 {
         let noise = product_noise(bernstein::largest(&e), bernstein::largest(&f), slope.len() * e.len());
         let stationary = bernstein::roots(&slope, noise);
         let on_chord = bernstein::roots(&e, 0.0);
-        for s in stationary.into_iter().chain(on_chord).chain([0.0, 1.0]) {
+        let inner_knot = (k < last).then_some(1.0);
+        for s in stationary.into_iter().chain(on_chord).chain(inner_knot) {
             largest = largest.max(libm::atan2(bernstein::value(&e, s).abs(), bernstein::value(&f, s)));
         }
     }

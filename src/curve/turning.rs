@@ -237,14 +237,18 @@ fn one_way_pieces(hodograph: Vec<Vec2>, noise: f64) -> Vec<Piece> {
 
 /// Pieces each within an open half plane, cut where the hodograph vanishes; there the end coefficients are exactly zero.
 fn half_plane_pieces(hodograph: Vec<Vec2>, noise: f64) -> Vec<Piece> {
-    let (pieces, gaps) = try_half_planes(&hodograph, 0.0, 1.0, noise);
-    if gaps.is_empty() {
+    let (pieces, mut zeros) = try_half_planes(&hodograph, 0.0, 1.0, noise);
+    zeros.extend(
+        pieces.windows(2).filter(|pair| pair[0].hi == pair[1].lo && vanish_between(pair, noise)).map(|p| p[0].hi),
+    );
+    if zeros.is_empty() {
         return pieces;
     }
-    let zeros: Vec<f64> = gaps.into_iter().map(|gap| zero_near(&hodograph, gap)).collect();
+    // Small pieces near a zero know its directions badly: the hodograph is taken apart anew, with the zeros as its first cuts.
     let mut bounds = vec![0.0];
-    bounds.extend(zeros.into_iter().filter(|s| *s > 0.0 && *s < 1.0));
+    bounds.extend(zeros.into_iter().map(|s| zero_near(&hodograph, s)).filter(|s| *s > 0.0 && *s < 1.0));
     bounds.push(1.0);
+    bounds.sort_by(f64::total_cmp);
     bounds.dedup();
     let mut pieces = Vec::new();
     for pair in bounds.windows(2) {
@@ -259,6 +263,12 @@ fn half_plane_pieces(hodograph: Vec<Vec2>, noise: f64) -> Vec<Piece> {
         pieces.extend(try_half_planes(&part, pair[0], pair[1], noise).0);
     }
     pieces
+}
+
+/// Whether the hodograph vanishes where two pieces meet.
+fn vanish_between(pair: &[Piece], noise: f64) -> bool {
+    let vanishes = |d: Option<&Vec2>| d.is_some_and(|d| length(*d) <= noise);
+    vanishes(pair[0].hodograph.last()) && vanishes(pair[1].hodograph.first())
 }
 
 /// Halves until each piece lies in a half plane or is lost in rounding; returns the pieces, and the middles of the gaps inside.
@@ -289,11 +299,11 @@ fn try_half_planes(hodograph: &[Vec2], lo: f64, hi: f64, noise: f64) -> (Vec<Pie
     (pieces, inner)
 }
 
-/// Whether every coefficient that is more than noise lies in one open half plane.
+/// Whether every coefficient that is more than noise lies in one half plane, clear of its border by more than noise.
 fn in_half_plane(hodograph: &[Vec2], noise: f64) -> bool {
     let sure = || hodograph.iter().filter(|d| length(**d) > noise);
-    let axis = sure().fold(Vec2::ZERO, |sum, d| sum + unit(*d));
-    sure().all(|d| axis.dot(*d) > 0.0)
+    let axis = unit(sure().fold(Vec2::ZERO, |sum, d| sum + unit(*d)));
+    sure().all(|d| axis.dot(*d) > noise)
 }
 
 /// The least of |H| near s, by Gauss–Newton steps as long as they help.
