@@ -18,7 +18,7 @@ impl Side {
     }
 
     fn unpacked(side: u32) -> Option<Self> {
-        (side != NONE).then(|| Self { triangle: TriangleId(side / 3), corner: (side % 3) as usize })
+        (side != NONE).then_some(Self { triangle: TriangleId(side / 3), corner: (side % 3) as usize })
     }
 }
 
