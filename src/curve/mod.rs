@@ -6,7 +6,20 @@
 //! Pav & Walkington 2005 ask of a curve its *turning* (total variation of the tangent, Definition 4), a point where it crosses the
 //! perpendicular bisector of its chord (Corollaries 1 and 2), and where it leaves a ball around its end point (splitball).
 
-use crate::geometry::{Point, Rect, Vec2};
+mod arc;
+mod bernstein;
+mod bezier;
+mod ellipse;
+mod line;
+mod meet;
+mod quadrature;
+mod spans;
+mod spline;
+
+pub use meet::{Meeting, MeetingBudget, MeetingKind, Meetings, Overlap, meetings, self_meetings};
+
+use crate::geometry::{Point, Rect, Vec2, bounds_of};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// One end of a curve.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -98,51 +111,97 @@ pub enum CurveError {
     Weight { index: usize },
     #[error("the radius {radius} is not positive")]
     Radius { radius: f64 },
+    #[error("the sweep {sweep_rad} (radians) is zero or more than once around")]
+    Sweep { sweep_rad: f64 },
+}
+
+pub(crate) fn length(v: Vec2) -> f64 {
+    libm::hypot(v.x, v.y)
+}
+
+/// `v` made one unit long; where it has no direction, (1, 0).
+fn unit(v: Vec2) -> Vec2 {
+    // Scaled first, so that neither tiny nor huge vectors leave the range.
+    let scaled = v * crate::geometry::unit_scale(v.x.abs().max(v.y.abs()));
+    let len = length(scaled);
+    if len > 0.0 && len.is_finite() { scaled / len } else { Vec2::new(1.0, 0.0) }
+}
+
+fn check_finite(values: impl IntoIterator<Item = f64>) -> Result<(), CurveError> {
+    if values.into_iter().all(f64::is_finite) { Ok(()) } else { Err(CurveError::NotFinite) }
+}
+
+fn check_points(points: &[Point]) -> Result<(), CurveError> {
+    check_finite(points.iter().flat_map(|p| [p.x, p.y]))
 }
 
 // ---- constructors: each checks finiteness and shape, and returns CurveError ----
 impl Curve {
-    pub fn line(_start: Point, _end: Point) -> Result<Self, CurveError> {
-        todo!()
+    /// A segment; one of zero length is a curve too (a reader may find it).
+    pub fn line(start: Point, end: Point) -> Result<Self, CurveError> {
+        check_points(&[start, end])?;
+        Ok(Curve::Line(Line { start, end }))
     }
-    pub fn circle(_center: Point, _radius: f64) -> Result<Self, CurveError> {
-        todo!()
+    /// A full circle, counter-clockwise from its rightmost point.
+    pub fn circle(center: Point, radius: f64) -> Result<Self, CurveError> {
+        Self::arc(center, radius, 0.0, TAU)
     }
-    pub fn arc(_center: Point, _radius: f64, _start_rad: f64, _sweep_rad: f64) -> Result<Self, CurveError> {
-        todo!()
+    /// An arc from the angle `start_rad` over `sweep_rad` (at most 2π either way; negative: clockwise).
+    pub fn arc(center: Point, radius: f64, start_rad: f64, sweep_rad: f64) -> Result<Self, CurveError> {
+        CircularArc::new(center, radius, start_rad, sweep_rad).map(Curve::Arc)
     }
     /// The arc from `start` to `end` whose bulge is tan(sweep/4) (DXF); counter-clockwise where positive; a line where 0.
-    pub fn bulge(_start: Point, _end: Point, _bulge: f64) -> Result<Self, CurveError> {
-        todo!()
+    pub fn bulge(start: Point, end: Point, bulge: f64) -> Result<Self, CurveError> {
+        check_finite([bulge])?;
+        if bulge == 0.0 || start == end {
+            return Self::line(start, end);
+        }
+        CircularArc::over_chord(start, end, 4.0 * libm::atan(bulge)).map(Curve::Arc)
     }
-    pub fn arc_through(_start: Point, _through: Point, _end: Point) -> Result<Self, CurveError> {
-        todo!()
+    /// The arc through three points; a line where they are collinear in this order, the circle with the diameter `start`–`through`
+    /// where start and end are the same.
+    pub fn arc_through(start: Point, through: Point, end: Point) -> Result<Self, CurveError> {
+        check_points(&[start, through, end])?;
+        if start == end {
+            let to_start = (start - through) * 0.5;
+            let angle = libm::atan2(to_start.y, to_start.x);
+            let mut circle = CircularArc::new(through + to_start, length(to_start), angle, TAU)?;
+            circle.ends = [start, start];
+            return Ok(Curve::Arc(circle));
+        }
+        // The angle between the chord and its tangents is the turn at any point of the arc, and half the sweep.
+        let turn = crate::geometry::turn_from(through - start, end - through);
+        if turn == 0.0 {
+            return Self::line(start, end);
+        }
+        if turn == PI {
+            return Err(CurveError::Radius { radius: f64::INFINITY });
+        }
+        CircularArc::over_chord(start, end, 2.0 * turn).map(Curve::Arc)
     }
-    pub fn ellipse(_center: Point, _u: Vec2, _v: Vec2, _start_rad: f64, _sweep_rad: f64) -> Result<Self, CurveError> {
-        todo!()
+    /// Part of the ellipse center + cos θ · u + sin θ · v; u and v must not be parallel.
+    pub fn ellipse(center: Point, u: Vec2, v: Vec2, start_rad: f64, sweep_rad: f64) -> Result<Self, CurveError> {
+        EllipticArc::new(center, u, v, start_rad, sweep_rad).map(|e| Curve::Ellipse(Box::new(e)))
     }
-    pub fn bezier(_points: Vec<Point>) -> Result<Self, CurveError> {
-        todo!()
+    /// A Bézier curve of degree `points.len() − 1`, from 1 to 300.
+    pub fn bezier(points: Vec<Point>) -> Result<Self, CurveError> {
+        Bezier::new(points, None).map(|b| Curve::Bezier(Box::new(b)))
     }
-    pub fn rational_bezier(_points: Vec<Point>, _weights: Vec<f64>) -> Result<Self, CurveError> {
-        todo!()
+    /// A rational Bézier curve; all weights positive. Equal weights make it a plain one.
+    pub fn rational_bezier(points: Vec<Point>, weights: Vec<f64>) -> Result<Self, CurveError> {
+        Bezier::new(points, Some(weights)).map(|b| Curve::Bezier(Box::new(b)))
     }
     /// B-spline or NURBS with the full knot vector (points.len() + degree + 1 knots); unclamped and periodic vectors are allowed.
-    pub fn nurbs(
-        _degree: usize,
-        _knots: &[f64],
-        _points: &[Point],
-        _weights: Option<&[f64]>,
-    ) -> Result<Self, CurveError> {
-        todo!()
+    pub fn nurbs(degree: usize, knots: &[f64], points: &[Point], weights: Option<&[f64]>) -> Result<Self, CurveError> {
+        Spline::from_knots(degree, knots, points, weights).map(|s| Curve::Spline(Box::new(s)))
     }
-    /// The natural cubic spline through ≥ 2 points (centripetal parameters unless chosen otherwise).
-    pub fn natural_spline(_points: &[Point]) -> Result<Self, CurveError> {
-        todo!()
+    /// The natural cubic spline through ≥ 2 points (centripetal parameters; exact repeats are skipped).
+    pub fn natural_spline(points: &[Point]) -> Result<Self, CurveError> {
+        Spline::natural(points).map(|s| Curve::Spline(Box::new(s)))
     }
-    /// The closed C² cubic spline through ≥ 3 points (the first is not repeated).
-    pub fn periodic_spline(_points: &[Point]) -> Result<Self, CurveError> {
-        todo!()
+    /// The closed C² cubic spline through ≥ 3 points (the first is not repeated; exact repeats are skipped).
+    pub fn periodic_spline(points: &[Point]) -> Result<Self, CurveError> {
+        Spline::periodic(points).map(|s| Curve::Spline(Box::new(s)))
     }
 }
 
@@ -150,45 +209,123 @@ impl Curve {
 impl Curve {
     /// The field's name of the kind: "line", "arc", "ellipse", "bezier", "rational bezier", "spline", "nurbs".
     pub fn kind(&self) -> &'static str {
-        todo!()
+        match self {
+            Curve::Line(_) => "line",
+            Curve::Arc(_) => "arc",
+            Curve::Ellipse(_) => "ellipse",
+            Curve::Bezier(b) if b.weights.is_none() => "bezier",
+            Curve::Bezier(_) => "rational bezier",
+            Curve::Spline(s) if s.spans.iter().all(|span| span.weights.is_none()) => "spline",
+            Curve::Spline(_) => "nurbs",
+        }
     }
     pub fn start(&self) -> Point {
-        todo!()
+        match self {
+            Curve::Line(l) => l.start,
+            Curve::Arc(a) => a.ends[0],
+            Curve::Ellipse(e) => e.ends[0],
+            Curve::Bezier(b) => b.points[0],
+            Curve::Spline(s) => s.spans[0].points[0],
+        }
     }
     pub fn end(&self) -> Point {
-        todo!()
+        match self {
+            Curve::Line(l) => l.end,
+            Curve::Arc(a) => a.ends[1],
+            Curve::Ellipse(e) => e.ends[1],
+            Curve::Bezier(b) => b.point(1.0),
+            Curve::Spline(s) => s.point(1.0),
+        }
     }
-    pub fn point(&self, _t: f64) -> Point {
-        todo!()
+    pub fn point(&self, t: f64) -> Point {
+        if t <= 0.0 {
+            return self.start();
+        }
+        if t >= 1.0 {
+            return self.end();
+        }
+        match self {
+            Curve::Line(l) => l.point(t),
+            Curve::Arc(a) => a.point(t),
+            Curve::Ellipse(e) => e.point(t),
+            Curve::Bezier(b) => b.point(t),
+            Curve::Spline(s) => s.point(t),
+        }
     }
-    pub fn derivative(&self, _t: f64) -> Vec2 {
-        todo!()
+    pub fn derivative(&self, t: f64) -> Vec2 {
+        match self {
+            Curve::Line(l) => l.chord(),
+            Curve::Arc(a) => a.derivative(t),
+            Curve::Ellipse(e) => e.derivative(t),
+            Curve::Bezier(b) => b.derivative(t),
+            Curve::Spline(s) => {
+                let (i, u) = s.locate(t, End::Start);
+                s.spans[i].derivative(u) / s.step(i)
+            }
+        }
     }
-    pub fn second_derivative(&self, _t: f64) -> Vec2 {
-        todo!()
+    pub fn second_derivative(&self, t: f64) -> Vec2 {
+        match self {
+            Curve::Line(_) => Vec2::ZERO,
+            Curve::Arc(a) => a.second_derivative(t),
+            Curve::Ellipse(e) => e.second_derivative(t),
+            Curve::Bezier(b) => b.second_derivative(t),
+            Curve::Spline(s) => {
+                let (i, u) = s.locate(t, End::Start);
+                s.spans[i].second_derivative(u) / s.step(i) / s.step(i)
+            }
+        }
     }
     /// Unit tangent in the direction of travel; where the derivative vanishes, the limit from after (`End::Start`) or before
     /// (`End::Finish`) t. At a break the two differ.
-    pub fn tangent(&self, _t: f64, _side: End) -> Vec2 {
-        todo!()
+    pub fn tangent(&self, t: f64, side: End) -> Vec2 {
+        match self {
+            Curve::Line(l) => unit(l.chord()),
+            Curve::Arc(a) => a.tangent(t),
+            Curve::Ellipse(e) => unit(e.derivative(t)),
+            Curve::Bezier(b) => b.tangent(t, side),
+            Curve::Spline(s) => {
+                let (i, u) = s.locate(t, side);
+                s.spans[i].tangent(u, side)
+            }
+        }
     }
     /// Unit direction in which the curve leaves its end point *into the curve*.
-    pub fn direction_at(&self, _end: End) -> Vec2 {
-        todo!()
+    pub fn direction_at(&self, end: End) -> Vec2 {
+        match end {
+            End::Start => self.tangent(0.0, End::Start),
+            End::Finish => -self.tangent(1.0, End::Finish),
+        }
     }
-    /// Signed curvature at t (positive: turns left).
-    pub fn curvature(&self, _t: f64) -> f64 {
-        todo!()
+    /// Signed curvature at t (positive: turns left); 0 where the derivative vanishes.
+    pub fn curvature(&self, t: f64) -> f64 {
+        let (d, dd) = (self.derivative(t), self.second_derivative(t));
+        let speed = length(d);
+        if speed == 0.0 { 0.0 } else { (d / speed).cross(dd / speed) / speed }
     }
+    /// Whether the curve is its chord, followed without turning back, up to rounding of its control points.
     pub fn is_straight(&self) -> bool {
-        todo!()
+        match self {
+            Curve::Line(_) => true,
+            Curve::Arc(_) | Curve::Ellipse(_) => false,
+            Curve::Bezier(b) => b.is_straight(b.hodograph_noise()),
+            Curve::Spline(_) => spans::is_straight(self),
+        }
     }
-    /// A tight box.
+    /// A tight box, up to rounding of `point`.
     pub fn bounds(&self) -> Rect {
-        todo!()
+        self.bounds_of(0.0, 1.0)
     }
-    pub fn bounds_of(&self, _t0: f64, _t1: f64) -> Rect {
-        todo!()
+    /// A tight box around t0..t1, up to rounding of `point`.
+    pub fn bounds_of(&self, t0: f64, t1: f64) -> Rect {
+        let extremes = match self {
+            Curve::Line(_) => Vec::new(),
+            Curve::Arc(a) => arc::passages(a.start_rad, a.sweep_rad, 0.0, FRAC_PI_2, t0, t1),
+            Curve::Ellipse(e) => e.extremes(t0, t1),
+            Curve::Bezier(_) | Curve::Spline(_) => spans::extremes(self, t0, t1),
+        };
+        let ends = Rect::from_points(self.point(t0), self.point(t1));
+        bounds_of(extremes.into_iter().map(|t| self.point(t))).map_or(ends, |inner| inner.union(ends))
     }
     pub fn length(&self) -> f64 {
         todo!()
@@ -197,12 +334,37 @@ impl Curve {
         todo!()
     }
     /// Parameter and distance of the nearest point of the part t0..t1 (global, not a local minimum).
-    pub fn nearest(&self, _p: Point, _t0: f64, _t1: f64) -> (f64, f64) {
-        todo!()
+    pub fn nearest(&self, p: Point, t0: f64, t1: f64) -> (f64, f64) {
+        let t = match self {
+            Curve::Line(l) => l.nearest(p, t0, t1),
+            Curve::Arc(a) => {
+                let inside = a.normals_through(p, t0, t1).into_iter().map(|t| self.polished_foot(p, t, t0, t1));
+                let candidates: Vec<f64> = inside.chain([t0, t1]).collect();
+                self.nearest_of(p, &candidates)
+            }
+            _ => spans::nearest(self, p, t0, t1),
+        };
+        (t, length(self.point(t) - p))
     }
     /// ½∮(x dy − y dx) along the curve relative to `origin`: summed over a closed loop, the enclosed area.
-    pub fn green(&self, _origin: Point) -> f64 {
-        todo!()
+    pub fn green(&self, origin: Point) -> f64 {
+        let chord = self.end() - self.start();
+        let triangle = 0.5 * (self.start() - origin).cross(chord);
+        triangle
+            + match self {
+                Curve::Line(_) => 0.0,
+                Curve::Arc(a) => 0.5 * a.radius * a.radius * arc::angle_minus_sine(a.sweep_rad),
+                Curve::Ellipse(e) => 0.5 * e.u.cross(e.v) * arc::angle_minus_sine(e.sweep_rad),
+                Curve::Bezier(b) => b.segment_area(),
+                Curve::Spline(s) => {
+                    let start = self.start();
+                    let above = |span: &Bezier| {
+                        let (a, b) = (span.points[0], span.points[span.degree()]);
+                        0.5 * (a - start).cross(b - a) + span.segment_area()
+                    };
+                    s.spans.iter().map(above).sum()
+                }
+            }
     }
     /// Turning: the integral of |dθ| of the tangent angle over t0..t1, jumps included.
     pub fn turning(&self, _t0: f64, _t1: f64) -> f64 {
@@ -246,23 +408,132 @@ impl Curve {
 // ---- makers of other curves ----
 impl Curve {
     /// The part t0..t1 as a curve of its own, of the same kind; its ends are exactly `point(t0)` and `point(t1)`.
-    pub fn part(&self, _t0: f64, _t1: f64) -> Self {
-        todo!()
+    pub fn part(&self, t0: f64, t1: f64) -> Self {
+        let ends = [self.point(t0), self.point(t1)];
+        match self {
+            Curve::Line(_) => Curve::Line(Line { start: ends[0], end: ends[1] }),
+            Curve::Arc(a) => Curve::Arc(a.part(t0, t1, ends)),
+            Curve::Ellipse(e) => Curve::Ellipse(Box::new(e.part(t0, t1, ends))),
+            Curve::Bezier(b) => Curve::Bezier(Box::new(b.part(t0, t1, ends))),
+            Curve::Spline(s) => Curve::Spline(Box::new(s.part(t0, t1, ends))),
+        }
     }
+    /// The same curve followed the other way: its point at t is this one's at 1 − t.
     pub fn reversed(&self) -> Self {
-        todo!()
+        let turned = |ends: [Point; 2]| [ends[1], ends[0]];
+        match self {
+            Curve::Line(l) => Curve::Line(Line { start: l.end, end: l.start }),
+            Curve::Arc(a) => Curve::Arc(CircularArc {
+                start_rad: a.start_rad + a.sweep_rad,
+                sweep_rad: -a.sweep_rad,
+                ends: turned(a.ends),
+                ..*a
+            }),
+            Curve::Ellipse(e) => Curve::Ellipse(Box::new(EllipticArc {
+                start_rad: e.angle(1.0),
+                sweep_rad: -e.sweep_rad,
+                ends: turned(e.ends),
+                ..**e
+            })),
+            Curve::Bezier(b) => Curve::Bezier(Box::new(b.reversed())),
+            Curve::Spline(s) => Curve::Spline(Box::new(s.reversed())),
+        }
     }
     /// The curve moved by the similarity that takes its ends to `start` and `end` (exactly those bits). For a small move: welding.
     /// A closed curve is translated, and both ends must be equal.
-    pub fn with_ends(&self, _start: Point, _end: Point) -> Self {
-        todo!()
+    pub fn with_ends(&self, start: Point, end: Point) -> Self {
+        let (from, chord, wanted) = (self.start(), self.end() - self.start(), end - start);
+        if from == start && self.end() == end {
+            return self.clone();
+        }
+        // The similarity as a complex factor; a chord to or from nothing can only be moved.
+        let square = chord.dot(chord);
+        let factor = Vec2::new(chord.dot(wanted), chord.cross(wanted)) / square;
+        let scale = length(factor);
+        let (factor, scale) =
+            if scale > 0.0 && scale.is_finite() { (factor, scale) } else { (Vec2::new(1.0, 0.0), 1.0) };
+        let turn = libm::atan2(factor.y, factor.x);
+        let vector = |v: Vec2| Vec2::new(factor.x * v.x - factor.y * v.y, factor.y * v.x + factor.x * v.y);
+        let point = |p: Point| start + vector(p - from);
+        let ends = [start, end];
+        match self {
+            Curve::Line(_) => Curve::Line(Line { start, end }),
+            Curve::Arc(a) => Curve::Arc(CircularArc {
+                center: point(a.center),
+                radius: a.radius * scale,
+                start_rad: a.start_rad + turn,
+                sweep_rad: a.sweep_rad,
+                ends,
+            }),
+            Curve::Ellipse(e) => Curve::Ellipse(Box::new(EllipticArc {
+                center: point(e.center),
+                u: vector(e.u),
+                v: vector(e.v),
+                ends,
+                ..**e
+            })),
+            Curve::Bezier(b) => {
+                let mut moved = b.mapped(point);
+                let last = moved.degree();
+                (moved.points[0], moved.points[last]) = (start, end);
+                Curve::Bezier(Box::new(moved))
+            }
+            Curve::Spline(s) => {
+                let mut moved = s.mapped(point);
+                moved.spans[0].points[0] = start;
+                if let Some(end_of_last) = moved.spans.last_mut().and_then(|span| span.points.last_mut()) {
+                    *end_of_last = end;
+                }
+                Curve::Spline(Box::new(moved))
+            }
+        }
     }
     /// All coordinates times a power of two: exact.
-    pub fn scaled(&self, _factor: f64) -> Self {
-        todo!()
+    pub fn scaled(&self, factor: f64) -> Self {
+        let scale = |p: Point| crate::geometry::scaled(p, factor);
+        match self {
+            Curve::Line(l) => Curve::Line(Line { start: scale(l.start), end: scale(l.end) }),
+            Curve::Arc(a) => Curve::Arc(CircularArc {
+                center: scale(a.center),
+                radius: a.radius * factor,
+                ends: a.ends.map(scale),
+                ..*a
+            }),
+            Curve::Ellipse(e) => Curve::Ellipse(Box::new(EllipticArc {
+                center: scale(e.center),
+                u: e.u * factor,
+                v: e.v * factor,
+                ends: e.ends.map(scale),
+                ..**e
+            })),
+            Curve::Bezier(b) => Curve::Bezier(Box::new(b.mapped(scale))),
+            Curve::Spline(s) => Curve::Spline(Box::new(s.mapped(scale))),
+        }
     }
     /// Any non-degenerate affine image, exact in kind (a circle under a skew becomes an ellipse).
     pub fn transformed(&self, _map: kurbo::Affine) -> Self {
         todo!()
+    }
+}
+
+impl Curve {
+    /// One Newton step from a parameter near the foot of the perpendicular from p, where it comes nearer.
+    fn polished_foot(&self, p: Point, t: f64, t0: f64, t1: f64) -> f64 {
+        let (offset, d, dd) = (self.point(t) - p, self.derivative(t), self.second_derivative(t));
+        let step = offset.dot(d) / (d.dot(d) + offset.dot(dd));
+        let stepped = (t - step).clamp(t0, t1);
+        if length(self.point(stepped) - p) < length(offset) { stepped } else { t }
+    }
+
+    /// The first of some parameters whose point is nearest.
+    fn nearest_of(&self, p: Point, candidates: &[f64]) -> f64 {
+        let mut best = (f64::INFINITY, candidates[0]);
+        for t in candidates {
+            let distance = length(self.point(*t) - p);
+            if distance < best.0 {
+                best = (distance, *t);
+            }
+        }
+        best.1
     }
 }

@@ -1,0 +1,162 @@
+//! Part of a circle.
+
+use super::{CircularArc, CurveError, End, check_finite, length};
+use crate::geometry::{Point, Vec2};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+/// The point of the unit circle at an angle, and the unit tangent there.
+fn on_circle(angle: f64) -> (Vec2, Vec2) {
+    let (sin, cos) = libm::sincos(angle);
+    (Vec2::new(cos, sin), Vec2::new(-sin, cos))
+}
+
+/// A sweep of at most once around: refused beyond that, and where it is 0.
+pub(super) fn checked_sweep(sweep_rad: f64) -> Result<f64, CurveError> {
+    // 2π as readers compute it from degrees or from a difference of angles: some ulp off.
+    let full = TAU * (1.0 + 16.0 * f64::EPSILON);
+    if sweep_rad == 0.0 || sweep_rad.abs() > full {
+        return Err(CurveError::Sweep { sweep_rad });
+    }
+    let nearly_full = sweep_rad.abs() >= TAU * (1.0 - 16.0 * f64::EPSILON);
+    Ok(if nearly_full { TAU.copysign(sweep_rad) } else { sweep_rad })
+}
+
+/// Parameters t in t0..t1 (open) at which start + sweep·t equals `angle` modulo `period`, ascending.
+pub(super) fn passages(start_rad: f64, sweep_rad: f64, angle: f64, period: f64, t0: f64, t1: f64) -> Vec<f64> {
+    let (from, to) = (start_rad + sweep_rad * t0, start_rad + sweep_rad * t1);
+    let (low, high) = if from < to { (from, to) } else { (to, from) };
+    let first = libm::ceil((low - angle) / period);
+    // A sweep of 2π passes an angle modulo π/2 at most five times.
+    let mut found: Vec<f64> = (0..5)
+        .map(|k| angle + (first + f64::from(k)) * period)
+        .take_while(|passage| *passage <= high)
+        .map(|passage| (passage - start_rad) / sweep_rad)
+        .filter(|t| *t > t0 && *t < t1)
+        .collect();
+    found.sort_by(f64::total_cmp);
+    found
+}
+
+/// φ − sin φ without cancellation.
+pub(super) fn angle_minus_sine(phi: f64) -> f64 {
+    if phi.abs() > 1.0 {
+        return phi - libm::sin(phi);
+    }
+    // Taylor; the term after φ²¹ is below 1/23! < 2⁻⁷⁴ of the first.
+    let mut term = phi * phi * phi / 6.0;
+    let mut sum = 0.0;
+    let mut k = 4.0;
+    for _ in 0..10 {
+        sum += term;
+        term *= -phi * phi / (k * (k + 1.0));
+        k += 2.0;
+    }
+    sum
+}
+
+impl CircularArc {
+    pub(super) fn new(center: Point, radius: f64, start_rad: f64, sweep_rad: f64) -> Result<Self, CurveError> {
+        check_finite([center.x, center.y, radius, start_rad, sweep_rad])?;
+        if radius <= 0.0 {
+            return Err(CurveError::Radius { radius });
+        }
+        let sweep_rad = checked_sweep(sweep_rad)?;
+        let start = center + on_circle(start_rad).0 * radius;
+        let end = if sweep_rad.abs() == TAU { start } else { center + on_circle(start_rad + sweep_rad).0 * radius };
+        check_finite([start.x, start.y, end.x, end.y])?;
+        Ok(CircularArc { center, radius, start_rad, sweep_rad, ends: [start, end] })
+    }
+
+    /// The arc over a chord; the sweep is neither 0 nor a full turn.
+    pub(super) fn over_chord(start: Point, end: Point, sweep_rad: f64) -> Result<Self, CurveError> {
+        check_finite([start.x, start.y, end.x, end.y, sweep_rad])?;
+        let chord = end - start;
+        let (sin, cos) = libm::sincos(0.5 * sweep_rad);
+        let radius = 0.5 * length(chord) / sin.abs();
+        if !(radius > 0.0 && radius.is_finite()) {
+            return Err(CurveError::Radius { radius });
+        }
+        let to_center = Vec2::new(-chord.y, chord.x) * (0.5 * cos / sin);
+        let center = start + (chord * 0.5 + to_center);
+        check_finite([center.x, center.y])?;
+        // Halfway the tangent is parallel to the chord.
+        let start_rad = libm::atan2(chord.y, chord.x) - 0.5 * sweep_rad - FRAC_PI_2.copysign(sweep_rad);
+        Ok(CircularArc { center, radius, start_rad, sweep_rad, ends: [start, end] })
+    }
+
+    /// Up to half a circle the point comes from the chord and the sweep alone, so it is as exact as the ends however far away the
+    /// center of a flat arc is; beyond that the ends' rounding is spread along the arc.
+    pub(super) fn point(&self, t: f64) -> Point {
+        let [start, end] = self.ends;
+        let half = 0.5 * self.sweep_rad;
+        if self.sweep_rad.abs() <= PI {
+            let chord = end - start;
+            let (sin, cos) = libm::sincos(-half * (1.0 - t));
+            let reach = libm::sin(half * t) / libm::sin(half);
+            return start + Vec2::new(cos * chord.x - sin * chord.y, sin * chord.x + cos * chord.y) * reach;
+        }
+        let from_start = |t: f64| {
+            let along = on_circle(self.start_rad + half * t).1;
+            along * (2.0 * self.radius * libm::sin(half * t))
+        };
+        start + (from_start(t) + ((end - start) - from_start(1.0)) * t)
+    }
+
+    pub(super) fn tangent(&self, t: f64) -> Vec2 {
+        on_circle(self.start_rad + self.sweep_rad * t).1 * 1f64.copysign(self.sweep_rad)
+    }
+
+    pub(super) fn derivative(&self, t: f64) -> Vec2 {
+        self.tangent(t) * (self.radius * self.sweep_rad.abs())
+    }
+
+    pub(super) fn second_derivative(&self, t: f64) -> Vec2 {
+        on_circle(self.start_rad + self.sweep_rad * t).0 * (-self.radius * self.sweep_rad * self.sweep_rad)
+    }
+
+    pub(super) fn part(&self, t0: f64, t1: f64, ends: [Point; 2]) -> Self {
+        let start_rad = self.start_rad + self.sweep_rad * t0;
+        CircularArc { start_rad, sweep_rad: self.sweep_rad * (t1 - t0), ends, ..*self }
+    }
+
+    /// Candidates for the nearest point: the two where the circle's normal passes through p.
+    pub(super) fn normals_through(&self, p: Point, t0: f64, t1: f64) -> Vec<f64> {
+        let from_center = p - self.center;
+        let angle = libm::atan2(from_center.y, from_center.x);
+        passages(self.start_rad, self.sweep_rad, angle, PI, t0, t1)
+    }
+
+    /// Where the line meets the circle.
+    pub(super) fn line_crossings(&self, a: Point, direction: Vec2, t0: f64, t1: f64) -> Vec<f64> {
+        let unit = direction / length(direction);
+        // Distance of the center from the line, left of it positive; the normal points to the right.
+        let distance = unit.cross(self.center - a);
+        let half_chord = (self.radius - distance) * (self.radius + distance);
+        if !(half_chord > 0.0) {
+            return Vec::new();
+        }
+        let opening = libm::atan2(half_chord.sqrt(), distance);
+        let normal = libm::atan2(-unit.x, unit.y);
+        let mut found = passages(self.start_rad, self.sweep_rad, normal - opening, TAU, t0, t1);
+        found.extend(passages(self.start_rad, self.sweep_rad, normal + opening, TAU, t0, t1));
+        found.sort_by(f64::total_cmp);
+        found
+    }
+
+    pub(super) fn leaves_ball(&self, end: End, radius: f64, t0: f64, t1: f64) -> Option<f64> {
+        let sine = radius / (2.0 * self.radius);
+        // asin of a rounded quotient: some ulp past the end still is the end.
+        let slack = 1.0 + 4.0 * f64::EPSILON;
+        if !(0.0..=slack).contains(&sine) {
+            return None;
+        }
+        let step = 2.0 * libm::asin(sine.min(1.0)) / self.sweep_rad.abs();
+        if step > (t1 - t0) * slack {
+            return None;
+        }
+        Some(match end {
+            End::Start => (t0 + step).min(t1),
+            End::Finish => (t1 - step).max(t0),
+        })
+    }
+}

@@ -1,0 +1,303 @@
+//! A Bézier curve of any degree, polynomial or rational.
+//!
+//! All arithmetic is on differences from a nearby point, so a far offset costs one rounding at the end.
+
+use super::bernstein;
+use super::{Bezier, CurveError, End, check_finite, check_points, length, quadrature, unit};
+use crate::geometry::{Point, Vec2, unit_scale};
+use std::ops::{Add, Mul, Sub};
+
+/// Above this, binomial coefficients of the products (three times the degree) leave the range of `f64`.
+const DEGREE_MAX: usize = 300;
+
+/// A point times its weight, and the weight.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Weighted {
+    pub at: Vec2,
+    pub weight: f64,
+}
+
+impl Weighted {
+    pub(super) fn point(self) -> Vec2 {
+        self.at / self.weight
+    }
+}
+impl Add for Weighted {
+    type Output = Self;
+    fn add(self, o: Self) -> Self {
+        Weighted { at: self.at + o.at, weight: self.weight + o.weight }
+    }
+}
+impl Sub for Weighted {
+    type Output = Self;
+    fn sub(self, o: Self) -> Self {
+        Weighted { at: self.at - o.at, weight: self.weight - o.weight }
+    }
+}
+impl Mul<f64> for Weighted {
+    type Output = Self;
+    fn mul(self, k: f64) -> Self {
+        Weighted { at: self.at * k, weight: self.weight * k }
+    }
+}
+
+/// The control polygon of a part of a curve, relative to some origin.
+#[derive(Clone, Debug)]
+pub(super) enum Polygon {
+    Plain(Vec<Vec2>),
+    Rational(Vec<Weighted>),
+}
+
+impl Polygon {
+    pub(super) fn value(&self, t: f64) -> Vec2 {
+        match self {
+            Polygon::Plain(c) => bernstein::value(c, t),
+            Polygon::Rational(c) => bernstein::value(c, t).point(),
+        }
+    }
+
+    pub(super) fn split(&self, t: f64) -> (Polygon, Polygon) {
+        match self {
+            Polygon::Plain(c) => {
+                let (left, right) = bernstein::split(c, t);
+                (Polygon::Plain(left), Polygon::Plain(right))
+            }
+            Polygon::Rational(c) => {
+                let (left, right) = bernstein::split(c, t);
+                (Polygon::Rational(left), Polygon::Rational(right))
+            }
+        }
+    }
+
+    pub(super) fn restricted(&self, t0: f64, t1: f64) -> Polygon {
+        match self {
+            Polygon::Plain(c) => Polygon::Plain(bernstein::restricted(c, t0, t1)),
+            Polygon::Rational(c) => Polygon::Rational(bernstein::restricted(c, t0, t1)),
+        }
+    }
+
+    pub(super) fn reversed(mut self) -> Polygon {
+        match &mut self {
+            Polygon::Plain(c) => c.reverse(),
+            Polygon::Rational(c) => c.reverse(),
+        }
+        self
+    }
+
+    /// The control points; the curve lies in their convex hull.
+    pub(super) fn points(&self) -> Vec<Vec2> {
+        match self {
+            Polygon::Plain(c) => c.clone(),
+            Polygon::Rational(c) => c.iter().map(|p| p.point()).collect(),
+        }
+    }
+
+    /// Control points times their weights.
+    pub(super) fn numerators(&self) -> Vec<Vec2> {
+        match self {
+            Polygon::Plain(c) => c.clone(),
+            Polygon::Rational(c) => c.iter().map(|p| p.at).collect(),
+        }
+    }
+
+    pub(super) fn weights(&self) -> Option<Vec<f64>> {
+        match self {
+            Polygon::Plain(_) => None,
+            Polygon::Rational(c) => Some(c.iter().map(|p| p.weight).collect()),
+        }
+    }
+
+    /// A linear form of position plus a constant, times the weight: coefficients of a polynomial with the form's sign.
+    pub(super) fn linear_form(&self, form: impl Fn(Vec2) -> f64, constant: f64) -> Vec<f64> {
+        match self {
+            Polygon::Plain(c) => c.iter().map(|p| form(*p) + constant).collect(),
+            Polygon::Rational(c) => c.iter().map(|p| form(p.at) + constant * p.weight).collect(),
+        }
+    }
+}
+
+impl Bezier {
+    pub(super) fn new(points: Vec<Point>, weights: Option<Vec<f64>>) -> Result<Self, CurveError> {
+        check_points(&points)?;
+        if !(2..=DEGREE_MAX + 1).contains(&points.len()) {
+            let needs = format!("2 to {} control points", DEGREE_MAX + 1);
+            return Err(CurveError::Count { what: "a Bézier curve", needs, has: points.len() });
+        }
+        if let Some(weights) = &weights {
+            check_weights(weights, points.len())?;
+        }
+        // Equal weights say nothing; a common factor neither, and products of weights must stay in range.
+        let weights = weights.filter(|w| w.iter().any(|v| *v != w[0])).map(|mut w| {
+            let scale = unit_scale(bernstein::largest(&w));
+            w.iter_mut().for_each(|v| *v *= scale);
+            w
+        });
+        Ok(Bezier { points, weights })
+    }
+
+    pub(super) fn degree(&self) -> usize {
+        self.points.len() - 1
+    }
+
+    fn weighted(&self, weights: &[f64], i: usize) -> Weighted {
+        Weighted { at: (self.points[i] - self.points[0]) * weights[i], weight: weights[i] }
+    }
+
+    pub(super) fn point(&self, t: f64) -> Point {
+        let first = self.points[0];
+        if t <= 0.0 {
+            return first;
+        }
+        if t >= 1.0 {
+            return self.points[self.degree()];
+        }
+        let count = self.points.len();
+        first
+            + match &self.weights {
+                None => bernstein::value_by(count, |i| self.points[i] - first, t),
+                Some(w) => bernstein::value_by(count, |i| self.weighted(w, i), t).point(),
+            }
+    }
+
+    pub(super) fn derivative(&self, t: f64) -> Vec2 {
+        let n = self.degree();
+        let Some(w) = &self.weights else {
+            return bernstein::value_by(n, |i| self.points[i + 1] - self.points[i], t) * n as f64;
+        };
+        let value = bernstein::value_by(n + 1, |i| self.weighted(w, i), t);
+        let slope = bernstein::value_by(n, |i| self.weighted(w, i + 1) - self.weighted(w, i), t) * n as f64;
+        (slope.at - value.point() * slope.weight) / value.weight
+    }
+
+    pub(super) fn second_derivative(&self, t: f64) -> Vec2 {
+        let n = self.degree();
+        let factor = (n * (n - 1)) as f64;
+        let p = &self.points;
+        let Some(w) = &self.weights else {
+            if n < 2 {
+                return Vec2::ZERO;
+            }
+            return bernstein::value_by(n - 1, |i| (p[i + 2] - p[i + 1]) - (p[i + 1] - p[i]), t) * factor;
+        };
+        let q = |i: usize| self.weighted(w, i);
+        let value = bernstein::value_by(n + 1, q, t);
+        let slope = bernstein::value_by(n, |i| q(i + 1) - q(i), t) * n as f64;
+        let bend = if n < 2 {
+            Weighted { at: Vec2::ZERO, weight: 0.0 }
+        } else {
+            bernstein::value_by(n - 1, |i| (q(i + 2) - q(i + 1)) - (q(i + 1) - q(i)), t) * factor
+        };
+        let first = (slope.at - value.point() * slope.weight) / value.weight;
+        (bend.at - first * (2.0 * slope.weight) - value.point() * bend.weight) / value.weight
+    }
+
+    /// The control polygon relative to `origin`.
+    pub(super) fn about(&self, origin: Point) -> Polygon {
+        match &self.weights {
+            None => Polygon::Plain(self.points.iter().map(|p| *p - origin).collect()),
+            Some(w) => Polygon::Rational(
+                self.points.iter().zip(w).map(|(p, w)| Weighted { at: (*p - origin) * *w, weight: *w }).collect(),
+            ),
+        }
+    }
+
+    /// Coefficients of a polynomial vector in the direction of the derivative: the derivative over the degree n, or that times the
+    /// squared denominator, (W N′ − N W′)/n = Σ wᵢ wⱼ₊₁ (Pⱼ₊₁ − Pᵢ) over the products of degree n − 1.
+    pub(super) fn hodograph(&self) -> Vec<Vec2> {
+        let p = &self.points;
+        let Some(w) = &self.weights else {
+            return p.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        };
+        let indices: Vec<usize> = (0..p.len()).collect();
+        bernstein::product(&indices[..self.degree()], &indices[1..], |i, j| (p[j] - p[i]) * (w[i] * w[j]))
+    }
+
+    /// How far a coefficient of the hodograph may be off because control points are rounded numbers.
+    pub(super) fn hodograph_noise(&self) -> f64 {
+        let largest = self.points.iter().fold(0.0f64, |m, p| m.max(p.x.abs()).max(p.y.abs()));
+        let weight = self.weights.as_ref().map_or(1.0, |w| w.iter().fold(0.0f64, |m, v| m.max(*v)));
+        // A difference of two points, each off by √2 · ½ ulp as given and once more where a part was cut or welded.
+        4.0 * f64::EPSILON * largest * weight * weight
+    }
+
+    pub(super) fn part(&self, t0: f64, t1: f64, ends: [Point; 2]) -> Self {
+        let first = self.points[0];
+        let polygon = self.about(first).restricted(t0, t1);
+        let mut points: Vec<Point> = polygon.points().into_iter().map(|v| first + v).collect();
+        let last = points.len() - 1;
+        (points[0], points[last]) = (ends[0], ends[1]);
+        Bezier { points, weights: polygon.weights() }
+    }
+
+    pub(super) fn reversed(&self) -> Self {
+        let mut reversed = self.clone();
+        reversed.points.reverse();
+        if let Some(w) = &mut reversed.weights {
+            w.reverse();
+        }
+        reversed
+    }
+
+    pub(super) fn mapped(&self, map: impl Fn(Point) -> Point) -> Self {
+        Bezier { points: self.points.iter().map(|p| map(*p)).collect(), weights: self.weights.clone() }
+    }
+
+    /// See [`super::Curve::tangent`].
+    pub(super) fn tangent(&self, t: f64, side: End) -> Vec2 {
+        let hodograph = self.hodograph();
+        let noise = self.hodograph_noise();
+        let there = bernstein::value(&hodograph, t);
+        if length(there) > noise {
+            return unit(there);
+        }
+        let (before, after) = bernstein::split(&hodograph, t);
+        let limit = |side| match side {
+            End::Start => after.iter().find(|d| length(**d) > noise),
+            End::Finish => before.iter().rev().find(|d| length(**d) > noise),
+        };
+        let other = if side == End::Start { End::Finish } else { End::Start };
+        unit(limit(side).or_else(|| limit(other)).copied().unwrap_or(self.points[self.degree()] - self.points[0]))
+    }
+
+    /// ½∮(x dy − y dx) between the curve and its chord.
+    pub(super) fn segment_area(&self) -> f64 {
+        let first = self.points[0];
+        let area_rate = match self.about(first) {
+            Polygon::Plain(c) => {
+                let rate = bernstein::product(&c, &bernstein::derivative(&c), |p, d| p.cross(d));
+                rate.iter().sum::<f64>() / rate.len() as f64
+            }
+            // (N × N′)/W².
+            Polygon::Rational(c) => {
+                let slopes = bernstein::derivative(&c);
+                let size = bernstein::longest(&self.about(first).points());
+                let rate = |t: f64| {
+                    let (value, slope) = (bernstein::value(&c, t), bernstein::value(&slopes, t));
+                    value.at.cross(slope.at) / (value.weight * value.weight)
+                };
+                quadrature::integral(rate, 0.0, 1.0, size * size)
+            }
+        };
+        0.5 * area_rate
+    }
+
+    /// No control point leaves the chord, nor goes back along it, by more than rounding.
+    pub(super) fn is_straight(&self, noise: f64) -> bool {
+        let chord = self.points[self.degree()] - self.points[0];
+        let len = length(chord);
+        self.points.iter().all(|p| (*p - self.points[0]).cross(chord).abs() <= noise * len)
+            && self.points.windows(2).all(|p| (p[1] - p[0]).dot(chord) >= -noise * len)
+    }
+}
+
+pub(super) fn check_weights(weights: &[f64], count: usize) -> Result<(), CurveError> {
+    if weights.len() != count {
+        let needs = format!("{count} weights, one a control point");
+        return Err(CurveError::Count { what: "a rational curve", needs, has: weights.len() });
+    }
+    check_finite(weights.iter().copied())?;
+    match weights.iter().position(|w| *w <= 0.0) {
+        Some(index) => Err(CurveError::Weight { index }),
+        None => Ok(()),
+    }
+}

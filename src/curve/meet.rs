@@ -1,0 +1,363 @@
+//! Where two curves meet, and where a curve meets itself.
+//!
+//! **Method.** Both curves become trees of ever smaller Bézier pieces ([`hull`]). Pairs of pieces are compared from the roots down;
+//! one is dropped where the boxes, or the strips along either chord, are further apart than the tolerance. A pair is solved
+//! * by Newton's method where both are slender and no direction is in both cones of tangents. Such pieces meet at most once, since
+//!   the chord between two meetings would have to lie in both cones; apart from the one crossing they come close only at ends;
+//! * at the ends of both where both are straight to within a quarter of the tolerance: their gap is then nearly linear, and
+//!   if it is within the tolerance anywhere, it is so at an end, or they cross at an angle and the first case applies.
+//!
+//! Every other pair is halved at its longer piece. What is found is only a first guess: it is followed along both curves and so told
+//! from a shared stretch ([`contact`]), and pairs of pieces that lie beside a contact already followed are dropped. Two circles, or a
+//! line and a circle, are guessed in closed form instead ([`circles`]).
+//!
+//! **Invariant.** Whenever a pair is taken from the stack, every meeting of the curves is in a contact already followed, or within a
+//! pair on the stack, or within the pair in hand.
+//!
+//! **Termination.** Halving ends where pieces are straight or as small as a quarter of the tolerance, which is at least a few units in
+//! the last place of the coordinates. For curves that run along each other just outside the tolerance the number of pairs grows
+//! like the square root of length/gap, so it has a budget; where that ends, [`MeetingBudget`] names the place.
+
+mod circles;
+mod contact;
+mod hull;
+#[cfg(test)]
+mod tests;
+
+use super::Curve;
+use crate::geometry::boxes::distance_to_box;
+use crate::geometry::{Point, Vec2};
+use contact::{Contacts, Track, foot};
+use hull::{Hulls, Piece, length};
+
+/// How two curves meet.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Meeting {
+    /// The place; within the tolerance of both curves' points at t and u, and exactly the end point where one is at its end.
+    pub at: Point,
+    /// Parameter on the first curve; exactly 0 or 1 where the meeting holds that end.
+    pub t: f64,
+    /// Parameter on the second curve; likewise.
+    pub u: f64,
+    pub kind: MeetingKind,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum MeetingKind {
+    /// The curves change sides, inside both.
+    Crossing,
+    /// A tangential contact, an end on the other's inside, or common ends.
+    Touching,
+}
+
+/// A stretch that two curves share within the tolerance: the range of t on the first (ascending), and u where t is least and
+/// greatest (descending where the curves run against each other).
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Overlap {
+    pub t: [f64; 2],
+    pub u: [f64; 2],
+}
+
+/// Everything that two curves have in common, by ascending t.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct Meetings {
+    pub points: Vec<Meeting>,
+    pub overlaps: Vec<Overlap>,
+}
+
+/// The curves run so near each other for so long that telling where they meet costs too much.
+#[derive(Clone, Copy, PartialEq, Debug, thiserror::Error)]
+#[error("the curves run too close to each other near ({}, {}) to tell where they meet; a larger tolerance makes them one", at.x, at.y)]
+pub struct MeetingBudget {
+    /// Where the work ended.
+    pub at: Point,
+}
+
+/// Pairs of pieces that are compared at most: some 0.1 s of work. A pair of cubics takes about fifty, a tangential touch a few hundred,
+/// and curves that run 1e-9 of their size beside each other some ten thousand.
+const PAIRS: usize = 1 << 18;
+
+/// Every meeting of two curves with a gap of at most `tolerance` (a length; at least a few units in the last place of the
+/// coordinates are allowed in any case). Each connected contact is one meeting: two crossings with a lens between them that is
+/// no deeper than the tolerance are one touching. A contact that holds an end of a curve is reported there.
+///
+/// # Errors
+/// [`MeetingBudget`] where the curves run along each other just outside the tolerance for too long.
+pub fn meetings(a: &Curve, b: &Curve, tolerance: f64) -> Result<Meetings, MeetingBudget> {
+    let hulls = [Hulls::of(a), Hulls::of(b)];
+    let mut search = Search::new(a, b, hulls, tolerance, false);
+    match circles::guesses(&search.contacts) {
+        Some(guesses) => guesses.into_iter().try_for_each(|guess| search.follow(guess))?,
+        None => search.run()?,
+    }
+    Ok(search.finish())
+}
+
+/// Where a curve meets itself, with t < u: crossings and touchings; the ends of a stretch that it runs along twice are touchings.
+/// The common end of a closed curve is no meeting. The curve is to have neither cusps nor jumps of its tangent.
+///
+/// # Errors
+/// [`MeetingBudget`] as for [`meetings`].
+pub fn self_meetings(a: &Curve, tolerance: f64) -> Result<Vec<Meeting>, MeetingBudget> {
+    if matches!(a, Curve::Line(_) | Curve::Arc(_) | Curve::Ellipse(_)) {
+        return Ok(Vec::new());
+    }
+    // The second tree stays unused: both pieces of a pair come from the first.
+    let hulls = [Hulls::of(a), Hulls::of(a)];
+    let mut search = Search::new(a, a, hulls, tolerance, true);
+    search.run()?;
+    let Meetings { mut points, overlaps } = search.finish();
+    for Overlap { t, u } in overlaps {
+        let ends = [(t[0], u[0]), (t[1], u[1])].into_iter().filter(|(t, u)| t < u);
+        points.extend(ends.map(|(t, u)| Meeting { at: a.point(t), t, u, kind: MeetingKind::Touching }));
+    }
+    points.sort_by(|p, q| p.t.total_cmp(&q.t).then(p.u.total_cmp(&q.u)));
+    Ok(points)
+}
+
+struct Search<'c> {
+    /// Of a and of b.
+    hulls: [Hulls; 2],
+    contacts: Contacts<'c>,
+}
+
+impl<'c> Search<'c> {
+    fn new(a: &'c Curve, b: &'c Curve, hulls: [Hulls; 2], tolerance: f64, same: bool) -> Self {
+        // Sixteen units of rounding: evaluating a curve takes a few, and a gap is between two of them.
+        let least = 16.0 * f64::EPSILON * hulls[0].magnitude.max(hulls[1].magnitude);
+        let track = |curve, hulls: &Hulls| Track::new(curve, hulls.degree, hulls[hulls.root()].size);
+        let (on_a, on_b) = (track(a, &hulls[0]), track(b, &hulls[1]));
+        Self { contacts: Contacts::new(on_a, on_b, tolerance.max(least), same), hulls }
+    }
+
+    /// Where the pieces of b are kept.
+    fn second(&self) -> usize {
+        if self.contacts.same { 0 } else { 1 }
+    }
+
+    fn run(&mut self) -> Result<(), MeetingBudget> {
+        let second = self.second();
+        let mut stack = vec![[self.hulls[0].root(), self.hulls[second].root()]];
+        let mut compared = 0;
+        while let Some([i, j]) = stack.pop() {
+            compared += 1;
+            if compared > PAIRS {
+                return Err(MeetingBudget { at: self.hulls[0][i].bounds.center() });
+            }
+            if self.contacts.same && i == j {
+                // Legs within a half-plane: the piece cannot come back to where it was.
+                if self.hulls[0][i].cone.is_none() && !self.is_point(i) {
+                    let [left, right] = self.hulls[0].halves(i);
+                    stack.extend([[right, right], [left, right], [left, left]]);
+                }
+                continue;
+            }
+            if let Some(halve) = self.compare(i, j)? {
+                let halves = self.hulls[if halve == 0 { 0 } else { second }].halves([i, j][halve]);
+                for half in halves {
+                    stack.push(if halve == 0 { [half, j] } else { [i, half] });
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn is_point(&self, i: usize) -> bool {
+        self.hulls[0][i].size <= 0.25 * self.contacts.tolerance
+    }
+
+    /// Solves a pair of pieces, or says which of the two is to be halved.
+    fn compare(&mut self, i: usize, j: usize) -> Result<Option<usize>, MeetingBudget> {
+        let tolerance = self.contacts.tolerance;
+        let (p, q) = (&self.hulls[0][i], &self.hulls[self.second()][j]);
+        if are_apart(p, q, tolerance) || (self.contacts.same && self.are_joined(p, q)) {
+            return Ok(None);
+        }
+        if p.cone.is_some() && q.cone.is_some() && self.contacts.knows_box(p.t, q.t) {
+            return Ok(None);
+        }
+        // A quarter each for the width of both pieces, a quarter for each of the two ends' distances.
+        let straight = [p.is_straight(0.25 * tolerance), q.is_straight(0.25 * tolerance)];
+        let mut guesses = Vec::new();
+        if p.is_slender() && q.is_slender() && no_common_direction(p, q) {
+            self.guess_at_ends(p, q, false, &mut guesses);
+            let converged = self.guess_crossing(p, q, &mut guesses);
+            if !converged && straight != [true; 2] {
+                return Ok(Some(longer(p, q, straight)));
+            }
+        } else if straight == [true; 2] {
+            self.guess_at_ends(p, q, true, &mut guesses);
+        } else {
+            return Ok(Some(longer(p, q, straight)));
+        }
+        guesses.into_iter().try_for_each(|guess| self.follow(guess))?;
+        Ok(None)
+    }
+
+    /// Whether two pieces of one curve follow each other and turn too little to meet anywhere else.
+    fn are_joined(&self, p: &Piece, q: &Piece) -> bool {
+        let closed = |p: &Piece, q: &Piece| p.t[0] == 0.0 && q.t[1] == 1.0 && p.hull.first() == q.hull.last();
+        if p.t[1] != q.t[0] && !closed(p, q) {
+            return false;
+        }
+        if p.size.max(q.size) <= 0.25 * self.contacts.tolerance {
+            return true;
+        }
+        let (Some(c), Some(d)) = (p.cone, q.cone) else { return false };
+        // All legs in the open half-plane ahead of the mean of the chords: no two points of the joined pieces are one.
+        let ahead = (p.last() - p.first()).normalize() + (q.last() - q.first()).normalize();
+        [c[0], c[1], d[0], d[1]].iter().all(|leg| leg.dot(ahead) > 0.0)
+    }
+
+    /// Ends of either piece that lie within the tolerance of the other curve: `all` of them, or only the ends of spans.
+    fn guess_at_ends(&self, p: &Piece, q: &Piece, all: bool, guesses: &mut Vec<Guess>) {
+        let tolerance = self.contacts.tolerance;
+        for (piece, other, curve, of_a) in [(p, q, self.contacts.b.curve, true), (q, p, self.contacts.a.curve, false)] {
+            for (end, place) in [(0, piece.first()), (1, piece.last())] {
+                if !(all || piece.span_end[end]) || !is_beside(place, other, tolerance) {
+                    continue;
+                }
+                let (beside, gap) = foot(curve, place, beside_chord(other, place));
+                if gap <= tolerance {
+                    let [t, u] = if of_a { [piece.t[end], beside] } else { [beside, piece.t[end]] };
+                    guesses.push(Guess::at(t, u));
+                }
+            }
+        }
+    }
+
+    /// The crossing of two slender pieces without a common direction, where there is one; whether that is certain.
+    fn guess_crossing(&self, p: &Piece, q: &Piece, guesses: &mut Vec<Guess>) -> bool {
+        let (pp, qq) = (p.last() - p.first(), q.last() - q.first());
+        let between = q.first() - p.first();
+        let area = pp.cross(qq);
+        let at = |piece: &Piece, fraction: f64| piece.t[0] + fraction.clamp(0.0, 1.0) * (piece.t[1] - piece.t[0]);
+        let (t, u) = (at(p, between.cross(qq) / area), at(q, between.cross(pp) / area));
+        let room = |piece: &Piece| {
+            let width = piece.t[1] - piece.t[0];
+            [(piece.t[0] - width).max(0.0), (piece.t[1] + width).min(1.0)]
+        };
+        let tolerance = self.contacts.tolerance;
+        let ([t, u], converged) = self.contacts.root(t, u, [room(p), room(q)]);
+        if !converged {
+            return false;
+        }
+        let (a, b) = (self.contacts.a.curve, self.contacts.b.curve);
+        let place = a.point(t);
+        let (da, db) = (a.derivative(t), b.derivative(u));
+        let sine = (da.cross(db) / (length(da) * length(db))).abs();
+        // The curves are within the tolerance of each other for tolerance/sin θ; twice that for their bending.
+        let reach = 2.0 * tolerance / sine;
+        // A crossing at a joint may be rounded to either side of it: both sides may find it.
+        let inside = |piece: &Piece, t: f64| {
+            let slack = (piece.t[1] - piece.t[0]) * (reach / piece.size).min(1.0);
+            piece.t[0] - slack <= t && t <= piece.t[1] + slack
+        };
+        if inside(p, t) && inside(q, u) {
+            let is_clear = [p.first(), p.last(), q.first(), q.last()].iter().all(|&end| length(end - place) > reach);
+            guesses.push(Guess { t, u, root: true, clear: if is_clear { reach } else { 0.0 } });
+        }
+        true
+    }
+
+    fn follow(&mut self, guess: Guess) -> Result<(), MeetingBudget> {
+        let Guess { t, u, root, clear } = guess;
+        if self.contacts.same && u <= t {
+            return Ok(());
+        }
+        if clear > 0.0 {
+            if !self.contacts.knows(t, u) {
+                self.contacts.add_clear_crossing(t, u, clear);
+            }
+            return Ok(());
+        }
+        self.contacts.add(t, u, root)
+    }
+
+    /// By ascending t; a meeting at the common end of a closed curve is told once, at the lesser parameter.
+    fn finish(self) -> Meetings {
+        let Contacts { mut points, mut overlaps, a, b, tolerance, .. } = self.contacts;
+        points.sort_by(|p, q| p.t.total_cmp(&q.t).then(p.u.total_cmp(&q.u)));
+        overlaps.sort_by(|p, q| p.t[0].total_cmp(&q.t[0]).then(p.u[0].total_cmp(&q.u[0])));
+        let near = |track: &Track, t: f64, other: f64| {
+            let seam = t.min(other) == 0.0 && t.max(other) == 1.0 && track.curve.start() == track.curve.end();
+            let step = tolerance / track.size;
+            seam || (t - other).abs() <= step
+        };
+        let mut kept: Vec<Meeting> = Vec::new();
+        for point in points {
+            let twin =
+                |k: &Meeting| length(k.at - point.at) <= tolerance && near(&a, k.t, point.t) && near(&b, k.u, point.u);
+            if !kept.iter().any(twin) {
+                kept.push(point);
+            }
+        }
+        Meetings { points: kept, overlaps }
+    }
+}
+
+/// A pair of parameters within the tolerance, to be followed.
+struct Guess {
+    t: f64,
+    u: f64,
+    /// Whether it solves a(t) = b(u) as well as can be.
+    root: bool,
+    /// Where positive: a crossing with nothing else of either curve within this distance.
+    clear: f64,
+}
+
+impl Guess {
+    fn at(t: f64, u: f64) -> Self {
+        Self { t, u, root: false, clear: 0.0 }
+    }
+}
+
+/// Whether two pieces are further apart than `gap`, as their boxes or the strips along their chords show.
+fn are_apart(p: &Piece, q: &Piece, gap: f64) -> bool {
+    let (r, s) = (p.bounds, q.bounds);
+    r.x0 > s.x1 + gap
+        || s.x0 > r.x1 + gap
+        || r.y0 > s.y1 + gap
+        || s.y0 > r.y1 + gap
+        || strip_is_clear(p, q, gap)
+        || strip_is_clear(q, p, gap)
+}
+
+/// Whether the strip along the chord of `p` stays further than `gap` from `q`.
+fn strip_is_clear(p: &Piece, q: &Piece, gap: f64) -> bool {
+    if p.normal == Vec2::ZERO || q.is_group() {
+        return false;
+    }
+    let distance = |&x: &Point| p.normal.dot(x - p.first());
+    let low = q.hull.iter().map(distance).fold(f64::INFINITY, f64::min);
+    let high = q.hull.iter().map(distance).fold(f64::NEG_INFINITY, f64::max);
+    low > p.spread[1] + gap || high < p.spread[0] - gap
+}
+
+fn is_beside(x: Point, piece: &Piece, gap: f64) -> bool {
+    let d = if piece.normal == Vec2::ZERO { 0.0 } else { piece.normal.dot(x - piece.first()) };
+    distance_to_box(x, piece.bounds) <= gap && piece.spread[0] - gap <= d && d <= piece.spread[1] + gap
+}
+
+/// The parameter at which the piece, were it straight, would be nearest to x.
+fn beside_chord(piece: &Piece, x: Point) -> f64 {
+    let chord = piece.last() - piece.first();
+    let fraction = if chord == Vec2::ZERO { 0.5 } else { (x - piece.first()).dot(chord) / chord.hypot2() };
+    piece.t[0] + fraction.clamp(0.0, 1.0) * (piece.t[1] - piece.t[0])
+}
+
+/// Whether no direction, either way, is in the cones of tangents of both pieces.
+fn no_common_direction(p: &Piece, q: &Piece) -> bool {
+    let (Some([c, d]), Some([e, f])) = (p.cone, q.cone) else { return false };
+    let signs = [c.cross(e), c.cross(f), d.cross(e), d.cross(f)];
+    signs.iter().all(|&s| s > 0.0) || signs.iter().all(|&s| s < 0.0)
+}
+
+/// Which of two pieces is to be halved: the longer one of those that are not straight yet.
+fn longer(p: &Piece, q: &Piece, straight: [bool; 2]) -> usize {
+    match straight {
+        [true, false] => 1,
+        [false, true] => 0,
+        _ => usize::from(q.size > p.size),
+    }
+}

@@ -1,0 +1,459 @@
+//! From a first guess to a meeting: followed both ways, told from a stretch that is shared, and brought to its exact place.
+//!
+//! The pairs (t, u) with a gap of at most the tolerance fall into connected *contacts*. The meeting is one a contact: a crossing
+//! where the curves leave it on opposite sides, else a touching. So a lens between two crossings that is no deeper than the
+//! tolerance is one touching, and a deeper one two crossings, whatever their distance. Two curves of low degree that agree on a
+//! stretch agree until one of their spans ends, so a contact is an overlap between the outermost span ends that it holds, if those
+//! are apart, and otherwise snaps to the end that it holds.
+
+use super::hull::length;
+use super::{Meeting, MeetingBudget, MeetingKind, Overlap};
+use crate::curve::{Curve, End};
+use crate::geometry::{Point, Vec2};
+
+/// Newton's method doubles its digits a step; a halving fallback never needs more steps than a double has bits.
+const NEWTON_STEPS: usize = 53;
+/// A step along a contact is at most this part of a span times the degree of the partner: then the samples on a span outnumber
+/// the crossings that curves of such degrees can have (Bézout), up to degree eight.
+const SAMPLES_PER_DEGREE: f64 = 8.0;
+
+/// One curve as a contact sees it.
+pub(super) struct Track<'c> {
+    pub curve: &'c Curve,
+    /// Ends of spans: 0, the inner knots, 1.
+    pub knots: Vec<f64>,
+    pub degree: usize,
+    /// Longer side of its box.
+    pub size: f64,
+}
+
+impl<'c> Track<'c> {
+    pub fn new(curve: &'c Curve, degree: usize, size: f64) -> Self {
+        let knots = match curve {
+            Curve::Spline(spline) => spline.knots.clone(),
+            _ => vec![0.0, 1.0],
+        };
+        Self { curve, knots, degree, size }
+    }
+
+    /// Width of the span at t.
+    fn span(&self, t: f64) -> f64 {
+        let above = self.knots.partition_point(|&k| k <= t).clamp(1, self.knots.len() - 1);
+        self.knots[above] - self.knots[above - 1]
+    }
+
+    /// The change of parameter at t that moves the curve's point by about `distance`.
+    fn step_of(&self, t: f64, distance: f64) -> f64 {
+        // Where a curve stands still it soon moves on: the floor is a sixteenth of its least mean speed.
+        let speed = length(self.curve.derivative(t)).max(self.size / 16.0);
+        if speed > distance { distance / speed } else { 1.0 }
+    }
+
+    fn inner_knots(&self) -> &[f64] {
+        &self.knots[1..self.knots.len() - 1]
+    }
+}
+
+/// Both ends of a walk along a contact.
+#[derive(Clone, Copy)]
+enum Stop {
+    /// One of the curves ends here.
+    End,
+    /// The gap exceeds the tolerance here.
+    Away([f64; 2]),
+}
+
+/// What a contact is.
+enum Finding {
+    Point(Meeting),
+    Stretch(Overlap),
+    /// The common end of a closed curve, or a curve's nearness to itself along itself.
+    Nothing,
+}
+
+/// Every contact found so far.
+pub(super) struct Contacts<'c> {
+    pub a: Track<'c>,
+    pub b: Track<'c>,
+    pub tolerance: f64,
+    /// Whether a and b are one curve that may meet itself.
+    pub same: bool,
+    /// Walks along contacts: (t, u) with ascending t.
+    walks: Vec<Vec<[f64; 2]>>,
+    pub points: Vec<Meeting>,
+    pub overlaps: Vec<Overlap>,
+}
+
+impl<'c> Contacts<'c> {
+    pub fn new(a: Track<'c>, b: Track<'c>, tolerance: f64, same: bool) -> Self {
+        Self { a, b, tolerance, same, walks: Vec::new(), points: Vec::new(), overlaps: Vec::new() }
+    }
+
+    /// Records a crossing of which nothing else can be near: no end, no other meeting within `reach` of it.
+    pub fn add_clear_crossing(&mut self, t: f64, u: f64, reach: f64) {
+        let (dt, du) = (self.a.step_of(t, reach), self.b.step_of(u, reach));
+        self.walks.push(vec![[t - dt, u - du], [t + dt, u + du]]);
+        let at = self.a.curve.point(t).midpoint(self.b.curve.point(u));
+        self.points.push(Meeting { at, t, u, kind: MeetingKind::Crossing });
+    }
+
+    /// Follows the contact through (t, u), which must be within the tolerance, and records what it is. `root` says that (t, u)
+    /// solves a(t) = b(u) as well as can be.
+    pub fn add(&mut self, t: f64, u: f64, root: bool) -> Result<(), MeetingBudget> {
+        if self.knows(t, u) {
+            return Ok(());
+        }
+        let (mut walk, before) = self.walk([t, u], -1.0)?;
+        walk.reverse();
+        walk.push([t, u]);
+        let (onward, after) = self.walk([t, u], 1.0)?;
+        walk.extend(onward);
+        match self.what_is(&walk, [t, u], root, before, after) {
+            Finding::Point(meeting) => self.points.push(meeting),
+            Finding::Stretch(overlap) => self.overlaps.push(overlap),
+            Finding::Nothing => {}
+        }
+        if let Stop::Away(outside) = before {
+            walk.insert(0, outside);
+        }
+        if let Stop::Away(outside) = after {
+            walk.push(outside);
+        }
+        self.walks.push(walk);
+        Ok(())
+    }
+
+    /// Whether (t, u) lies in a contact that was followed.
+    pub fn knows(&self, t: f64, u: f64) -> bool {
+        self.knows_box([t; 2], [u; 2])
+    }
+
+    /// Whether a pair of ranges lies within a contact that was followed, next to its walk.
+    pub fn knows_box(&self, t: [f64; 2], u: [f64; 2]) -> bool {
+        if self.walks.is_empty() {
+            return false;
+        }
+        let dt = self.a.step_of(0.5 * (t[0] + t[1]), 2.0 * self.tolerance);
+        let du = self.b.step_of(0.5 * (u[0] + u[1]), 2.0 * self.tolerance);
+        self.walks.iter().any(|walk| {
+            let (first, last) = (walk[0], walk[walk.len() - 1]);
+            if t[0] < first[0] - dt || t[1] > last[0] + dt {
+                return false;
+            }
+            let (low, high) = (first[1].min(last[1]) - du, first[1].max(last[1]) + du);
+            if u[0] < low || u[1] > high {
+                return false;
+            }
+            // The part of the walk over t, one step more at either side.
+            let from = walk.partition_point(|w| w[0] < t[0]).saturating_sub(1);
+            let to = (walk.partition_point(|w| w[0] <= t[1]) + 1).min(walk.len());
+            let part = &walk[from.min(to - 1)..to];
+            let least = part.iter().map(|w| w[1]).fold(f64::INFINITY, f64::min) - du;
+            let most = part.iter().map(|w| w[1]).fold(f64::NEG_INFINITY, f64::max) + du;
+            u[0] <= most && least <= u[1]
+        })
+    }
+
+    /// Follows the contact from a pair, with t falling (−1) or rising (+1): the pairs passed, the last one included.
+    fn walk(&self, from: [f64; 2], sense: f64) -> Result<(Vec<[f64; 2]>, Stop), MeetingBudget> {
+        let (a, b) = (self.a.curve, self.b.curve);
+        let goal = if sense > 0.0 { 1.0 } else { 0.0 };
+        let first_step = (0.25 * self.a.step_of(from[0], self.tolerance)).max(f64::EPSILON);
+        let samples = SAMPLES_PER_DEGREE * self.a.degree.max(self.b.degree) as f64;
+        let spans = self.a.knots.len() + self.b.knots.len();
+        // Doubling and quartering steps are some 60 each; the rest are full, at most two a sample on all spans. Twice that.
+        let budget = 2 * (120 + 2 * spans * samples as usize);
+        let (mut passed, mut here, mut step) = (Vec::new(), from, first_step);
+        for _ in 0..budget {
+            let [t, u] = here;
+            if t == goal {
+                return Ok((passed, Stop::End));
+            }
+            let (velocity, other) = (a.derivative(t), b.derivative(u));
+            let ratio = if other == Vec2::ZERO { 0.0 } else { velocity.dot(other) / other.hypot2() };
+            step = step.min(self.a.span(t) / samples);
+            if ratio.abs() * step > 0.5 * self.b.span(u) / samples {
+                step = (0.5 * self.b.span(u) / samples / ratio.abs()).max(first_step);
+            }
+            let next = (t + sense * step).clamp(0.0, 1.0);
+            let p = a.point(next);
+            let (foot, gap) = foot(b, p, u + ratio * (next - t));
+            let jumps = (foot - u).abs() > self.b.span(u).max(self.b.span(foot)) / samples;
+            let beside = self.same && foot - next <= (from[1] - from[0]) / samples;
+            let at_end = foot == 0.0 || foot == 1.0;
+            if gap <= self.tolerance && !at_end && !jumps && !beside {
+                here = [next, foot];
+                passed.push(here);
+                step *= 2.0;
+                continue;
+            }
+            if at_end
+                && !jumps
+                && let Some(end) = self.end_of_b_between(foot, t, next)
+            {
+                if end != here {
+                    passed.push(end);
+                }
+                return Ok((passed, Stop::End));
+            }
+            // The border of the contact is wanted to a small part of its length only: it serves to know the contact again.
+            if step <= first_step.max((t - from[0]).abs() / 256.0) {
+                return Ok((passed, Stop::Away([next, foot])));
+            }
+            step *= 0.25;
+        }
+        Err(MeetingBudget { at: a.point(here[0]) })
+    }
+
+    /// Where the end `e` of b (0 or 1) lies beside a between two parameters, if it does.
+    fn end_of_b_between(&self, e: f64, t: f64, next: f64) -> Option<[f64; 2]> {
+        let (beside, gap) = foot(self.a.curve, self.b.curve.point(e), t);
+        let slack = self.a.step_of(t, self.tolerance);
+        let (low, high) = (t.min(next), t.max(next));
+        (gap <= self.tolerance && low - slack <= beside && beside <= high + slack).then(|| [beside.clamp(low, high), e])
+    }
+
+    fn what_is(&self, walk: &[[f64; 2]], at: [f64; 2], root: bool, before: Stop, after: Stop) -> Finding {
+        let mut ends = self.ends_in(walk, at, before, after);
+        let held = !ends.is_empty();
+        if matches!((before, after), (Stop::Away(_), _) | (_, Stop::Away(_))) {
+            ends.extend(self.knots_in(walk));
+        }
+        ends.sort_by(|p, q| p[0].total_cmp(&q[0]));
+        if let (Some(&from), Some(&to)) = (ends.first(), ends.last())
+            && self.is_long(walk, from, to)
+        {
+            return Finding::Stretch(Overlap { t: [from[0], to[0]], u: [from[1], to[1]] });
+        }
+        if held {
+            return self.meeting_at_end(&ends);
+        }
+        let (Stop::Away(before), Stop::Away(after)) = (before, after) else { return Finding::Nothing };
+        Finding::Point(self.meeting_inside(walk, at, root, before, after))
+    }
+
+    /// Ends of the curves in the contact, as pairs.
+    fn ends_in(&self, walk: &[[f64; 2]], at: [f64; 2], before: Stop, after: Stop) -> Vec<[f64; 2]> {
+        let (first, last) = (walk[0], walk[walk.len() - 1]);
+        let mut ends = Vec::new();
+        if let Stop::End = before {
+            ends.push(first);
+        }
+        if let Stop::End = after {
+            ends.push(last);
+        }
+        // A walk along a passes an end of b unseen where the curves cross steeply. Where they cross at the angle θ, b stays within
+        // the tolerance for tolerance/sin θ, of which the walk sees the part cos θ; the rest is tan(θ/2) ≤ 1 times the tolerance.
+        let b = self.b.curve;
+        for e in [0.0, 1.0] {
+            let near = |w: &[f64; 2]| {
+                let reach = |u: f64| length(b.point(u) - b.point(e)) <= 2.0 * self.tolerance;
+                reach(w[1]) && reach(0.5 * (w[1] + e))
+            };
+            if ends.iter().any(|w| w[1] == e) {
+                continue;
+            }
+            if let Some(w) = [first, at, last].into_iter().find(near) {
+                let (beside, gap) = foot(self.a.curve, b.point(e), w[0]);
+                if gap <= self.tolerance {
+                    ends.push([beside, e]);
+                }
+            }
+        }
+        ends
+    }
+
+    /// Knots of either curve inside the contact, as pairs: where a contact is a shared stretch, it may end at one. Only those
+    /// count at which the gap is far below the tolerance, lest a shallow crossing of short spans pass for a shared stretch.
+    fn knots_in(&self, walk: &[[f64; 2]]) -> Vec<[f64; 2]> {
+        let (a, b) = (self.a.curve, self.b.curve);
+        let (first, last) = (walk[0], walk[walk.len() - 1]);
+        let close = 0.125 * self.tolerance; // An eighth: the outermost parts of a crossing's contact do not count.
+        let mut knots = Vec::new();
+        for &k in self.a.inner_knots().iter().filter(|&&k| first[0] < k && k < last[0]) {
+            let beside = walk[walk.partition_point(|w| w[0] < k).min(walk.len() - 1)];
+            let (u, gap) = foot(b, a.point(k), beside[1]);
+            if gap <= close {
+                knots.push([k, u]);
+            }
+        }
+        let (low, high) = (first[1].min(last[1]), first[1].max(last[1]));
+        for &k in self.b.inner_knots().iter().filter(|&&k| low < k && k < high) {
+            let beside = walk.iter().min_by(|p, q| (p[1] - k).abs().total_cmp(&(q[1] - k).abs()));
+            let (t, gap) = foot(a, b.point(k), beside.map_or(first[0], |w| w[0]));
+            if gap <= close && first[0] < t && t < last[0] {
+                knots.push([t, k]);
+            }
+        }
+        knots
+    }
+
+    /// Whether the walk goes further than the tolerance from its start between two pairs.
+    fn is_long(&self, walk: &[[f64; 2]], from: [f64; 2], to: [f64; 2]) -> bool {
+        let a = self.a.curve;
+        let start = a.point(from[0]);
+        let inside = walk.iter().map(|w| w[0]).filter(|&t| from[0] < t && t < to[0]);
+        from[0] < to[0]
+            && from[1] != to[1]
+            && inside.chain([to[0]]).any(|t| length(a.point(t) - start) > self.tolerance)
+    }
+
+    /// The meeting of a contact no longer than the tolerance that holds the given ends.
+    fn meeting_at_end(&self, ends: &[[f64; 2]]) -> Finding {
+        let is_end = |x: f64| x == 0.0 || x == 1.0;
+        let (a, b) = (self.a.curve, self.b.curve);
+        let of_a = ends.iter().find(|w| is_end(w[0]));
+        let of_b = ends.iter().find(|w| is_end(w[1]));
+        let [t, u] = match (of_a, of_b) {
+            (Some(p), Some(q)) if length(a.point(p[0]) - b.point(q[1])) <= self.tolerance => [p[0], q[1]],
+            (Some(&p), _) | (None, Some(&p)) => p,
+            (None, None) => return Finding::Nothing,
+        };
+        if self.same && t == 0.0 && u == 1.0 {
+            return Finding::Nothing;
+        }
+        // An end is where it is; the other curve is brought to it.
+        let at = if is_end(t) { a.point(t) } else { b.point(u) };
+        Finding::Point(Meeting { at, t, u, kind: MeetingKind::Touching })
+    }
+
+    /// The meeting of a contact inside both curves, left at `before` and `after`.
+    fn meeting_inside(
+        &self,
+        walk: &[[f64; 2]],
+        at: [f64; 2],
+        root: bool,
+        before: [f64; 2],
+        after: [f64; 2],
+    ) -> Meeting {
+        let side = |[t, u]: [f64; 2]| {
+            let b = self.b.curve;
+            tangent(b, u).cross(self.a.curve.point(t) - b.point(u))
+        };
+        let crosses = side(before) * side(after) < 0.0;
+        let place = if crosses {
+            if root { Some(at) } else { self.change_of_sign(before, after, side) }
+        } else {
+            let (first, last) = (walk[0], walk[walk.len() - 1]);
+            let parallel = |[t, u]: [f64; 2]| tangent(self.a.curve, t).cross(tangent(self.b.curve, u));
+            self.change_of_sign(first, last, parallel)
+        };
+        let [t, u] = place.filter(|&w| self.gap(w) <= self.tolerance).unwrap_or_else(|| self.closest(walk));
+        let kind = if crosses { MeetingKind::Crossing } else { MeetingKind::Touching };
+        Meeting { at: self.a.curve.point(t).midpoint(self.b.curve.point(u)), t, u, kind }
+    }
+
+    fn gap(&self, [t, u]: [f64; 2]) -> f64 {
+        length(self.a.curve.point(t) - self.b.curve.point(u))
+    }
+
+    fn closest(&self, walk: &[[f64; 2]]) -> [f64; 2] {
+        let best = walk.iter().min_by(|p, q| self.gap(**p).total_cmp(&self.gap(**q)));
+        best.copied().unwrap_or_default()
+    }
+
+    /// Halves between two pairs of a walk to where `value` changes sign.
+    fn change_of_sign(
+        &self,
+        mut low: [f64; 2],
+        mut high: [f64; 2],
+        value: impl Fn([f64; 2]) -> f64,
+    ) -> Option<[f64; 2]> {
+        let (at_low, at_high) = (value(low), value(high));
+        if at_low == 0.0 || at_high == 0.0 || (at_low > 0.0) == (at_high > 0.0) {
+            return None;
+        }
+        for _ in 0..NEWTON_STEPS {
+            let t = 0.5 * (low[0] + high[0]);
+            if t <= low[0] || t >= high[0] {
+                break;
+            }
+            let (u, _) = foot(self.b.curve, self.a.curve.point(t), 0.5 * (low[1] + high[1]));
+            let at_middle = value([t, u]);
+            if at_middle == 0.0 {
+                return Some([t, u]);
+            }
+            if (at_middle > 0.0) == (at_low > 0.0) {
+                low = [t, u];
+            } else {
+                high = [t, u];
+            }
+        }
+        Some(low)
+    }
+
+    /// Newton's method for a(t) = b(u), kept in two ranges: the pair, and whether the gap fell to a quarter of the tolerance.
+    pub fn root(&self, mut t: f64, mut u: f64, within: [[f64; 2]; 2]) -> ([f64; 2], bool) {
+        let (a, b) = (self.a.curve, self.b.curve);
+        let mut gap = a.point(t) - b.point(u);
+        for _ in 0..NEWTON_STEPS {
+            let (da, db) = (a.derivative(t), b.derivative(u));
+            let area = da.cross(db);
+            if area == 0.0 {
+                break;
+            }
+            let next_t = (t - gap.cross(db) / area).clamp(within[0][0], within[0][1]);
+            let next_u = (u - gap.cross(da) / area).clamp(within[1][0], within[1][1]);
+            let next = a.point(next_t) - b.point(next_u);
+            // At the end, rounding alone moves the gap.
+            if next.hypot2() >= gap.hypot2() && length(gap) <= 0.25 * self.tolerance {
+                break;
+            }
+            if next_t == t && next_u == u {
+                break;
+            }
+            (t, u, gap) = (next_t, next_u, next);
+        }
+        ([t, u], length(gap) <= 0.25 * self.tolerance)
+    }
+}
+
+/// Direction of travel at t.
+fn tangent(curve: &Curve, t: f64) -> Vec2 {
+    let derivative = curve.derivative(t);
+    let speed = length(derivative);
+    if speed > 0.0 {
+        return derivative / speed;
+    }
+    curve.tangent(t, if t < 1.0 { End::Start } else { End::Finish })
+}
+
+/// The parameter near `guess` at which the curve comes closest to p (a local minimum, or an end), and the distance there.
+pub(super) fn foot(curve: &Curve, p: Point, guess: f64) -> (f64, f64) {
+    let mut u = guess.clamp(0.0, 1.0);
+    if curve.derivative(u) == Vec2::ZERO {
+        u = u.clamp(INWARD, 1.0 - INWARD);
+    }
+    let mut away = curve.point(u) - p;
+    for _ in 0..NEWTON_STEPS {
+        let velocity = curve.derivative(u);
+        let bent = velocity.hypot2() + away.dot(curve.second_derivative(u));
+        // Beyond the center of curvature Newton's method would climb; there, the step of Gauss and Newton descends.
+        let slope_change = if bent > 0.25 * velocity.hypot2() { bent } else { velocity.hypot2() };
+        if slope_change == 0.0 {
+            break;
+        }
+        let mut step = -away.dot(velocity) / slope_change;
+        let mut moved = false;
+        // A step that does not descend is quartered, four times at most: what remains is rounding.
+        for _ in 0..4 {
+            let next = (u + step).clamp(0.0, 1.0);
+            if next == u {
+                break;
+            }
+            let next_away = curve.point(next) - p;
+            if next_away.hypot2() < away.hypot2() {
+                (u, away, moved) = (next, next_away, true);
+                break;
+            }
+            step *= 0.25;
+        }
+        if !moved {
+            break;
+        }
+    }
+    (u, length(away))
+}
+
+/// A curve may stand still at a parameter (two control points in one); the search starts this far beside it.
+const INWARD: f64 = 1.0 / 4096.0;

@@ -1,0 +1,284 @@
+//! The hull tree of a curve: ever smaller pieces, each with its control polygon, box, lens and cone of tangents.
+//!
+//! Every kind of curve is a chain of Bézier pieces in homogeneous coordinates: lines have degree one, circular and elliptic arcs
+//! are cut into rational quadratics of at most a quarter turn. The piece lies in the convex hull of its control points, and since
+//! corner cutting only blends neighbouring legs, every tangent and every chord of it lies in the cone of the legs. Children are
+//! made by de Casteljau's algorithm at the middle, when first asked for, and kept: a piece is halved once whatever it is compared with.
+
+use crate::curve::{Bezier, Curve};
+use crate::geometry::{Point, Rect, Vec2, magnitude};
+use std::f64::consts::FRAC_PI_2;
+
+/// A control point times its weight, and the weight.
+type Homogeneous = [f64; 3];
+
+/// One Bézier piece, or (without control points) a group of neighbouring ones.
+pub(super) struct Piece {
+    control: Vec<Homogeneous>,
+    /// The control points; empty for a group.
+    pub hull: Vec<Point>,
+    pub bounds: Rect,
+    /// The range of the curve's parameter.
+    pub t: [f64; 2],
+    /// The range of the parameter of its span.
+    s: [f64; 2],
+    span: usize,
+    /// Unit normal of the chord; zero where the chord has no length.
+    pub normal: Vec2,
+    /// Least and largest signed distance of the hull from the chord's line.
+    pub spread: [f64; 2],
+    /// Clockwise and counter-clockwise border of the cone of tangents, where all legs run less than a right angle from the chord.
+    pub cone: Option<[Vec2; 2]>,
+    /// Longer side of the box.
+    pub size: f64,
+    /// Whether its first and last point are ends of a span: ends of the curve, or knots, where the tangent may jump.
+    pub span_end: [bool; 2],
+    children: Option<[usize; 2]>,
+}
+
+impl Piece {
+    pub fn first(&self) -> Point {
+        self.hull[0]
+    }
+
+    pub fn last(&self) -> Point {
+        self.hull[self.hull.len() - 1]
+    }
+
+    pub fn is_group(&self) -> bool {
+        self.hull.is_empty()
+    }
+
+    /// Distance between the two lines along the chord that enclose the piece.
+    pub fn width(&self) -> f64 {
+        self.spread[1] - self.spread[0]
+    }
+
+    /// Whether the piece is a thin lens along its chord, travelled one way: no wider than an eighth of its length.
+    pub fn is_slender(&self) -> bool {
+        // Legs of such a lens run within about π/6 of its chord where they advance, which is where Newton's method is quick.
+        self.cone.is_some() && 8.0 * self.width() <= self.size
+    }
+
+    /// Whether the piece is a straight stretch, or a point, to within `gap`.
+    pub fn is_straight(&self, gap: f64) -> bool {
+        !self.is_group() && (self.size <= gap || (self.cone.is_some() && self.width() <= gap))
+    }
+}
+
+/// How the parameter of a span runs along the curve's own.
+enum Pace {
+    Even,
+    /// A conic of which half the angle is φ: tan(θ/2) = tan(φ/2)·(2s − 1) for the angle θ from its middle; here tan(φ/2).
+    Angle(f64),
+}
+
+struct Span {
+    t: [f64; 2],
+    pace: Pace,
+}
+
+impl Span {
+    fn parameter(&self, s: f64) -> f64 {
+        let [from, to] = self.t;
+        match self.pace {
+            _ if s == 0.0 => from,
+            _ if s == 1.0 => to,
+            Pace::Even => from + s * (to - from),
+            Pace::Angle(k) => 0.5 * (from + to) + 0.5 * (to - from) * libm::atan(k * (2.0 * s - 1.0)) / libm::atan(k),
+        }
+    }
+}
+
+pub(super) struct Hulls {
+    spans: Vec<Span>,
+    pieces: Vec<Piece>,
+    root: usize,
+    /// The largest coordinate that the curve is computed from.
+    pub magnitude: f64,
+    /// Highest degree of a span.
+    pub degree: usize,
+}
+
+impl std::ops::Index<usize> for Hulls {
+    type Output = Piece;
+    fn index(&self, i: usize) -> &Piece {
+        &self.pieces[i]
+    }
+}
+
+impl Hulls {
+    pub fn of(curve: &Curve) -> Self {
+        let mut hulls = Self { spans: Vec::new(), pieces: Vec::new(), root: 0, magnitude: 0.0, degree: 1 };
+        match curve {
+            Curve::Line(line) => hulls.add([0.0, 1.0], Pace::Even, plain(&[line.start, line.end])),
+            Curve::Arc(arc) => {
+                hulls.magnitude = magnitude(Rect::from_points(arc.center, arc.center)) + arc.radius;
+                let axis = |angle: f64| arc.radius * Vec2::new(libm::cos(angle), libm::sin(angle));
+                hulls.add_conic(curve, arc.start_rad, arc.sweep_rad, axis);
+            }
+            Curve::Ellipse(arc) => {
+                hulls.magnitude = magnitude(Rect::from_points(arc.center, arc.center)) + length(arc.u) + length(arc.v);
+                let axis = |angle: f64| libm::cos(angle) * arc.u + libm::sin(angle) * arc.v;
+                hulls.add_conic(curve, arc.start_rad, arc.sweep_rad, axis);
+            }
+            Curve::Bezier(bezier) => hulls.add([0.0, 1.0], Pace::Even, homogeneous(bezier)),
+            Curve::Spline(spline) => {
+                for (span, knots) in spline.spans.iter().zip(spline.knots.windows(2)) {
+                    hulls.add([knots[0], knots[1]], Pace::Even, homogeneous(span));
+                }
+            }
+        }
+        hulls.group();
+        hulls.magnitude = hulls.magnitude.max(magnitude(hulls[hulls.root].bounds));
+        hulls
+    }
+
+    pub fn root(&self) -> usize {
+        self.root
+    }
+
+    fn add(&mut self, t: [f64; 2], pace: Pace, control: Vec<Homogeneous>) {
+        let span = self.spans.len();
+        self.spans.push(Span { t, pace });
+        self.degree = self.degree.max(control.len() - 1);
+        self.pieces.push(bezier_piece(control, span, [0.0, 1.0], t, [true; 2]));
+    }
+
+    /// Cuts an arc into rational quadratics; `axis(θ)` leads from the center to the point at the angle θ.
+    fn add_conic(&mut self, curve: &Curve, start: f64, sweep: f64, axis: impl Fn(f64) -> Vec2) {
+        let count = libm::ceil(sweep.abs() / FRAC_PI_2).clamp(1.0, 4.0);
+        let half = 0.5 * sweep / count;
+        let (sin, cos) = (libm::sin(half), libm::cos(half));
+        for k in 0..count as usize {
+            let t = [k as f64 / count, (k + 1) as f64 / count];
+            let ends = t.map(|t| curve.point(t));
+            // The shoulder seen from the chord's middle, not from the center: a flat arc has a far center.
+            let shoulder = ends[0].midpoint(ends[1]) + axis(start + (2 * k + 1) as f64 * half) * (sin * sin / cos);
+            let control = [(ends[0], 1.0), (shoulder, cos), (ends[1], 1.0)];
+            self.add(t, Pace::Angle(libm::tan(0.5 * half)), control.map(|(p, w)| [p.x * w, p.y * w, w]).to_vec());
+        }
+    }
+
+    /// Joins neighbours by twos until one piece is left.
+    fn group(&mut self) {
+        let mut level: Vec<usize> = (0..self.pieces.len()).collect();
+        while level.len() > 1 {
+            let pairs: Vec<Vec<usize>> = level.chunks(2).map(<[usize]>::to_vec).collect();
+            level = pairs
+                .into_iter()
+                .map(|pair| match pair[..] {
+                    [left, right] => {
+                        self.pieces.push(group_piece(&self.pieces[left], &self.pieces[right], [left, right]));
+                        self.pieces.len() - 1
+                    }
+                    _ => pair[0],
+                })
+                .collect();
+        }
+        self.root = level[0];
+    }
+
+    /// The two halves of a piece.
+    pub fn halves(&mut self, i: usize) -> [usize; 2] {
+        if let Some(children) = self.pieces[i].children {
+            return children;
+        }
+        let piece = &self.pieces[i];
+        let middle = 0.5 * (piece.s[0] + piece.s[1]);
+        let t = self.spans[piece.span].parameter(middle).clamp(piece.t[0], piece.t[1]);
+        let [left, right] = halved(&piece.control);
+        let (span, s, ends, [t0, t1]) = (piece.span, piece.s, piece.span_end, piece.t);
+        let left = bezier_piece(left, span, [s[0], middle], [t0, t], [ends[0], false]);
+        let right = bezier_piece(right, span, [middle, s[1]], [t, t1], [false, ends[1]]);
+        let children = [self.pieces.len(), self.pieces.len() + 1];
+        self.pieces.extend([left, right]);
+        self.pieces[i].children = Some(children);
+        children
+    }
+}
+
+fn plain(points: &[Point]) -> Vec<Homogeneous> {
+    points.iter().map(|p| [p.x, p.y, 1.0]).collect()
+}
+
+fn homogeneous(bezier: &Bezier) -> Vec<Homogeneous> {
+    match &bezier.weights {
+        None => plain(&bezier.points),
+        Some(weights) => bezier.points.iter().zip(weights).map(|(p, &w)| [p.x * w, p.y * w, w]).collect(),
+    }
+}
+
+/// De Casteljau's algorithm at the middle.
+fn halved(control: &[Homogeneous]) -> [Vec<Homogeneous>; 2] {
+    let n = control.len();
+    let mut left = Vec::with_capacity(n);
+    let mut right = control.to_vec();
+    for last in (0..n).rev() {
+        left.push(right[0]);
+        for i in 0..last {
+            let (p, q) = (right[i], right[i + 1]);
+            right[i] = [0.5 * (p[0] + q[0]), 0.5 * (p[1] + q[1]), 0.5 * (p[2] + q[2])];
+        }
+    }
+    [left, right]
+}
+
+fn bezier_piece(control: Vec<Homogeneous>, span: usize, s: [f64; 2], t: [f64; 2], span_end: [bool; 2]) -> Piece {
+    let hull: Vec<Point> = control.iter().map(|c| Point::new(c[0] / c[2], c[1] / c[2])).collect();
+    let mut bounds = Rect::from_points(hull[0], hull[0]);
+    hull.iter().for_each(|&p| bounds = bounds.union_pt(p));
+    let chord = hull[hull.len() - 1] - hull[0];
+    let normal = if chord == Vec2::ZERO { chord } else { Vec2::new(-chord.y, chord.x) / length(chord) };
+    let size = bounds.width().max(bounds.height());
+    let spread = if chord == Vec2::ZERO {
+        [-size, size]
+    } else {
+        hull.iter().fold([0.0f64; 2], |[low, high], &p| {
+            let d = normal.dot(p - hull[0]);
+            [low.min(d), high.max(d)]
+        })
+    };
+    let cone = cone(&hull, chord);
+    Piece { control, hull, bounds, t, s, span, normal, spread, cone, size, span_end, children: None }
+}
+
+fn group_piece(left: &Piece, right: &Piece, children: [usize; 2]) -> Piece {
+    let bounds = left.bounds.union(right.bounds);
+    let size = bounds.width().max(bounds.height());
+    Piece {
+        control: Vec::new(),
+        hull: Vec::new(),
+        bounds,
+        t: [left.t[0], right.t[1]],
+        s: [0.0, 1.0],
+        span: 0,
+        normal: Vec2::ZERO,
+        spread: [-size, size],
+        cone: None,
+        size,
+        span_end: [left.span_end[0], right.span_end[1]],
+        children: Some(children),
+    }
+}
+
+fn cone(hull: &[Point], chord: Vec2) -> Option<[Vec2; 2]> {
+    let mut borders = [chord; 2];
+    for leg in hull.windows(2).map(|w| w[1] - w[0]).filter(|&leg| leg != Vec2::ZERO) {
+        if leg.dot(chord) <= 0.0 {
+            return None;
+        }
+        if borders[0].cross(leg) < 0.0 {
+            borders[0] = leg;
+        }
+        if borders[1].cross(leg) > 0.0 {
+            borders[1] = leg;
+        }
+    }
+    (chord != Vec2::ZERO).then_some(borders)
+}
+
+/// Length of a vector (by `sqrt`, which is the same on every machine).
+pub(super) fn length(v: Vec2) -> f64 {
+    v.hypot2().sqrt()
+}

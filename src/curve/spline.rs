@@ -1,0 +1,275 @@
+//! B-splines and NURBS as their exact Bézier spans, and the interpolating cubic splines.
+
+use super::bezier::check_weights;
+use super::{Bezier, CurveError, End, Spline, check_finite, check_points, length};
+use crate::geometry::{Point, Vec2, magnitude, unit_scale};
+
+impl Spline {
+    /// The spans of a full knot vector, each by its blossom (Ramshaw 1987: what inserting knots until each is of full multiplicity
+    /// gives). The domain runs from knot `degree` to knot `points.len()`.
+    pub(super) fn from_knots(
+        degree: usize,
+        knots: &[f64],
+        points: &[Point],
+        weights: Option<&[f64]>,
+    ) -> Result<Self, CurveError> {
+        check_points(points)?;
+        check_finite(knots.iter().copied())?;
+        if degree == 0 || points.len() <= degree {
+            let needs = format!("a degree of at least 1 and more than {degree} control points");
+            return Err(CurveError::Count { what: "a spline", needs, has: points.len() });
+        }
+        if knots.len() != points.len() + degree + 1 {
+            let needs = format!("{} knots (control points + degree + 1)", points.len() + degree + 1);
+            return Err(CurveError::Count { what: "a spline", needs, has: knots.len() });
+        }
+        if let Some(index) = (1..knots.len()).find(|i| knots[*i] < knots[*i - 1]) {
+            return Err(CurveError::Knots { index });
+        }
+        if let Some(weights) = weights {
+            check_weights(weights, points.len())?;
+        }
+        let mut starts = Vec::new();
+        let mut spans: Vec<Bezier> = Vec::new();
+        for k in (degree..points.len()).filter(|k| knots[*k] < knots[*k + 1]) {
+            let mut span = span_of(degree, knots, points, weights, k)?;
+            if let Some(before) = spans.last() {
+                let joint = before.points[before.degree()];
+                // Two roundings of the same point, each of at most a dozen ulp; further apart, the curve has a gap.
+                let slack = 32.0
+                    * f64::EPSILON
+                    * degree as f64
+                    * crate::geometry::bounds_of(points.iter().copied()).map_or(0.0, magnitude);
+                if length(span.points[0] - joint) > slack {
+                    let needs = "inner knots of a multiplicity of at most the degree".to_string();
+                    return Err(CurveError::Count { what: "a spline", needs, has: degree + 1 });
+                }
+                span.points[0] = joint;
+            }
+            starts.push(knots[k]);
+            spans.push(span);
+        }
+        if spans.is_empty() {
+            return Err(CurveError::Count {
+                what: "a spline",
+                needs: "two distinct knots in its domain".into(),
+                has: 1,
+            });
+        }
+        starts.push(knots[points.len()]);
+        Ok(Spline { knots: to_unit(&starts), spans })
+    }
+
+    /// The natural cubic spline: C², its second derivative zero at both ends.
+    pub(super) fn natural(points: &[Point]) -> Result<Self, CurveError> {
+        let points = without_repeats(points)?;
+        let n = points.len();
+        if n < 2 {
+            return Err(CurveError::Count { what: "a natural spline", needs: "two distinct points".into(), has: n });
+        }
+        let steps = centripetal_steps(&points);
+        let (mut diagonal, mut right) = (vec![0.0; n], vec![Vec2::ZERO; n]);
+        for i in 0..n - 1 {
+            // The span adds (2 mᵢ + mᵢ₊₁)/h = 3 Δ/h² to the row of its start, and its mirror to the row of its end.
+            let slope = (points[i + 1] - points[i]) * (3.0 / (steps[i] * steps[i]));
+            for row in [i, i + 1] {
+                diagonal[row] += 2.0 / steps[i];
+                right[row] += slope;
+            }
+        }
+        let beside: Vec<f64> = steps.iter().map(|h| 1.0 / h).collect();
+        let slopes = solve_tridiagonal(&diagonal, &beside, right);
+        Ok(hermite(&points, &steps, &slopes))
+    }
+
+    /// The closed cubic spline, C² everywhere.
+    pub(super) fn periodic(points: &[Point]) -> Result<Self, CurveError> {
+        let mut points = without_repeats(points)?;
+        if points.len() > 1 && points.first() == points.last() {
+            points.pop();
+        }
+        let n = points.len();
+        if n < 3 {
+            return Err(CurveError::Count { what: "a periodic spline", needs: "three distinct points".into(), has: n });
+        }
+        points.push(points[0]);
+        let steps = centripetal_steps(&points);
+        let (mut diagonal, mut right) = (vec![0.0; n], vec![Vec2::ZERO; n]);
+        for i in 0..n {
+            let slope = (points[i + 1] - points[i]) * (3.0 / (steps[i] * steps[i]));
+            for row in [i, (i + 1) % n] {
+                diagonal[row] += 2.0 / steps[i];
+                right[row] += slope;
+            }
+        }
+        // The corner entries by the Sherman–Morrison formula: A = T + w·e eᵀ with e = e₀ + eₙ₋₁.
+        let corner = 1.0 / steps[n - 1];
+        diagonal[0] -= corner;
+        diagonal[n - 1] -= corner;
+        let beside: Vec<f64> = steps[..n - 1].iter().map(|h| 1.0 / h).collect();
+        let mut rank_one = vec![Vec2::ZERO; n];
+        rank_one[0].x = corner;
+        rank_one[n - 1].x = corner;
+        let plain = solve_tridiagonal(&diagonal, &beside, right);
+        let response = solve_tridiagonal(&diagonal, &beside, rank_one);
+        let factor = (plain[0] + plain[n - 1]) / (1.0 + response[0].x + response[n - 1].x);
+        let mut slopes: Vec<Vec2> = plain.iter().zip(&response).map(|(p, r)| *p - factor * r.x).collect();
+        slopes.push(slopes[0]);
+        Ok(hermite(&points, &steps, &slopes))
+    }
+
+    /// The span at t and the parameter within it; at a knot the span after it or before it.
+    pub(super) fn locate(&self, t: f64, side: End) -> (usize, f64) {
+        let after = match side {
+            End::Start => self.knots.partition_point(|k| *k <= t),
+            End::Finish => self.knots.partition_point(|k| *k < t),
+        };
+        let i = after.clamp(1, self.spans.len()) - 1;
+        (i, self.within(i, t))
+    }
+
+    /// The parameter within span i.
+    pub(super) fn within(&self, i: usize, t: f64) -> f64 {
+        ((t - self.knots[i]) / self.step(i)).clamp(0.0, 1.0)
+    }
+
+    pub(super) fn step(&self, i: usize) -> f64 {
+        self.knots[i + 1] - self.knots[i]
+    }
+
+    /// The spans that t0..t1 passes, with the range of each one's own parameter.
+    pub(super) fn spans_in(&self, t0: f64, t1: f64) -> impl DoubleEndedIterator<Item = (usize, f64, f64)> + '_ {
+        let (first, last) = (self.locate(t0, End::Start).0, self.locate(t1, End::Finish).0);
+        (first..=last.max(first)).map(move |i| {
+            let from = if i == first { self.within(i, t0) } else { 0.0 };
+            let to = if i == last { self.within(i, t1) } else { 1.0 };
+            (i, from, to)
+        })
+    }
+
+    pub(super) fn point(&self, t: f64) -> Point {
+        let (i, u) = self.locate(t, End::Start);
+        self.spans[i].point(u)
+    }
+
+    pub(super) fn part(&self, t0: f64, t1: f64, ends: [Point; 2]) -> Self {
+        let mut knots = vec![t0];
+        let mut spans = Vec::new();
+        let pieces: Vec<_> = self.spans_in(t0, t1).collect();
+        let last = pieces.len() - 1;
+        for (k, (i, from, to)) in pieces.into_iter().enumerate() {
+            let span = &self.spans[i];
+            let start = if k == 0 { ends[0] } else { span.points[0] };
+            let end = if k == last { ends[1] } else { span.points[span.degree()] };
+            let whole = from == 0.0 && to == 1.0;
+            spans.push(if whole { span.clone() } else { span.part(from, to, [start, end]) });
+            knots.push(if k == last { t1 } else { self.knots[i + 1] });
+        }
+        Spline { knots: to_unit(&knots), spans }
+    }
+
+    pub(super) fn reversed(&self) -> Self {
+        let knots: Vec<f64> = self.knots.iter().rev().map(|k| 1.0 - k).collect();
+        Spline { knots: to_unit(&knots), spans: self.spans.iter().rev().map(Bezier::reversed).collect() }
+    }
+
+    pub(super) fn mapped(&self, map: impl Fn(Point) -> Point) -> Self {
+        Spline { knots: self.knots.clone(), spans: self.spans.iter().map(|s| s.mapped(&map)).collect() }
+    }
+}
+
+/// Ascending numbers mapped to 0..1, strictly ascending whatever the rounding.
+fn to_unit(knots: &[f64]) -> Vec<f64> {
+    let last = knots.len() - 1;
+    // Halves, since a difference may overflow.
+    let span = 0.5 * knots[last] - 0.5 * knots[0];
+    let mut unit: Vec<f64> = knots.iter().map(|k| (0.5 * k - 0.5 * knots[0]) / span).collect();
+    (unit[0], unit[last]) = (0.0, 1.0);
+    for i in 1..last {
+        unit[i] = unit[i].max(unit[i - 1].next_up());
+    }
+    for i in (1..last).rev() {
+        unit[i] = unit[i].min(unit[i + 1].next_down());
+    }
+    unit
+}
+
+/// A weighted point between two others; exact where `share` is 0 or 1.
+fn between(a: (Point, f64), b: (Point, f64), share: f64) -> (Point, f64) {
+    if share >= 1.0 {
+        return b;
+    }
+    let weight = a.1 + (b.1 - a.1) * share;
+    (a.0 + (b.0 - a.0) * (share * b.1 / weight), weight)
+}
+
+/// The Bézier control points over knots k..k+1: the blossom at k (degree − j times) and k + 1 (j times).
+fn span_of(
+    degree: usize,
+    knots: &[f64],
+    points: &[Point],
+    weights: Option<&[f64]>,
+    k: usize,
+) -> Result<Bezier, CurveError> {
+    let local: Vec<(Point, f64)> = (k - degree..=k).map(|i| (points[i], weights.map_or(1.0, |w| w[i]))).collect();
+    let controls: Vec<(Point, f64)> = (0..=degree)
+        .map(|j| {
+            let mut d = local.clone();
+            for round in 1..=degree {
+                let at = if round <= degree - j { knots[k] } else { knots[k + 1] };
+                for i in (round..=degree).rev() {
+                    let (low, high) = (knots[k - degree + i], knots[k + 1 + i - round]);
+                    d[i] = between(d[i - 1], d[i], (0.5 * at - 0.5 * low) / (0.5 * high - 0.5 * low));
+                }
+            }
+            d[degree]
+        })
+        .collect();
+    let weights = weights.map(|_| controls.iter().map(|c| c.1).collect());
+    Bezier::new(controls.into_iter().map(|c| c.0).collect(), weights)
+}
+
+fn without_repeats(points: &[Point]) -> Result<Vec<Point>, CurveError> {
+    check_points(points)?;
+    let mut distinct = points.to_vec();
+    distinct.dedup();
+    Ok(distinct)
+}
+
+/// Parameter steps by the square root of the distance (Lee 1989), which make neither loops nor cusps within a span, where uniform and
+/// chord-length parameters do (Yuksel, Schaefer & Keyser 2011 prove it of the Catmull–Rom spline). Same bits at every scale.
+fn centripetal_steps(points: &[Point]) -> Vec<f64> {
+    let distances: Vec<f64> = points.windows(2).map(|p| length(p[1] - p[0])).collect();
+    let scale = unit_scale(distances.iter().fold(0.0, |m: f64, d| m.max(*d)));
+    distances.iter().map(|d| (d * scale).sqrt()).collect()
+}
+
+/// Solves the symmetric, diagonally dominant system (Thomas' algorithm).
+fn solve_tridiagonal(diagonal: &[f64], beside: &[f64], mut right: Vec<Vec2>) -> Vec<Vec2> {
+    let n = diagonal.len();
+    let mut pivots = diagonal.to_vec();
+    for i in 1..n {
+        let factor = beside[i - 1] / pivots[i - 1];
+        pivots[i] -= factor * beside[i - 1];
+        let above = right[i - 1];
+        right[i] -= above * factor;
+    }
+    right[n - 1] = right[n - 1] / pivots[n - 1];
+    for i in (0..n - 1).rev() {
+        right[i] = (right[i] - right[i + 1] * beside[i]) / pivots[i];
+    }
+    right
+}
+
+/// The cubic spans through points with given derivatives.
+fn hermite(points: &[Point], steps: &[f64], slopes: &[Vec2]) -> Spline {
+    let mut knots = vec![0.0];
+    let mut spans = Vec::with_capacity(steps.len());
+    for (i, step) in steps.iter().enumerate() {
+        let third = step / 3.0;
+        let (a, b) = (points[i], points[i + 1]);
+        spans.push(Bezier { points: vec![a, a + slopes[i] * third, b - slopes[i + 1] * third, b], weights: None });
+        knots.push(knots[i] + step);
+    }
+    Spline { knots: to_unit(&knots), spans }
+}
