@@ -1,6 +1,6 @@
 //! Part of a circle.
 
-use super::{CircularArc, CurveError, End, check_finite, length};
+use super::{CircularArc, CurveError, EllipticArc, End, check_finite, length};
 use crate::geometry::{Point, Vec2};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -119,6 +119,28 @@ impl CircularArc {
         CircularArc { start_rad, sweep_rad: self.sweep_rad * (t1 - t0), ends, ..*self }
     }
 
+    pub(super) fn as_ellipse(&self) -> EllipticArc {
+        let (u, v) = (Vec2::new(self.radius, 0.0), Vec2::new(0.0, self.radius));
+        let CircularArc { center, start_rad, sweep_rad, ends, .. } = *self;
+        EllipticArc { center, u, v, start_rad, sweep_rad, ends }
+    }
+
+    /// The image under a similarity (up to 4 ulp); `None` where the map is none.
+    pub(super) fn transformed(&self, map: kurbo::Affine) -> Option<Self> {
+        let [a, b, c, d, _, _] = map.as_coeffs();
+        let slack = 4.0 * f64::EPSILON * length(Vec2::new(a, b));
+        let turn = libm::atan2(b, a);
+        let (start_rad, sweep_rad) = if (a - d).abs() <= slack && (b + c).abs() <= slack {
+            (self.start_rad + turn, self.sweep_rad)
+        } else if (a + d).abs() <= slack && (b - c).abs() <= slack {
+            (turn - self.start_rad, -self.sweep_rad)
+        } else {
+            return None;
+        };
+        let radius = self.radius * length(Vec2::new(a, b));
+        Some(CircularArc { center: map * self.center, radius, start_rad, sweep_rad, ends: self.ends.map(|p| map * p) })
+    }
+
     /// Candidates for the nearest point: the two where the circle's normal passes through p.
     pub(super) fn normals_through(&self, p: Point, t0: f64, t1: f64) -> Vec<f64> {
         let from_center = p - self.center;
@@ -132,7 +154,7 @@ impl CircularArc {
         // Distance of the center from the line, left of it positive; the normal points to the right.
         let distance = unit.cross(self.center - a);
         let half_chord = (self.radius - distance) * (self.radius + distance);
-        if !(half_chord > 0.0) {
+        if half_chord <= 0.0 || half_chord.is_nan() {
             return Vec::new();
         }
         let opening = libm::atan2(half_chord.sqrt(), distance);

@@ -101,7 +101,7 @@ pub(super) fn restricted<T: Coefficient>(c: &[T], t0: f64, t1: f64) -> Vec<T> {
 pub(super) fn derivative<T: Coefficient>(c: &[T]) -> Vec<T> {
     let degree = (c.len() - 1) as f64;
     if c.len() == 1 {
-        return vec![c[0] - c[0]];
+        return vec![c[0] * 0.0];
     }
     c.windows(2).map(|pair| (pair[1] - pair[0]) * degree).collect()
 }
@@ -209,11 +209,15 @@ pub(super) fn crossing(f: impl Fn(f64) -> f64, change: &SignChange) -> f64 {
     let sign = if rising { 1.0 } else { -1.0 };
     let (mut a, mut b) = (lo, hi);
     let (mut fa, mut fb) = (sign * f(a), sign * f(b));
-    if hi <= lo || fa >= 0.0 {
+    if hi <= lo || (fa >= 0.0 && fb <= 0.0) {
         return lo;
     }
+    // The sign inside is known even where the value at the end is zero or lost in rounding (another root lies there).
+    if fa >= 0.0 {
+        fa = -fb;
+    }
     if fb <= 0.0 {
-        return hi;
+        fb = -fa;
     }
     let mut step = 0.5;
     for _ in 0..BUDGET {

@@ -10,7 +10,7 @@ impl EllipticArc {
         check_finite([center.x, center.y, u.x, u.y, v.x, v.y, start_rad, sweep_rad])?;
         // The radius of the circle of the same area.
         let radius = u.cross(v).abs().sqrt();
-        if !(radius > 0.0) {
+        if radius == 0.0 {
             return Err(CurveError::Radius { radius });
         }
         check_finite([radius])?;

@@ -21,7 +21,7 @@ impl Line {
 
     pub(super) fn line_crossings(&self, a: Point, direction: Vec2, t0: f64, t1: f64) -> Vec<f64> {
         let t = (a - self.start).cross(direction) / self.chord().cross(direction);
-        if t >= t0 && t <= t1 { vec![t] } else { Vec::new() }
+        if t > t0 && t < t1 { vec![t] } else { Vec::new() }
     }
 
     pub(super) fn leaves_ball(&self, end: End, radius: f64, t0: f64, t1: f64) -> Option<f64> {

@@ -281,14 +281,15 @@ impl<'c> Search<'c> {
         overlaps.sort_by(|p, q| p.t[0].total_cmp(&q.t[0]).then(p.u[0].total_cmp(&q.u[0])));
         let near = |track: &Track, t: f64, other: f64| {
             let seam = t.min(other) == 0.0 && t.max(other) == 1.0 && track.curve.start() == track.curve.end();
-            let step = tolerance / track.size;
-            seam || (t - other).abs() <= step
+            seam || (t - other).abs() <= tolerance / track.size
+        };
+        let is_one = |at: Point, t: f64, u: f64, other: &Meeting| {
+            length(at - other.at) <= tolerance && near(&a, t, other.t) && near(&b, u, other.u)
         };
         let mut kept: Vec<Meeting> = Vec::new();
         for point in points {
-            let twin =
-                |k: &Meeting| length(k.at - point.at) <= tolerance && near(&a, k.t, point.t) && near(&b, k.u, point.u);
-            if !kept.iter().any(twin) {
+            let ends_stretch = |o: &Overlap| (0..2).any(|k| is_one(a.curve.point(o.t[k]), o.t[k], o.u[k], &point));
+            if !kept.iter().any(|k| is_one(k.at, k.t, k.u, &point)) && !overlaps.iter().any(ends_stretch) {
                 kept.push(point);
             }
         }

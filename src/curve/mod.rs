@@ -15,6 +15,7 @@ mod meet;
 mod quadrature;
 mod spans;
 mod spline;
+mod turning;
 
 pub use meet::{Meeting, MeetingBudget, MeetingKind, Meetings, Overlap, meetings, self_meetings};
 
@@ -328,10 +329,18 @@ impl Curve {
         bounds_of(extremes.into_iter().map(|t| self.point(t))).map_or(ends, |inner| inner.union(ends))
     }
     pub fn length(&self) -> f64 {
-        todo!()
+        self.length_of(0.0, 1.0)
     }
-    pub fn length_of(&self, _t0: f64, _t1: f64) -> f64 {
-        todo!()
+    pub fn length_of(&self, t0: f64, t1: f64) -> f64 {
+        match self {
+            Curve::Line(l) => length(l.chord()) * (t1 - t0),
+            Curve::Arc(a) => a.radius * (a.sweep_rad * (t1 - t0)).abs(),
+            Curve::Ellipse(e) => {
+                let scale = (length(e.u) + length(e.v)) * (e.sweep_rad * (t1 - t0)).abs();
+                quadrature::integral(|t| length(e.derivative(t)), t0, t1, scale)
+            }
+            Curve::Bezier(_) | Curve::Spline(_) => spans::length_of(self, t0, t1),
+        }
     }
     /// Parameter and distance of the nearest point of the part t0..t1 (global, not a local minimum).
     pub fn nearest(&self, p: Point, t0: f64, t1: f64) -> (f64, f64) {
@@ -367,41 +376,75 @@ impl Curve {
             }
     }
     /// Turning: the integral of |dθ| of the tangent angle over t0..t1, jumps included.
-    pub fn turning(&self, _t0: f64, _t1: f64) -> f64 {
-        todo!()
+    pub fn turning(&self, t0: f64, t1: f64) -> f64 {
+        turning::turning(self, t0, t1)
     }
     /// Cusps and tangent jumps strictly inside, ascending.
     pub fn breaks(&self) -> Vec<Break> {
-        todo!()
+        turning::breaks(self)
     }
-    /// Where the curvature changes sign, strictly inside, ascending.
+    /// Where the curvature changes sign, strictly inside, ascending; breaks are not among them.
     pub fn inflections(&self) -> Vec<f64> {
-        todo!()
+        turning::inflections(self)
     }
     /// Ascending parameters strictly inside at which the curve is to be cut so that every part turns at most `tau`; parts of
-    /// (nearly) equal turning, as few as possible.
-    pub fn cuts_of_turning(&self, _tau: f64) -> Vec<f64> {
-        todo!()
+    /// (nearly) equal turning, as few as possible (an excess of 1e-12 of `tau` counts as none). Breaks are always cut; never more than
+    /// 10⁶ parts between two of them.
+    pub fn cuts_of_turning(&self, tau: f64) -> Vec<f64> {
+        turning::cuts_of_turning(self, tau)
     }
     /// λ ≥ max over z of π − ∠xzy for the part with chord xy (equality for lines and circular arcs: half the turning).
-    pub fn lens_angle(&self, _t0: f64, _t1: f64) -> f64 {
-        todo!()
+    pub fn lens_angle(&self, t0: f64, t1: f64) -> f64 {
+        match self {
+            Curve::Line(_) => 0.0,
+            Curve::Arc(a) => 0.5 * (a.sweep_rad * (t1 - t0)).abs(),
+            _ => {
+                // The stationary points are known to rounding, and the angle is flat there: the excess covers both.
+                let measured = spans::lens_angle(self, t0, t1) * (1.0 + 1e-12) + 64.0 * f64::EPSILON;
+                measured.min(self.turning(t0, t1)).min(PI)
+            }
+        }
     }
-    /// Largest distance of the part from its chord.
-    pub fn chord_error(&self, _t0: f64, _t1: f64) -> f64 {
-        todo!()
+    /// Largest distance of the part from its chord (the segment).
+    pub fn chord_error(&self, t0: f64, t1: f64) -> f64 {
+        match self {
+            Curve::Line(_) => 0.0,
+            Curve::Arc(a) => {
+                let quarter = libm::sin(0.25 * a.sweep_rad * (t1 - t0));
+                2.0 * a.radius * quarter * quarter
+            }
+            _ => spans::chord_error(self, t0, t1),
+        }
     }
-    /// Where the part crosses the perpendicular bisector of its chord (turning ≤ π/3: exactly one crossing).
-    pub fn bisector_crossing(&self, _t0: f64, _t1: f64) -> f64 {
-        todo!()
+    /// Where the part crosses the perpendicular bisector of its chord (turning ≤ π/3: exactly one crossing; beyond, one of them; the
+    /// middle parameter where the chord is a point).
+    pub fn bisector_crossing(&self, t0: f64, t1: f64) -> f64 {
+        match self {
+            Curve::Line(_) | Curve::Arc(_) => 0.5 * (t0 + t1),
+            _ => spans::bisector_crossing(self, t0, t1),
+        }
     }
-    /// Where the part crosses the line through `a` along `direction`, ascending.
-    pub fn line_crossings(&self, _a: Point, _direction: Vec2, _t0: f64, _t1: f64) -> Vec<f64> {
-        todo!()
+    /// Where the part crosses the line through `a` along `direction` from one side to the other, strictly inside, ascending.
+    pub fn line_crossings(&self, a: Point, direction: Vec2, t0: f64, t1: f64) -> Vec<f64> {
+        match self {
+            Curve::Line(l) => l.line_crossings(a, direction, t0, t1),
+            Curve::Arc(arc) => {
+                let polished = |t: f64| {
+                    let step = (self.point(t) - a).cross(direction) / arc.derivative(t).cross(direction);
+                    Some(t - step).filter(|s| *s > t0 && *s < t1).unwrap_or(t)
+                };
+                arc.line_crossings(a, direction, t0, t1).into_iter().map(polished).collect()
+            }
+            _ => spans::line_crossings(self, a, direction, t0, t1),
+        }
     }
     /// Where the part, followed from its end `end` (t0 or t1), first reaches the distance `radius` from that end point.
-    pub fn leaves_ball(&self, _end: End, _radius: f64, _t0: f64, _t1: f64) -> Option<f64> {
-        todo!()
+    pub fn leaves_ball(&self, end: End, radius: f64, t0: f64, t1: f64) -> Option<f64> {
+        match self {
+            Curve::Line(l) => l.leaves_ball(end, radius, t0, t1),
+            Curve::Arc(a) => a.leaves_ball(end, radius, t0, t1),
+            _ => spans::leaves_ball(self, end, radius, t0, t1),
+        }
     }
 }
 
@@ -511,8 +554,22 @@ impl Curve {
         }
     }
     /// Any non-degenerate affine image, exact in kind (a circle under a skew becomes an ellipse).
-    pub fn transformed(&self, _map: kurbo::Affine) -> Self {
-        todo!()
+    pub fn transformed(&self, map: kurbo::Affine) -> Self {
+        let [a, b, c, d, _, _] = map.as_coeffs();
+        let (x_axis, y_axis) = (Vec2::new(a, b), Vec2::new(c, d));
+        let vector = |v: Vec2| x_axis * v.x + y_axis * v.y;
+        let ellipse = |e: EllipticArc| {
+            let ends = e.ends.map(|p| map * p);
+            let (center, u, v) = (map * e.center, vector(e.u), vector(e.v));
+            Curve::Ellipse(Box::new(EllipticArc { center, u, v, ends, ..e }))
+        };
+        match self {
+            Curve::Line(l) => Curve::Line(Line { start: map * l.start, end: map * l.end }),
+            Curve::Arc(arc) => arc.transformed(map).map_or_else(|| ellipse(arc.as_ellipse()), Curve::Arc),
+            Curve::Ellipse(e) => ellipse(**e),
+            Curve::Bezier(bezier) => Curve::Bezier(Box::new(bezier.mapped(|p| map * p))),
+            Curve::Spline(s) => Curve::Spline(Box::new(s.mapped(|p| map * p))),
+        }
     }
 }
 

@@ -19,7 +19,7 @@ pub(super) fn integral(f: impl Fn(f64) -> f64, a: f64, b: f64, scale: f64) -> f6
         let mid = 0.5 * (a + b);
         let (left, right) = (rule(a, mid), rule(mid, b));
         let error = (left + right - whole).abs();
-        let settled = !(error > noise) || step >= BUDGET || mid <= a || mid >= b;
+        let settled = error <= noise || error.is_nan() || step >= BUDGET || mid <= a || mid >= b;
         if settled {
             sum += left + right;
         } else {

@@ -5,6 +5,7 @@
 use super::bernstein::{self, SignChange, crossing};
 use super::bezier::Polygon;
 use super::ellipse::conic_parameter;
+use super::quadrature::integral;
 use super::{Bezier, Curve, EllipticArc, End, length};
 use crate::geometry::{Point, Rect, Vec2, boxes::distance_to_box};
 use std::borrow::Cow;
@@ -64,11 +65,7 @@ pub(super) fn spans(curve: &Curve, t0: f64, t1: f64) -> Vec<Span<'_>> {
             let bezier = Bezier { points: vec![l.start, l.end], weights: None };
             vec![plain(Cow::Owned(bezier), t0, t1, t0, t1)]
         }
-        Curve::Arc(a) => {
-            let (u, v) = (Vec2::new(a.radius, 0.0), Vec2::new(0.0, a.radius));
-            let (start_rad, sweep_rad, ends) = (a.start_rad, a.sweep_rad, a.ends);
-            conic_spans(&EllipticArc { center: a.center, u, v, start_rad, sweep_rad, ends }, t0, t1)
-        }
+        Curve::Arc(a) => conic_spans(&a.as_ellipse(), t0, t1),
         Curve::Ellipse(e) => conic_spans(e, t0, t1),
         Curve::Bezier(b) => vec![plain(Cow::Borrowed(&**b), t0, t1, t0, t1)],
         Curve::Spline(s) => {
@@ -147,4 +144,212 @@ pub(super) fn nearest(curve: &Curve, p: Point, t0: f64, t1: f64) -> f64 {
         }
     }
     best.1
+}
+
+/// Where the part crosses the line, strictly inside: sign changes of the distance from it.
+pub(super) fn line_crossings(curve: &Curve, a: Point, direction: Vec2, t0: f64, t1: f64) -> Vec<f64> {
+    let mut found = Vec::new();
+    let mut before: Option<bool> = None;
+    for span in spans(curve, t0, t1) {
+        let anchor = span.bezier.points[0];
+        let local = span.about(anchor);
+        // Only the constant carries what a far-off `a` costs: it moves the line as a whole.
+        let distance = local.linear_form(|v| v.cross(direction), (anchor - a).cross(direction));
+        let noise = product_noise(bernstein::longest(&local.numerators()), length(direction), 1);
+        let Some((first, last, _)) = bernstein::variations(&distance, noise) else { continue };
+        if before.is_some_and(|sign| sign != first) {
+            found.push(span.t(0.0));
+        }
+        let exact = |s: f64| bernstein::value(&distance, s);
+        found.extend(bernstein::sign_changes(&distance, noise).iter().map(|change| span.t(crossing(exact, change))));
+        before = Some(last);
+    }
+    found.retain(|t| *t > t0 && *t < t1);
+    found
+}
+
+/// A crossing of the perpendicular bisector of the chord: by the signs at the knots down to one span, then within it.
+pub(super) fn bisector_crossing(curve: &Curve, t0: f64, t1: f64) -> f64 {
+    let (x, y) = (curve.point(t0), curve.point(t1));
+    let chord = y - x;
+    if chord == Vec2::ZERO {
+        return 0.5 * (t0 + t1);
+    }
+    let half = 0.5 * chord.dot(chord);
+    let pieces = spans(curve, t0, t1);
+    let (mut low, mut high) = (0, pieces.len());
+    while high - low > 1 {
+        let mid = low + (high - low) / 2;
+        let start = pieces[mid].bezier.point(pieces[mid].from);
+        if (start - x).dot(chord) < half { low = mid } else { high = mid }
+    }
+    let span = &pieces[low];
+    let beyond = span.about(x).linear_form(|v| v.dot(chord), -half);
+    let change = SignChange { lo: 0.0, hi: 1.0, rising: true };
+    span.t(crossing(|s| bernstein::value(&beyond, s), &change))
+}
+
+/// Squared distance from the polygon's origin less squared radius, times the squared denominator.
+fn beyond_ball(polygon: &Polygon, radius: f64) -> Vec<f64> {
+    let numerators = polygon.numerators();
+    let square = bernstein::product(&numerators, &numerators, |a, b| a.dot(b));
+    match polygon.weights() {
+        None => square.into_iter().map(|d| d - radius * radius).collect(),
+        Some(w) => {
+            let weights = bernstein::product(&w, &w, |a, b| a * b);
+            square.iter().zip(&weights).map(|(d, w)| d - radius * radius * w).collect()
+        }
+    }
+}
+
+/// Where the polygon's curve first leaves the ball around its origin, in its own parameter.
+fn first_beyond(polygon: &Polygon, radius: f64) -> Option<f64> {
+    /// After as many halvings a piece holds nothing but rounding.
+    const DEPTH: u32 = 52;
+    const PIECE_BUDGET: usize = 1 << 12;
+    let exact = |s: f64| length(polygon.value(s)) - radius;
+    let mut stack = vec![(0.0, 1.0, 0, polygon.clone())];
+    for _ in 0..PIECE_BUDGET {
+        let (lo, hi, depth, piece) = stack.pop()?;
+        let beyond = beyond_ball(&piece, radius);
+        let Some((first, last, count)) = bernstein::variations(&beyond, 0.0) else { continue };
+        if first {
+            return Some(lo);
+        }
+        if count == 0 {
+            continue;
+        }
+        if count == 1 || depth >= DEPTH {
+            if last {
+                return Some(crossing(exact, &SignChange { lo, hi, rising: true }));
+            }
+            continue;
+        }
+        let mid = 0.5 * (lo + hi);
+        let (left, right) = piece.split(0.5);
+        stack.push((mid, hi, depth + 1, right));
+        stack.push((lo, mid, depth + 1, left));
+    }
+    None
+}
+
+pub(super) fn leaves_ball(curve: &Curve, end: End, radius: f64, t0: f64, t1: f64) -> Option<f64> {
+    let (center_t, far_t) = match end {
+        End::Start => (t0, t1),
+        End::Finish => (t1, t0),
+    };
+    let center = curve.point(center_t);
+    let mut pieces = spans(curve, t0, t1);
+    if end == End::Finish {
+        pieces.reverse();
+    }
+    for span in pieces {
+        let polygon = span.about(center);
+        if polygon.points().iter().all(|p| length(*p) < radius) {
+            continue;
+        }
+        let found = match end {
+            End::Start => first_beyond(&polygon, radius).map(|s| span.t(s)),
+            End::Finish => first_beyond(&polygon.reversed(), radius).map(|s| span.t(1.0 - s)),
+        };
+        if let Some(t) = found {
+            return Some(t.clamp(t0, t1));
+        }
+    }
+    // The far end itself, up to rounding of the distance.
+    let reach = length(curve.point(far_t) - center);
+    (reach >= radius * (1.0 - 4.0 * f64::EPSILON)).then_some(far_t)
+}
+
+/// Largest distance from the chord: at the ends of spans, where the tangent is parallel to the chord, and, where the curve leaves the
+/// strip between the chord's ends, where the distance from an end of it is stationary or the strip is left.
+pub(super) fn chord_error(curve: &Curve, t0: f64, t1: f64) -> f64 {
+    let (x, y) = (curve.point(t0), curve.point(t1));
+    let chord = y - x;
+    let square = chord.dot(chord);
+    let distance = |offset: Vec2| {
+        let along = if square > 0.0 { (offset.dot(chord) / square).clamp(0.0, 1.0) } else { 0.0 };
+        if along > 0.0 && along < 1.0 {
+            offset.cross(chord).abs() / square.sqrt()
+        } else {
+            length(offset - chord * along)
+        }
+    };
+    let mut largest = 0.0f64;
+    for span in spans(curve, t0, t1) {
+        let offsets = span.about(x);
+        let hodograph = span.hodograph();
+        let mut forms = vec![hodograph.iter().map(|d| d.cross(chord)).collect::<Vec<f64>>()];
+        let past = offsets.points().iter().any(|v| !(0.0..=square).contains(&v.dot(chord)));
+        if past {
+            let from_end = span.about(y);
+            for polygon in [&offsets, &from_end] {
+                forms.push(bernstein::product(&polygon.numerators(), &hodograph, |v, d| v.dot(d)));
+                forms.push(polygon.linear_form(|v| v.dot(chord), 0.0));
+            }
+        }
+        let stationary = forms.iter().flat_map(|form| {
+            let noise = product_noise(bernstein::largest(form), 1.0, form.len());
+            bernstein::roots(form, noise)
+        });
+        for s in stationary.chain([0.0, 1.0]) {
+            largest = largest.max(distance(offsets.value(s)));
+        }
+    }
+    largest
+}
+
+pub(super) fn length_of(curve: &Curve, t0: f64, t1: f64) -> f64 {
+    let of = |span: Span<'_>| {
+        let polygon_length: f64 = span.bezier.points.windows(2).map(|p| length(p[1] - p[0])).sum();
+        let scale = polygon_length * (span.to - span.from);
+        integral(|u| length(span.bezier.derivative(u)), span.from, span.to, scale)
+    };
+    spans(curve, t0, t1).into_iter().map(of).sum()
+}
+
+/// Largest turn at a point z of the part between the directions x → z and z → y.
+///
+/// With N = (z − x)·W and c = y − x its tangent is e/f, e = (N × c)·W and f = (N·c)·W − N·N. Both vanish at x and at y, where they are
+/// divided by t and by 1 − t: the quotient is stationary where e′f − ef′ = 0.
+pub(super) fn lens_angle(curve: &Curve, t0: f64, t1: f64) -> f64 {
+    let (x, y) = (curve.point(t0), curve.point(t1));
+    let chord = y - x;
+    let pieces = spans(curve, t0, t1);
+    let last = pieces.len() - 1;
+    let mut largest = 0.0f64;
+    for (k, span) in pieces.iter().enumerate() {
+        let (e, f) = lens_quotient(&span.about(x), chord, k == 0, k == last);
+        let (de, df) = (bernstein::derivative(&e), bernstein::derivative(&f));
+        let left = bernstein::product(&de, &f, |a, b| a * b);
+        let right = bernstein::product(&e, &df, |a, b| a * b);
+        let slope: Vec<f64> = left.iter().zip(&right).map(|(a, b)| a - b).collect();
+        let noise = product_noise(bernstein::largest(&e), bernstein::largest(&f), slope.len() * e.len());
+        let stationary = bernstein::roots(&slope, noise);
+        let on_chord = bernstein::roots(&e, 0.0);
+        for s in stationary.into_iter().chain(on_chord).chain([0.0, 1.0]) {
+            largest = largest.max(libm::atan2(bernstein::value(&e, s).abs(), bernstein::value(&f, s)));
+        }
+    }
+    largest
+}
+
+/// The polynomials e and f of [`lens_angle`] over a span, which may begin at x or end at y.
+fn lens_quotient(polygon: &Polygon, chord: Vec2, at_start: bool, at_end: bool) -> (Vec<f64>, Vec<f64>) {
+    let numerators = polygon.numerators();
+    let ones = vec![1.0; numerators.len()];
+    let weights = polygon.weights().unwrap_or(ones);
+    let across: Vec<f64> = numerators.iter().map(|v| v.cross(chord)).collect();
+    let along: Vec<f64> = numerators.iter().map(|v| v.dot(chord)).collect();
+    let times = |a: f64, b: f64| a * b;
+    let mut e = bernstein::product(&across, &weights, times);
+    let square = bernstein::product(&numerators, &numerators, |a, b| a.dot(b));
+    let mut f: Vec<f64> = bernstein::product(&along, &weights, times).iter().zip(&square).map(|(a, s)| a - s).collect();
+    if at_start {
+        (e, f) = (bernstein::over_t(&e), bernstein::over_t(&f));
+    }
+    if at_end {
+        (e, f) = (bernstein::over_one_minus_t(&e), bernstein::over_one_minus_t(&f));
+    }
+    (e, f)
 }

@@ -254,7 +254,7 @@ fn solve_tridiagonal(diagonal: &[f64], beside: &[f64], mut right: Vec<Vec2>) -> 
         let above = right[i - 1];
         right[i] -= above * factor;
     }
-    right[n - 1] = right[n - 1] / pivots[n - 1];
+    right[n - 1] /= pivots[n - 1];
     for i in (0..n - 1).rev() {
         right[i] = (right[i] - right[i + 1] * beside[i]) / pivots[i];
     }

@@ -180,7 +180,7 @@ impl<'c> Contacts<'c> {
             let (foot, gap) = foot(b, p, u + ratio * (next - t));
             let jumps = (foot - u).abs() > self.b.span(u).max(self.b.span(foot)) / samples;
             let beside = self.same && foot - next <= (from[1] - from[0]) / samples;
-            let at_end = foot == 0.0 || foot == 1.0;
+            let at_end = is_end(foot);
             if gap <= self.tolerance && !at_end && !jumps && !beside {
                 here = [next, foot];
                 passed.push(here);
@@ -223,6 +223,7 @@ impl<'c> Contacts<'c> {
         if let (Some(&from), Some(&to)) = (ends.first(), ends.last())
             && self.is_long(walk, from, to)
         {
+            let (from, to) = (self.snapped(from, &ends), self.snapped(to, &ends));
             return Finding::Stretch(Overlap { t: [from[0], to[0]], u: [from[1], to[1]] });
         }
         if held {
@@ -244,23 +245,29 @@ impl<'c> Contacts<'c> {
         }
         // A walk along a passes an end of b unseen where the curves cross steeply. Where they cross at the angle θ, b stays within
         // the tolerance for tolerance/sin θ, of which the walk sees the part cos θ; the rest is tan(θ/2) ≤ 1 times the tolerance.
-        let b = self.b.curve;
+        // And it stops at an end of b although one of a may be as near.
+        let (a, b) = (self.a.curve, self.b.curve);
+        let is_near = |curve: &Curve, x: f64, e: f64| is_near(curve, x, e, 2.0 * self.tolerance);
         for e in [0.0, 1.0] {
-            let near = |w: &[f64; 2]| {
-                let reach = |u: f64| length(b.point(u) - b.point(e)) <= 2.0 * self.tolerance;
-                reach(w[1]) && reach(0.5 * (w[1] + e))
-            };
-            if ends.iter().any(|w| w[1] == e) {
-                continue;
+            let steps = [first, at, last];
+            if !ends.iter().any(|w| w[1] == e)
+                && let Some(w) = steps.iter().find(|w| is_near(b, w[1], e))
+            {
+                ends.extend(self.beside(a, b.point(e), w[0]).map(|t| [t, e]));
             }
-            if let Some(w) = [first, at, last].into_iter().find(near) {
-                let (beside, gap) = foot(self.a.curve, b.point(e), w[0]);
-                if gap <= self.tolerance {
-                    ends.push([beside, e]);
-                }
+            if !ends.iter().any(|w| w[0] == e)
+                && let Some(w) = steps.iter().find(|w| is_near(a, w[0], e))
+            {
+                ends.extend(self.beside(b, a.point(e), w[1]).map(|u| [e, u]));
             }
         }
         ends
+    }
+
+    /// The foot of a place on a curve, where it is within the tolerance.
+    fn beside(&self, curve: &Curve, place: Point, guess: f64) -> Option<f64> {
+        let (x, gap) = foot(curve, place, guess);
+        (gap <= self.tolerance).then_some(x)
     }
 
     /// Knots of either curve inside the contact, as pairs: where a contact is a shared stretch, it may end at one. Only those
@@ -288,6 +295,15 @@ impl<'c> Contacts<'c> {
         knots
     }
 
+    /// A pair at an end of a stretch, moved to the ends of curves among `ends` that lie within the tolerance of it.
+    fn snapped(&self, pair: [f64; 2], ends: &[[f64; 2]]) -> [f64; 2] {
+        let (a, b) = (self.a.curve, self.b.curve);
+        let t = ends.iter().map(|w| w[0]).find(|&e| is_end(e) && is_near(a, pair[0], e, self.tolerance));
+        let u = ends.iter().map(|w| w[1]).find(|&e| is_end(e) && is_near(b, pair[1], e, self.tolerance));
+        let snapped = [t.unwrap_or(pair[0]), u.unwrap_or(pair[1])];
+        if self.gap(snapped) <= self.tolerance { snapped } else { pair }
+    }
+
     /// Whether the walk goes further than the tolerance from its start between two pairs.
     fn is_long(&self, walk: &[[f64; 2]], from: [f64; 2], to: [f64; 2]) -> bool {
         let a = self.a.curve;
@@ -300,15 +316,9 @@ impl<'c> Contacts<'c> {
 
     /// The meeting of a contact no longer than the tolerance that holds the given ends.
     fn meeting_at_end(&self, ends: &[[f64; 2]]) -> Finding {
-        let is_end = |x: f64| x == 0.0 || x == 1.0;
+        let Some(&first) = ends.iter().find(|w| is_end(w[0])).or(ends.first()) else { return Finding::Nothing };
+        let [t, u] = self.snapped(first, ends);
         let (a, b) = (self.a.curve, self.b.curve);
-        let of_a = ends.iter().find(|w| is_end(w[0]));
-        let of_b = ends.iter().find(|w| is_end(w[1]));
-        let [t, u] = match (of_a, of_b) {
-            (Some(p), Some(q)) if length(a.point(p[0]) - b.point(q[1])) <= self.tolerance => [p[0], q[1]],
-            (Some(&p), _) | (None, Some(&p)) => p,
-            (None, None) => return Finding::Nothing,
-        };
         if self.same && t == 0.0 && u == 1.0 {
             return Finding::Nothing;
         }
@@ -406,6 +416,16 @@ impl<'c> Contacts<'c> {
         }
         ([t, u], length(gap) <= 0.25 * self.tolerance)
     }
+}
+
+fn is_end(x: f64) -> bool {
+    x == 0.0 || x == 1.0
+}
+
+/// Whether the curve between two parameters stays about a place: both ends of a closed curve are not near.
+fn is_near(curve: &Curve, x: f64, y: f64, distance: f64) -> bool {
+    let from = curve.point(x);
+    length(curve.point(y) - from) <= distance && length(curve.point(0.5 * (x + y)) - from) <= distance
 }
 
 /// Direction of travel at t.

@@ -113,12 +113,12 @@ impl Hulls {
         match curve {
             Curve::Line(line) => hulls.add([0.0, 1.0], Pace::Even, plain(&[line.start, line.end])),
             Curve::Arc(arc) => {
-                hulls.magnitude = magnitude(Rect::from_points(arc.center, arc.center)) + arc.radius;
                 let axis = |angle: f64| arc.radius * Vec2::new(libm::cos(angle), libm::sin(angle));
                 hulls.add_conic(curve, arc.start_rad, arc.sweep_rad, axis);
             }
             Curve::Ellipse(arc) => {
-                hulls.magnitude = magnitude(Rect::from_points(arc.center, arc.center)) + length(arc.u) + length(arc.v);
+                // Points are measured from the start by the axes, which may be long beside a short arc.
+                hulls.magnitude = length(arc.u) + length(arc.v);
                 let axis = |angle: f64| libm::cos(angle) * arc.u + libm::sin(angle) * arc.v;
                 hulls.add_conic(curve, arc.start_rad, arc.sweep_rad, axis);
             }

@@ -1,0 +1,316 @@
+//! Turning: the total variation of the tangent angle (Pav & Walkington 2005, Definition 4), where it breaks and where it is to be cut.
+//!
+//! A Bézier's tangent has the direction of its hodograph. It is taken apart into stretches along which the tangent turns one way only
+//! and stays within a half plane: between the points where the hodograph vanishes, and the inflections (sign changes of its cross
+//! product with its derivative). The angle between the two ends of such a stretch is its turning, without ambiguity.
+
+use super::bernstein::{self, SignChange, crossing};
+use super::spans::spans;
+use super::{Break, BreakKind, Curve, length, unit};
+use crate::geometry::{Vec2, turn_from};
+
+/// Relative excess of a part's turning over the limit that passes for rounding: thrice that of a sum of a thousand stretches.
+const COUNT_SLACK: f64 = 1e-12;
+/// Most parts that one curve is cut into, whatever the limit asks.
+const PARTS_MAX: f64 = 1e6;
+/// Pieces that the search for half planes may look at: some dozens of cusps, each approached by 48 halvings from both sides.
+const PIECE_BUDGET: usize = 1 << 13;
+
+/// Part of a curve along which the tangent turns one way, by less than π.
+struct Stretch {
+    t0: f64,
+    t1: f64,
+    hodograph: Vec<Vec2>,
+    /// First and last directions, as long as the hodograph is there.
+    from: Vec2,
+    to: Vec2,
+    /// Signed: positive to the left.
+    angle_rad: f64,
+    /// Angles below this are rounding.
+    noise_rad: f64,
+    /// How far the tangent jumps (unsigned) where the stretch begins, and whether that breaks the curve.
+    jump_rad: f64,
+    breaks: Option<BreakKind>,
+}
+
+/// Part of a hodograph in its own parameter.
+struct Piece {
+    lo: f64,
+    hi: f64,
+    hodograph: Vec<Vec2>,
+}
+
+pub(super) fn turning(curve: &Curve, t0: f64, t1: f64) -> f64 {
+    match curve {
+        Curve::Line(_) => 0.0,
+        Curve::Arc(a) => (a.sweep_rad * (t1 - t0)).abs(),
+        Curve::Ellipse(e) => e.turning(t0, t1),
+        Curve::Bezier(_) | Curve::Spline(_) => {
+            stretches(curve, t0, t1).iter().map(|s| s.angle_rad.abs() + s.jump_rad).sum()
+        }
+    }
+}
+
+pub(super) fn breaks(curve: &Curve) -> Vec<Break> {
+    let of = |s: &Stretch| s.breaks.map(|kind| Break { t: s.t0, kind, turn_rad: s.jump_rad });
+    if has_stretches(curve) { stretches(curve, 0.0, 1.0).iter().filter_map(of).collect() } else { Vec::new() }
+}
+
+pub(super) fn inflections(curve: &Curve) -> Vec<f64> {
+    if !has_stretches(curve) {
+        return Vec::new();
+    }
+    let mut found = Vec::new();
+    let mut before: Option<bool> = None;
+    for stretch in stretches(curve, 0.0, 1.0) {
+        if stretch.breaks.is_some() {
+            before = None;
+        }
+        if stretch.angle_rad.abs() <= stretch.noise_rad {
+            continue;
+        }
+        let left = stretch.angle_rad > 0.0;
+        if before.is_some_and(|b| b != left) {
+            found.push(stretch.t0);
+        }
+        before = Some(left);
+    }
+    found
+}
+
+pub(super) fn cuts_of_turning(curve: &Curve, tau: f64) -> Vec<f64> {
+    match curve {
+        Curve::Line(_) => Vec::new(),
+        Curve::Arc(a) => shares(a.sweep_rad.abs(), tau).map(|share| share / a.sweep_rad.abs()).collect(),
+        Curve::Ellipse(e) => shares(e.turning(0.0, 1.0), tau).map(|share| e.at_turning(share)).collect(),
+        Curve::Bezier(_) | Curve::Spline(_) => {
+            let all = stretches(curve, 0.0, 1.0);
+            let mut cuts = Vec::new();
+            let mut start = 0;
+            for end in 1..=all.len() {
+                if end < all.len() && all[end].breaks.is_none() {
+                    continue;
+                }
+                if start > 0 {
+                    cuts.push(all[start].t0);
+                }
+                cut_run(&all[start..end], tau, &mut cuts);
+                start = end;
+            }
+            cuts.retain(|t| *t > 0.0 && *t < 1.0);
+            cuts.dedup();
+            cuts
+        }
+    }
+}
+
+/// The turnings at which a run of so much turning is cut.
+fn shares(total: f64, tau: f64) -> impl Iterator<Item = f64> {
+    let parts = libm::ceil(total / tau * (1.0 - COUNT_SLACK));
+    let parts = if parts > 1.0 { parts.min(PARTS_MAX) } else { 1.0 };
+    (1..parts as u32).map(move |k| total * (f64::from(k) / parts))
+}
+
+/// Cuts a run of stretches without a break inside.
+fn cut_run(run: &[Stretch], tau: f64, cuts: &mut Vec<f64>) {
+    // The jump at the start of the run is the break before it, if any.
+    let jump = |i: usize| if i == 0 { 0.0 } else { run[i].jump_rad };
+    let total: f64 = run.iter().enumerate().map(|(i, s)| jump(i) + s.angle_rad.abs()).sum();
+    let (mut i, mut before) = (0, 0.0);
+    for share in shares(total, tau) {
+        while i + 1 < run.len() && share > before + jump(i) + run[i].angle_rad.abs() {
+            before += jump(i) + run[i].angle_rad.abs();
+            i += 1;
+        }
+        cuts.push(run[i].at_turning(share - before - jump(i)));
+    }
+}
+
+impl Stretch {
+    /// The parameter at which the tangent has turned by `turned` since the start of the stretch.
+    fn at_turning(&self, turned: f64) -> f64 {
+        let angle = self.angle_rad.abs();
+        if turned <= 0.0 {
+            return self.t0;
+        }
+        if turned >= angle {
+            return self.t1;
+        }
+        let (sin, cos) = libm::sincos(turned.copysign(self.angle_rad));
+        let from = unit(self.from);
+        let wanted = Vec2::new(cos * from.x - sin * from.y, sin * from.x + cos * from.y);
+        let past: Vec<f64> = self.hodograph.iter().map(|d| wanted.cross(*d)).collect();
+        let change = SignChange { lo: 0.0, hi: 1.0, rising: self.angle_rad > 0.0 };
+        let s = crossing(|s| bernstein::value(&past, s), &change);
+        self.t0 + s * (self.t1 - self.t0)
+    }
+}
+
+fn has_stretches(curve: &Curve) -> bool {
+    matches!(curve, Curve::Bezier(_) | Curve::Spline(_))
+}
+
+/// The stretches of t0..t1 of a Bézier or a spline, in order. None of a part that does not move.
+fn stretches(curve: &Curve, t0: f64, t1: f64) -> Vec<Stretch> {
+    let mut all: Vec<Stretch> = Vec::new();
+    for span in spans(curve, t0, t1) {
+        let noise = span.bezier.hodograph_noise();
+        for (k, piece) in one_way_pieces(span.hodograph(), noise).into_iter().enumerate() {
+            let Some((from, to)) = end_directions(&piece.hodograph, noise) else { continue };
+            let noise_rad = noise / length(from) + noise / length(to);
+            let mut stretch = Stretch {
+                t0: span.t(piece.lo),
+                t1: span.t(piece.hi),
+                from,
+                to,
+                angle_rad: turn_from(from, to),
+                // Control points of spans, parts and welded curves carry a few roundings each.
+                noise_rad: 8.0 * noise_rad,
+                jump_rad: 0.0,
+                breaks: None,
+                hodograph: piece.hodograph,
+            };
+            if let Some(before) = all.last_mut() {
+                join(before, &mut stretch, k == 0, noise);
+            }
+            all.push(stretch);
+        }
+    }
+    all
+}
+
+/// Measures the jump between two neighbours: at a knot, or where the hodograph vanishes.
+fn join(before: &mut Stretch, after: &mut Stretch, at_knot: bool, noise: f64) {
+    let vanishes = |d: Option<&Vec2>| d.is_some_and(|d| length(*d) <= noise);
+    let vanished = vanishes(before.hodograph.last()) && vanishes(after.hodograph.first());
+    before.t1 = after.t0;
+    if !vanished && !at_knot {
+        return;
+    }
+    after.jump_rad = turn_from(before.to, after.from).abs();
+    // An analytic tangent passes a zero of the derivative straight on or reversed, so half way tells which.
+    if vanished && after.jump_rad > std::f64::consts::FRAC_PI_2 {
+        after.breaks = Some(BreakKind::Cusp);
+    } else if after.jump_rad > before.noise_rad + after.noise_rad {
+        after.breaks = Some(if vanished && !at_knot { BreakKind::Cusp } else { BreakKind::TangentJump });
+    }
+}
+
+/// The first and the last coefficient that is more than noise: the limits of the tangent at both ends.
+fn end_directions(hodograph: &[Vec2], noise: f64) -> Option<(Vec2, Vec2)> {
+    let mut sure = hodograph.iter().filter(|d| length(**d) > noise);
+    let from = *sure.next()?;
+    Some((from, sure.next_back().copied().unwrap_or(from)))
+}
+
+/// Pieces within half planes, cut further at inflections.
+fn one_way_pieces(hodograph: Vec<Vec2>, noise: f64) -> Vec<Piece> {
+    let mut pieces = Vec::new();
+    for piece in half_plane_pieces(hodograph, noise) {
+        let h = &piece.hodograph;
+        let degree = h.len() - 1;
+        if degree < 2 {
+            // A linear hodograph has the constant cross product h₀ × h₁ with its derivative.
+            pieces.push(piece);
+            continue;
+        }
+        // H × H′/m = A × B for the polynomials A of the first m coefficients and B of the last m.
+        let bend = bernstein::product(&h[..degree], &h[1..], |a, b| a.cross(b));
+        let largest = bernstein::longest(h);
+        let lost = 2.0 * noise * largest + 8.0 * f64::EPSILON * largest * largest * bend.len() as f64;
+        let slope = bernstein::derivative(h);
+        let exact = |s: f64| bernstein::value(h, s).cross(bernstein::value(&slope, s));
+        let mut cuts: Vec<f64> =
+            bernstein::sign_changes(&bend, lost).iter().map(|change| crossing(exact, change)).collect();
+        cuts.retain(|s| *s > 0.0 && *s < 1.0);
+        cuts.dedup();
+        let at = |s: f64| piece.lo + s * (piece.hi - piece.lo);
+        let starts: Vec<f64> = std::iter::once(0.0).chain(cuts.iter().copied()).collect();
+        for (k, from) in starts.iter().enumerate() {
+            let to = cuts.get(k).copied().unwrap_or(1.0);
+            let hi = if to == 1.0 { piece.hi } else { at(to) };
+            pieces.push(Piece { lo: at(*from), hi, hodograph: bernstein::restricted(h, *from, to) });
+        }
+    }
+    pieces
+}
+
+/// Pieces each within an open half plane, cut where the hodograph vanishes; there the end coefficients are exactly zero.
+fn half_plane_pieces(hodograph: Vec<Vec2>, noise: f64) -> Vec<Piece> {
+    let (pieces, gaps) = try_half_planes(&hodograph, 0.0, 1.0, noise);
+    if gaps.is_empty() {
+        return pieces;
+    }
+    let zeros: Vec<f64> = gaps.into_iter().map(|gap| zero_near(&hodograph, gap)).collect();
+    let mut bounds = vec![0.0];
+    bounds.extend(zeros.into_iter().filter(|s| *s > 0.0 && *s < 1.0));
+    bounds.push(1.0);
+    bounds.dedup();
+    let mut pieces = Vec::new();
+    for pair in bounds.windows(2) {
+        let mut part = bernstein::restricted(&hodograph, pair[0], pair[1]);
+        let last = part.len() - 1;
+        if pair[0] > 0.0 {
+            part[0] = Vec2::ZERO;
+        }
+        if pair[1] < 1.0 {
+            part[last] = Vec2::ZERO;
+        }
+        pieces.extend(try_half_planes(&part, pair[0], pair[1], noise).0);
+    }
+    pieces
+}
+
+/// Halves until each piece lies in a half plane or is lost in rounding; returns the pieces, and the middles of the gaps inside.
+fn try_half_planes(hodograph: &[Vec2], lo: f64, hi: f64, noise: f64) -> (Vec<Piece>, Vec<f64>) {
+    /// The hodograph is that small after as many halvings only where it vanishes to rounding.
+    const DEPTH: u32 = 48;
+    let mut pieces: Vec<Piece> = Vec::new();
+    let mut gaps: Vec<(f64, f64)> = Vec::new();
+    let mut stack = vec![(lo, hi, 0, hodograph.to_vec())];
+    for _ in 0..PIECE_BUDGET {
+        let Some((a, b, depth, part)) = stack.pop() else { break };
+        let moves = part.iter().any(|d| length(*d) > noise);
+        if moves && in_half_plane(&part, noise) {
+            pieces.push(Piece { lo: a, hi: b, hodograph: part });
+        } else if moves && depth < DEPTH {
+            let mid = 0.5 * (a + b);
+            let (left, right) = bernstein::split(&part, 0.5);
+            stack.push((mid, b, depth + 1, right));
+            stack.push((a, mid, depth + 1, left));
+        } else {
+            match gaps.last_mut() {
+                Some(gap) if gap.1 == a => gap.1 = b,
+                _ => gaps.push((a, b)),
+            }
+        }
+    }
+    let inner = gaps.into_iter().filter(|gap| gap.0 > lo && gap.1 < hi).map(|gap| 0.5 * (gap.0 + gap.1)).collect();
+    (pieces, inner)
+}
+
+/// Whether every coefficient that is more than noise lies in one open half plane.
+fn in_half_plane(hodograph: &[Vec2], noise: f64) -> bool {
+    let sure = || hodograph.iter().filter(|d| length(**d) > noise);
+    let axis = sure().fold(Vec2::ZERO, |sum, d| sum + unit(*d));
+    sure().all(|d| axis.dot(*d) > 0.0)
+}
+
+/// The least of |H| near s, by Gauss–Newton steps as long as they help.
+fn zero_near(hodograph: &[Vec2], s: f64) -> f64 {
+    /// Quadratic convergence from a bracket of some 1e-8 needs two.
+    const STEPS: usize = 8;
+    let slope = bernstein::derivative(hodograph);
+    let (mut best, mut size) = (s, length(bernstein::value(hodograph, s)));
+    for _ in 0..STEPS {
+        let (h, d) = (bernstein::value(hodograph, best), bernstein::value(&slope, best));
+        let next = best - h.dot(d) / d.dot(d);
+        let there = length(bernstein::value(hodograph, next));
+        let nearer = there < size && (0.0..=1.0).contains(&next);
+        if !nearer {
+            break;
+        }
+        (best, size) = (next, there);
+    }
+    best
+}
