@@ -2,7 +2,7 @@
 //!
 //! A [`Frame`] maps the drawing to pixels (y upward becomes y downward); everything after that is in pixels, rounded to hundredths, so that the
 //! text is short and the same on every machine. A layer of a very large mesh would make an SVG of hundreds of megabytes: beyond
-//! [`SVG_POINTS_MAX`] points it is painted once and embedded as an image, at twice the resolution.
+//! [`SVG_POINTS_MAX`] points it is painted once, pixel for pixel, and embedded as an image.
 
 mod glyphs;
 
@@ -234,6 +234,8 @@ struct Layer {
     id: &'static str,
     /// Whether the layer is cut off at the frame.
     clip: bool,
+    /// Fills are not smoothed: neighbours leave no hairline between them, and each pixel has one colour.
+    crisp: bool,
     items: Vec<Item>,
 }
 
@@ -408,7 +410,12 @@ impl Canvas {
 
     /// Begins a layer; what follows is drawn into it, cut off at the frame where `clip`.
     pub fn layer(&mut self, id: &'static str, clip: bool) {
-        self.layers.push(Layer { id, clip, items: Vec::new() });
+        self.layers.push(Layer { id, clip, crisp: false, items: Vec::new() });
+    }
+
+    /// Begins a layer of cells that adjoin, cut off at the frame: not smoothed, so that no hairlines shine through between them.
+    pub fn layer_of_cells(&mut self, id: &'static str) {
+        self.layers.push(Layer { id, clip: true, crisp: true, items: Vec::new() });
     }
 
     pub fn path(&mut self, path: Path, paint: Paint) {
@@ -459,9 +466,10 @@ impl Canvas {
         text.push_str(&format!("<defs>{clip}</defs>\n<rect width=\"{w}\" height=\"{h}\" fill=\"#fff\"/>\n"));
         for layer in self.layers.iter().filter(|l| !l.items.is_empty()) {
             let clip = if layer.clip { " clip-path=\"url(#plot)\"" } else { "" };
-            text.push_str(&format!("<g id=\"{}\"{clip}>\n", layer.id));
+            let crisp = if layer.crisp { " shape-rendering=\"crispEdges\"" } else { "" };
+            text.push_str(&format!("<g id=\"{}\"{clip}{crisp}>\n", layer.id));
             if layer.points() > SVG_POINTS_MAX {
-                let png = encode(self.paint([layer], 2.0, None)?)?;
+                let png = encode(self.paint([layer], 1.0, None)?)?;
                 let data = base64::engine::general_purpose::STANDARD.encode(png);
                 text.push_str(&format!(
                     "<image width=\"{w}\" height=\"{h}\" href=\"data:image/png;base64,{data}\"/>\n"
@@ -507,7 +515,7 @@ impl Canvas {
         for layer in layers {
             let mask = layer.clip.then_some(&mask);
             for item in &layer.items {
-                item.paint(&mut map, transform, mask);
+                item.paint(&mut map, transform, mask, !layer.crisp);
             }
         }
         Ok(map)
@@ -550,9 +558,11 @@ impl Paint {
         map: &mut tiny_skia::Pixmap,
         transform: tiny_skia::Transform,
         mask: Option<&tiny_skia::Mask>,
+        smooth: bool,
     ) {
         if let Some((colour, opacity)) = self.fill {
-            map.fill_path(path, &skia_paint(colour, opacity), tiny_skia::FillRule::EvenOdd, transform, mask);
+            let paint = tiny_skia::Paint { anti_alias: smooth, ..skia_paint(colour, opacity) };
+            map.fill_path(path, &paint, tiny_skia::FillRule::EvenOdd, transform, mask);
         }
         if let Some(s) = self.stroke {
             let stroke = tiny_skia::Stroke {
@@ -587,26 +597,32 @@ impl Item {
         }
     }
 
-    fn paint(&self, map: &mut tiny_skia::Pixmap, transform: tiny_skia::Transform, mask: Option<&tiny_skia::Mask>) {
+    fn paint(
+        &self,
+        map: &mut tiny_skia::Pixmap,
+        transform: tiny_skia::Transform,
+        mask: Option<&tiny_skia::Mask>,
+        smooth: bool,
+    ) {
         match self {
             Self::Path { path, paint } => {
                 if let Some(path) = path.to_skia() {
-                    paint.paint(&path, map, transform, mask);
+                    paint.paint(&path, map, transform, mask, smooth);
                 }
             }
             Self::Circle { at, radius, paint } => {
                 if let Some(path) = tiny_skia::PathBuilder::from_circle(at.x as f32, at.y as f32, *radius as f32) {
-                    paint.paint(&path, map, transform, mask);
+                    paint.paint(&path, map, transform, mask, smooth);
                 }
             }
             Self::Text(label) => {
                 let Some(path) = label.strokes().to_skia() else { return };
                 if label.rim {
                     let rim = Stroke::new(Colour(255, 255, 255), label.size * 0.32).opacity(0.85);
-                    Paint::stroke(rim).paint(&path, map, transform, mask);
+                    Paint::stroke(rim).paint(&path, map, transform, mask, smooth);
                 }
                 let pen = Stroke::new(label.colour, label.size * glyphs::PEN);
-                Paint::stroke(pen).paint(&path, map, transform, mask);
+                Paint::stroke(pen).paint(&path, map, transform, mask, smooth);
             }
         }
     }

@@ -447,12 +447,9 @@ impl Sheet {
                 self.canvas.frame().add_polygon(paths.entry(colours.class(t)).or_default(), &abc);
             }
         }
-        self.canvas.layer("cells", true);
+        self.canvas.layer_of_cells("cells");
         for (class, path) in paths {
-            let colour = colours.paint(class);
-            // The rim of its own colour closes the hairlines that smoothing leaves between neighbours.
-            let rim = Stroke::new(colour, self.pen(0.7));
-            self.canvas.path(path, Paint::fill(colour, 1.0).and_stroke(rim));
+            self.canvas.path(path, Paint::fill(colours.paint(class), 1.0));
         }
     }
 

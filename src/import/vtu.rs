@@ -262,8 +262,8 @@ fn attribute(start: &BytesStart, key: &str) -> Result<Option<String>> {
         let attribute = attribute.map_err(|e| broken(format!("an attribute cannot be read: {e}")))?;
         if attribute.key.as_ref() == key.as_bytes() {
             let text = std::str::from_utf8(&attribute.value).map_err(|_| broken("an attribute is not UTF-8"))?;
-            let text = quick_xml::escape::unescape(text).map_err(|e| broken(format!("attribute {key}: {e}")))?;
-            return Ok(Some(text.into_owned()));
+            // VTK itself writes names unescaped: what is no entity stands for itself.
+            return Ok(Some(quick_xml::escape::unescape(text).map_or_else(|_| text.to_owned(), |t| t.into_owned())));
         }
     }
     Ok(None)
