@@ -149,7 +149,7 @@ impl Findings {
         };
         row("unit", &unit);
         if let Some([x0, y0, x1, y1]) = self.bounds {
-            row("bounds", &format!("({x0}, {y0}) to ({x1}, {y1}), {} × {}", x1 - x0, y1 - y0));
+            row("bounds", &format!("{} to {}", say::place([x0, y0]), say::place([x1, y1])));
         }
         row("curves", &say::kinds(&self.curves));
         if self.points + self.seeds > 0 {
@@ -165,7 +165,12 @@ impl Findings {
         for b in &self.boundaries {
             row(
                 "boundary",
-                &format!("{}: {}, length {:.6}", b.name, say::plural(b.curves, "curve", "curves"), b.length),
+                &format!(
+                    "{}: {}, length {}",
+                    b.name,
+                    say::plural(b.curves, "curve", "curves"),
+                    say::number(b.length, 9)
+                ),
             );
         }
         if let Some(domain) = &self.domain {
@@ -181,7 +186,7 @@ impl Findings {
             row("repairs", &format!("{} (-v lists them)", say::repair_kinds(&self.repairs)));
         }
         for flaw in &self.flaws {
-            let place = flaw.at.map_or_else(String::new, |[x, y]| format!(" at ({x}, {y})"));
+            let place = flaw.at.map_or_else(String::new, |at| format!(" at {}", say::place(at)));
             row("flaw", &format!("{}{place}", ink.red(&flaw.what)));
             if !flaw.help.is_empty() {
                 row("", &flaw.help);
@@ -229,19 +234,19 @@ impl DomainFindings {
 
     fn rows(&self, row: &mut dyn FnMut(&str, &str)) {
         let arranged = format!(
-            "{}, {}, welded within {:e}",
+            "{}, {}, welded within {}",
             say::plural(self.points, "point", "points"),
             say::plural(self.curves, "curve", "curves"),
-            self.tolerance
+            say::number(self.tolerance, 3)
         );
         row("arranged", &arranged);
         for region in &self.regions {
-            row("region", &format!("{}: area {:.9}", region.name, region.area));
+            row("region", &format!("{}: area {}", region.name, say::number(region.area, 9)));
         }
         if let Some(corner) = &self.smallest_angle {
             let [a, b] = &corner.between;
-            let ([x, y], n) = (corner.at, say::count(self.acute_corners));
-            row("corners", &format!("{n} acute; smallest {:.4}° at ({x}, {y}), {a} and {b}", corner.angle_deg));
+            let (at, n) = (say::place(corner.at), say::count(self.acute_corners));
+            row("corners", &format!("{n} acute; smallest {:.4}° at {at}, {a} and {b}", corner.angle_deg));
         }
     }
 }

@@ -57,7 +57,7 @@ pub fn failure(report: &FailureReport, input: Option<&Input>) {
         let span = span_of_line(&text, number, report.column);
         return pointing(&report.what, Some(&report.help), &input.path, &text, span);
     }
-    let place = report.at.map_or_else(String::new, |[x, y]| format!(" at ({x}, {y})"));
+    let place = report.at.map_or_else(String::new, |at| format!(" at {}", place(at)));
     let path = input.map_or_else(String::new, |input| format!("{}: ", input.path));
     error(&format!("{path}{}{place}", report.what));
     if !report.help.is_empty() {
@@ -129,6 +129,21 @@ pub fn count(n: usize) -> String {
     text
 }
 
+/// A number to so many significant digits, without an exponent where it is read better so.
+pub fn number(x: f64, digits: usize) -> String {
+    let short = format!("{x:.*e}", digits.saturating_sub(1));
+    match short.parse::<f64>() {
+        Ok(value) if value == 0.0 || (1e-4..1e15).contains(&value.abs()) => value.to_string(),
+        Ok(value) => format!("{value:e}"),
+        Err(_) => short,
+    }
+}
+
+/// A place to nine significant digits.
+pub fn place([x, y]: [f64; 2]) -> String {
+    format!("({}, {})", number(x, 9), number(y, 9))
+}
+
 /// "1 region", "2 regions".
 pub fn plural(n: usize, one: &str, many: &str) -> String {
     format!("{} {}", count(n), if n == 1 { one } else { many })
@@ -171,7 +186,7 @@ pub fn repair_kinds(repairs: &[Repair]) -> String {
 
 /// One line a repair.
 pub fn repair_line(repair: &Repair) -> String {
-    format!("({}, {}) {}, moved by {:e}", repair.at[0], repair.at[1], repair.what, repair.size)
+    format!("{} {}, moved by {}", place(repair.at), repair.what, number(repair.size, 3))
 }
 
 /// The end of a run: what went in, what came out, what of it is promised. Without a mesh the failure says it all.
@@ -213,8 +228,11 @@ fn input_rows(report: &Report, volume: Volume, row: &dyn Fn(&str, &str)) {
     let input = &report.input;
     let Some(format) = &input.format else { return };
     let unit = input.unit.as_ref().map_or_else(String::new, |unit| format!(", in {unit}"));
-    let area =
-        report.quality.as_ref().and_then(|q| q.exact_measure).map_or_else(String::new, |a| format!(", area {a:.6}"));
+    let area = report
+        .quality
+        .as_ref()
+        .and_then(|q| q.exact_measure)
+        .map_or_else(String::new, |a| format!(", area {}", number(a, 9)));
     row("input", &format!("{format}: {}{area}{unit}", kinds(&input.curves)));
     for skipped in &input.skipped {
         row("left out", &format!("{} {}: {}", skipped.count, skipped.entity, skipped.why));
@@ -269,8 +287,7 @@ pub fn check_lines(check: &Check, ink: Ink) -> Vec<String> {
         Status::Broken => format!("{} of {}", count(check.broken), count(check.checked)),
         _ => count(check.checked),
     };
-    let worst =
-        check.worst.map_or_else(String::new, |w| format!("  worst {:.6} at ({}, {})", w.value, w.at[0], w.at[1]));
+    let worst = check.worst.map_or_else(String::new, |w| format!("  worst {} at {}", number(w.value, 6), place(w.at)));
     let head = format!("    {status} {:<17} {counts:>12}{worst}", check.name);
     let flaws = check.flaws.iter().map(|flaw| format!("      {flaw}"));
     std::iter::once(head.trim_end().to_owned()).chain(flaws).collect()
@@ -284,7 +301,7 @@ fn stop_row(report: &Report, row: &dyn Fn(&str, &str)) {
         StopReason::Cancelled => "the time ran out",
         StopReason::Arithmetic => "coordinates cannot be told apart any more",
     };
-    let place = stop.places.first().map_or_else(String::new, |[x, y]| format!(", one at ({x}, {y})"));
+    let place = stop.places.first().map_or_else(String::new, |at| format!(", one at {}", place(*at)));
     row("stopped", &format!("{reason}; {} still owed{place}", plural(stop.owed, "cell", "cells")));
 }
 
@@ -356,6 +373,12 @@ mod tests {
         assert_eq!(count(7), "7");
         assert_eq!(count(1234), "1 234");
         assert_eq!(count(1234567), "1 234 567");
+        assert_eq!(number(1257.129794213, 9), "1257.12979");
+        assert_eq!(number(-0.0, 6), "-0");
+        assert_eq!(number(7.049770654139608e-8, 3), "7.05e-8");
+        assert_eq!(number(25.0, 6), "25");
+        assert_eq!(number(f64::INFINITY, 6), "inf");
+        assert_eq!(place([1e16, 0.1 + 0.2]), "(1e16, 0.3)");
         assert_eq!(plural(1, "vertex", "vertices"), "1 vertex");
         assert_eq!(kinds(&BTreeMap::from([("line", 2), ("arc", 1)])), "1 arc, 2 lines");
     }
