@@ -15,6 +15,10 @@
 //!   applies, and only then are the arcs looked at. Every piece is an edge at that moment, so what an arc's vertex would encroach is read
 //!   off its cavity. The conditions are those of the corrected section 6: a pseudo midpoint with a vertex nearer than d/2, or that
 //!   encroaches a piece shorter than d, shrinks the ball; a longer piece is split.
+//! - *Neighbouring arcs.* A vertex on the arc of another ball does not crowd a pseudo midpoint, and an arc piece that it encroaches is
+//!   split, however short. Were they to shrink the ball, lfs(p) ≤ C₀·d(p) would fail: with |pq| = lfs₀(p) and both balls at birth, the
+//!   two arcs come within (√2−1)·d(p) < d(p)/2 of each other. Nothing is lost: d(p) + d(q) ≤ 2(√2−1)|pq| keeps them at least
+//!   (3−2√2)·|pq| apart at all times, and arc pieces shorter than twice that are not encroached.
 //! - *Batched shrinking.* d(p) ← β·d(p) is repeated until the ball is clear, and the curves are cut once. The literal rule cuts at every
 //!   step, which leaves a shell of vertices a step ([`Shrinking::Literal`]).
 //! - *Incident vertices.* Ball points are rounded. Lemma 3 says that only vertices of curves that do not end at p come into B(p); so only
@@ -121,8 +125,8 @@ pub fn refine(
 enum Origin {
     Input(PointId),
     OnCurve(CurveId),
-    /// On a corner arc, now or once.
-    OnArc,
+    /// On a corner arc of a ball, now or once.
+    OnArc(BallId),
     Free,
 }
 
@@ -437,7 +441,7 @@ impl<'a> Beginning<'a> {
         let describe = |i: usize| match self.origins[VertexId::from_index(i)] {
             Origin::Input(p) => format!("input point {}", p.0),
             Origin::OnCurve(c) => format!("a point of curve {} on the border of its corner's ball", c.0),
-            Origin::OnArc | Origin::Free => format!("vertex {i}"),
+            Origin::OnArc(_) | Origin::Free => format!("vertex {i}"),
         };
         RefineError {
             what: format!("{} and {} coincide", describe(first), describe(second)),
@@ -695,7 +699,7 @@ impl Lopping {
         }
         let origin = match piece.carrier {
             Carrier::Curve(curve) => Origin::OnCurve(curve),
-            Carrier::Arc(..) => Origin::OnArc,
+            Carrier::Arc(ball, _) => Origin::OnArc(ball),
         };
         let near = self.side_of(id).map_or_else(|| self.triangle_at(piece.ends[0]), Side::triangle);
         self.look_at_cavity(at, near, x)?;
@@ -932,30 +936,39 @@ impl Lopping {
                 return Room::Tight;
             }
             self.delaunay.cavity(at, location, &mut self.cavity);
-            let topology = self.delaunay.topology();
-            let crowded = self
-                .cavity
-                .triangles
-                .iter()
-                .flat_map(|&t| topology.corners(t))
-                .any(|v| v != GHOST && self.delaunay.point(v).distance(at) < radius / 2.0);
-            if crowded {
+            if self.is_crowded(id, radius, at) {
                 return Room::Tight;
             }
             for (_, piece) in self.cavity_pieces() {
-                let [x, y] = self.subcurves.get(piece).ends.map(|v| self.delaunay.point(v));
-                let own = match self.subcurves.get(piece).standing {
-                    Standing::Spoke(ball) => ball == id,
-                    _ => false,
-                };
-                if own || !self.encroaches(at, piece) {
-                    continue;
+                match self.room_beside(id, radius, at, piece) {
+                    Room::Clear => {}
+                    room => return room,
                 }
-                let spoke = self.subcurves.get(piece).is_spoke();
-                return if spoke || x.distance(y) < radius { Room::Tight } else { Room::Blocked(piece) };
             }
         }
         Room::Clear
+    }
+
+    /// Whether a vertex lies nearer to a pseudo midpoint than half the radius. A vertex on another ball's arc does not count: the balls
+    /// keep apart by themselves.
+    fn is_crowded(&self, id: BallId, radius: f64, at: Point) -> bool {
+        let topology = self.delaunay.topology();
+        let mut neighbours = self.cavity.triangles.iter().flat_map(|&t| topology.corners(t)).filter(|&v| v != GHOST);
+        neighbours.any(|v| {
+            let apart = matches!(self.origins[v], Origin::OnArc(other) if other != id);
+            !apart && self.delaunay.point(v).distance(at) < radius / 2.0
+        })
+    }
+
+    /// Whether a pseudo midpoint leaves a piece alone.
+    fn room_beside(&self, id: BallId, radius: f64, at: Point, piece: PieceId) -> Room {
+        let entry = self.subcurves.get(piece);
+        if entry.standing == Standing::Spoke(id) || !self.encroaches(at, piece) {
+            return Room::Clear;
+        }
+        let [x, y] = entry.ends.map(|v| self.delaunay.point(v));
+        let short = x.distance(y) < radius && matches!(entry.carrier, Carrier::Curve(_));
+        if entry.is_spoke() || short { Room::Tight } else { Room::Blocked(piece) }
     }
 
     fn insert_arcs(&mut self, id: BallId, sectors: Vec<Sector>) {
@@ -972,7 +985,7 @@ impl Lopping {
                         return;
                     }
                     self.disturb(at, None);
-                    self.act(at, Origin::OnArc, "vertices_arc")
+                    self.act(at, Origin::OnArc(id), "vertices_arc")
                 };
                 let ends = [from, to].map(|v| self.delaunay.point(v));
                 let start = sector.start + sector.sweep * i as f64 / f64::from(sector.count);
