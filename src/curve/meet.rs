@@ -123,8 +123,10 @@ struct Search<'c> {
 
 impl<'c> Search<'c> {
     fn new(a: &'c Curve, b: &'c Curve, hulls: [Hulls; 2], tolerance: f64, same: bool) -> Self {
-        // Sixteen units of rounding: evaluating a curve takes a few, and a gap is between two of them.
-        let least = 16.0 * f64::EPSILON * hulls[0].magnitude.max(hulls[1].magnitude);
+        // De Casteljau's algorithm errs by up to 2n units of rounding at degree n, and so does cutting a part out of a curve;
+        // a gap is between two such points. A unit of rounding is half of EPSILON: twice 4(n + 1) of them is safe.
+        let degree = hulls[0].degree.max(hulls[1].degree) as f64;
+        let least = 8.0 * (degree + 1.0) * f64::EPSILON * hulls[0].magnitude.max(hulls[1].magnitude);
         let track = |curve, hulls: &Hulls| Track::new(curve, hulls.degree, hulls[hulls.root()].size);
         let (on_a, on_b) = (track(a, &hulls[0]), track(b, &hulls[1]));
         Self { contacts: Contacts::new(on_a, on_b, tolerance.max(least), same), hulls }
