@@ -4,9 +4,12 @@
 //! a curve; no curve is closed, has a cusp or a tangent jump inside, or zero length; every curve knows the kept region on either side.
 
 use super::Repair;
+use super::locate::Locator;
 use crate::curve::{Curve, End};
-use crate::geometry::{Point, Rect};
-use crate::ids::{CurveId, IdVec, NameId, Names, PointId, RegionId};
+use crate::geometry::boxes::BoxHierarchy;
+use crate::geometry::{Point, Rect, bounds_of, scaled, turn_from};
+use crate::ids::{CurveId, Id, IdVec, NameId, Names, PointId, RegionId};
+use std::f64::consts::FRAC_PI_2;
 
 /// A planar domain. Made by [`super::Drawing::arrange`] only.
 #[derive(Clone, Debug)]
@@ -87,39 +90,124 @@ impl Domain {
     pub fn star(&self, p: PointId) -> &[Incident] {
         &self.stars[p]
     }
+    /// The box around all curves and points.
     pub fn bounds(&self) -> Rect {
-        todo!()
+        let curves = self.curves.iter().map(|c| c.curve.bounds());
+        let points = bounds_of(self.points.iter().copied());
+        curves.chain(points).reduce(|a, b| a.union(b)).unwrap_or_default()
     }
+
     /// The smallest angle by tangents between neighbours at p (all curves count, kept or not); `None` with fewer than two curves.
-    pub fn corner(&self, _p: PointId) -> Option<Corner> {
-        todo!()
+    pub fn corner(&self, p: PointId) -> Option<Corner> {
+        let star = self.star(p);
+        let direction = |i: Incident| self.curves[i.curve].curve.direction_at(i.end);
+        let neighbours = star.iter().zip(star.iter().cycle().skip(1)).take(if star.len() < 2 { 0 } else { star.len() });
+        let corners = neighbours.map(|(&a, &b)| Corner {
+            angle_rad: turn_from(direction(a), direction(b)).abs(),
+            between: [a.curve, b.curve],
+        });
+        corners.min_by(|a, b| a.angle_rad.total_cmp(&b.angle_rad))
     }
+
     /// Whether two curves meet at p at less than 90° by tangents (zero included; 90° up to rounding is no acute corner).
-    pub fn is_acute(&self, _p: PointId) -> bool {
-        todo!()
+    pub fn is_acute(&self, p: PointId) -> bool {
+        self.corner(p).is_some_and(|corner| corner.angle_rad < FRAC_PI_2 - self.angle_rounding(p))
     }
+
+    /// How far rounded coordinates can turn a right angle at p: four units in the last place of the coordinates, seen along the
+    /// shortest chord at p.
+    fn angle_rounding(&self, p: PointId) -> f64 {
+        let at = self.points[p];
+        let ends = self.star(p).iter().flat_map(|i| self.curves[i.curve].ends).map(|end| self.points[end]);
+        let chord = ends.map(|end| at.distance(end)).filter(|&d| d > 0.0).fold(f64::INFINITY, f64::min);
+        4.0 * f64::EPSILON * (at.x.abs().max(at.y.abs()) / chord + 1.0)
+    }
+
     /// lfs₀ at every point of P: the distance to the nearest other point (infinite of a single point).
     pub fn lfs0(&self) -> IdVec<PointId, f64> {
-        todo!()
+        let boxes = BoxHierarchy::new(self.points.iter().map(|&p| Rect::from_points(p, p)));
+        let points = self.points.as_slice();
+        let nearest = |(id, &p): (PointId, &Point)| {
+            let away = |i: usize, _| if i == id.index() { f64::INFINITY } else { p.distance(points[i]) };
+            boxes.nearest(p, f64::INFINITY, away).map_or(f64::INFINITY, |(_, d)| d)
+        };
+        self.points.enumerate().map(nearest).collect()
     }
+
     /// lfs at every point of P: the distance to the nearest feature that does not contain it.
     pub fn lfs(&self) -> IdVec<PointId, f64> {
-        todo!()
+        let boxes = BoxHierarchy::new(self.curves.iter().map(|c| c.curve.bounds()));
+        let mut lfs = self.lfs0();
+        for (id, &p) in self.points.enumerate() {
+            let away = |i: usize, _| {
+                let curve = &self.curves[CurveId::from_index(i)];
+                if curve.ends.contains(&id) { f64::INFINITY } else { curve.curve.nearest(p, 0.0, 1.0).1 }
+            };
+            if let Some((_, d)) = boxes.nearest(p, lfs[id], away) {
+                lfs[id] = d;
+            }
+        }
+        lfs
     }
+
     /// The complex with every curve cut until it turns at most `tau` (≤ π/3); the cuts become points of P.
-    pub fn split_to_turning(&self, _tau: f64) -> Domain {
-        todo!()
+    pub fn split_to_turning(&self, tau: f64) -> Domain {
+        let mut split = Domain { curves: IdVec::new(), stars: IdVec::new(), ..self.clone() };
+        // The parts of each curve: the first starts where it starts, the last ends where it ends.
+        let mut parts: IdVec<CurveId, [CurveId; 2]> = IdVec::with_capacity(self.curves.len());
+        let mut middles = Vec::new();
+        for whole in self.curves.iter() {
+            let cuts = whole.curve.cuts_of_turning(tau);
+            let first = CurveId::from_index(split.curves.len());
+            let (mut from, mut t0) = (whole.ends[0], 0.0);
+            for &t1 in &cuts {
+                let curve = whole.curve.part(t0, t1);
+                let to = split.points.push(curve.end());
+                let id = split.curves.push(DomainCurve { curve, ends: [from, to], ..whole.clone() });
+                middles.push(vec![
+                    Incident { curve: id, end: End::Finish },
+                    Incident { curve: CurveId::from_index(id.index() + 1), end: End::Start },
+                ]);
+                (from, t0) = (to, t1);
+            }
+            let curve = if cuts.is_empty() { whole.curve.clone() } else { whole.curve.part(t0, 1.0) };
+            let last = split.curves.push(DomainCurve { curve, ends: [from, whole.ends[1]], ..whole.clone() });
+            parts.push([first, last]);
+        }
+        let renamed = |i: &Incident| match i.end {
+            End::Start => Incident { curve: parts[i.curve][0], end: i.end },
+            End::Finish => Incident { curve: parts[i.curve][1], end: i.end },
+        };
+        split.stars = self.stars.iter().map(|star| star.iter().map(renamed).collect()).chain(middles).collect();
+        split
     }
+
     /// All coordinates (areas, tolerances, repairs) times a power of two: exact.
-    pub fn scaled(&self, _factor: f64) -> Domain {
-        todo!()
+    pub fn scaled(&self, factor: f64) -> Domain {
+        let mut domain = self.clone();
+        domain.points.iter_mut().for_each(|p| *p = scaled(*p, factor));
+        domain.curves.iter_mut().for_each(|c| c.curve = c.curve.scaled(factor));
+        for region in domain.regions.iter_mut() {
+            region.area *= factor * factor;
+            region.max_area = region.max_area.map(|a| a * factor * factor);
+        }
+        domain.repairs.iter_mut().for_each(|r| r.scale(factor));
+        domain.tolerance *= factor;
+        domain
     }
+
     /// The exact area of all kept regions.
     pub fn measure(&self) -> f64 {
         self.regions.iter().map(|r| r.area).sum()
     }
-    /// Every broken promise, with culprits and a sentence each. Empty of a right domain.
-    pub fn flaws(&self) -> Vec<String> {
-        todo!()
+
+    /// For many questions of "which region is this point in".
+    pub fn locator(&self) -> Locator<'_> {
+        Locator::new(self)
+    }
+
+    /// The kept region that contains `p`. Builds its search structure anew: for many points, ask one [`Domain::locator`].
+    pub fn locate_region(&self, p: Point) -> Option<RegionId> {
+        self.locator().region(p)
     }
 }

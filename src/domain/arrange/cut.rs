@@ -1,0 +1,387 @@
+//! The network: drawn curves cut into pieces at their breaks and self-meetings, and the places where pieces meet.
+
+use super::{ArrangeError, Drawing, Repair, RepairKind, Tolerances};
+use crate::curve::{BreakKind, Curve, MeetingKind, meetings, self_meetings};
+use crate::geometry::boxes::BoxHierarchy;
+use crate::geometry::exact::{Orientation, orient};
+use crate::geometry::{Point, Rect};
+use crate::ids::{CurveId, Id, IdVec, PointId};
+
+/// What a node or a cut is there for. Earlier ones win where nodes are welded: what was drawn is the truth.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub(super) enum Origin {
+    /// An end or a break of a drawn curve.
+    Curve(u32),
+    /// A drawn point.
+    Point(u32),
+    /// Computed: where the drawn curve is met.
+    Meeting(u32),
+}
+
+impl Origin {
+    /// Drawn nodes first, curves and points alike.
+    pub fn is_computed(self) -> bool {
+        matches!(self, Origin::Meeting(_))
+    }
+
+    pub fn text(self, drawing: &Drawing) -> &str {
+        match self {
+            Origin::Curve(i) | Origin::Meeting(i) => &drawing.curves[i as usize].entity,
+            Origin::Point(i) => &drawing.points[i as usize].entity,
+        }
+    }
+}
+
+/// A vertex to be.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Node {
+    pub at: Point,
+    pub origin: Origin,
+    /// Not yet looked at for meetings.
+    pub fresh: bool,
+}
+
+/// A part of a drawn curve.
+#[derive(Clone, Debug)]
+pub(super) struct Piece {
+    pub curve: Curve,
+    pub ends: [PointId; 2],
+    pub bounds: Rect,
+    /// The drawn curve.
+    pub source: u32,
+    /// Further drawn curves that run along the whole piece, and whether they run against it.
+    pub merged: Vec<(u32, bool)>,
+    /// The whole of the drawn curve.
+    pub whole: bool,
+    /// Not yet looked at for meetings.
+    pub fresh: bool,
+}
+
+impl Piece {
+    pub fn new(curve: Curve, ends: [PointId; 2], source: u32, whole: bool) -> Self {
+        Self { bounds: curve.bounds(), curve, ends, source, merged: Vec::new(), whole, fresh: true }
+    }
+}
+
+/// Nodes and pieces on their way to a domain.
+pub(super) struct Network<'a> {
+    pub drawing: &'a Drawing,
+    pub tolerances: Tolerances,
+    pub nodes: IdVec<PointId, Node>,
+    pub pieces: IdVec<CurveId, Piece>,
+    pub repairs: Vec<Repair>,
+    /// The ends of the drawn curves, as they were drawn; `None` of curves of no length.
+    pub drawn_ends: Vec<Option<[PointId; 2]>>,
+    /// The drawn points.
+    pub drawn_points: Vec<PointId>,
+}
+
+/// A place at which a piece is to be cut.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Cut {
+    pub piece: CurveId,
+    pub t: f64,
+    pub at: Point,
+    pub node: PointId,
+}
+
+/// Where pieces meet: cuts, and nodes that are one.
+#[derive(Default, Debug)]
+pub(super) struct Found {
+    pub cuts: Vec<Cut>,
+    pub links: Vec<[PointId; 2]>,
+}
+
+impl Found {
+    pub fn is_empty(&self) -> bool {
+        self.cuts.is_empty() && self.links.is_empty()
+    }
+}
+
+/// The length of a box's diagonal.
+pub(super) fn extent(bounds: Rect) -> f64 {
+    bounds.size().to_vec2().hypot()
+}
+
+impl<'a> Network<'a> {
+    /// The pieces of a drawing, cut at breaks and self-meetings, not yet met with each other.
+    pub fn new(drawing: &'a Drawing, tolerances: Tolerances) -> Result<Self, ArrangeError> {
+        let mut network = Network {
+            drawing,
+            tolerances,
+            nodes: IdVec::new(),
+            pieces: IdVec::new(),
+            repairs: Vec::new(),
+            drawn_ends: Vec::new(),
+            drawn_points: Vec::new(),
+        };
+        for source in 0..drawing.curves.len() {
+            let ends = network.add_curve(source as u32)?;
+            network.drawn_ends.push(ends);
+        }
+        for (i, point) in drawing.points.iter().enumerate() {
+            let id = network.add_node(point.at, Origin::Point(i as u32));
+            network.drawn_points.push(id);
+        }
+        Ok(network)
+    }
+
+    pub fn add_node(&mut self, at: Point, origin: Origin) -> PointId {
+        self.nodes.push(Node { at, origin, fresh: true })
+    }
+
+    pub fn entity(&self, source: u32) -> &'a str {
+        &self.drawing.curves[source as usize].entity
+    }
+
+    pub fn repair(&mut self, kind: RepairKind, at: Point, size: f64, what: String) {
+        self.repairs.push(Repair { kind, at: [at.x, at.y], size, what });
+    }
+
+    fn add_curve(&mut self, source: u32) -> Result<Option<[PointId; 2]>, ArrangeError> {
+        let curve = &self.drawing.curves[source as usize].curve;
+        if extent(curve.bounds()) <= self.tolerances.weld {
+            let what = format!("{} has no length and was dropped", self.entity(source));
+            self.repair(RepairKind::ZeroLength, curve.start(), extent(curve.bounds()), what);
+            return Ok(None);
+        }
+        let first = self.add_node(curve.start(), Origin::Curve(source));
+        let last = if curve.start() == curve.end() { first } else { self.add_node(curve.end(), Origin::Curve(source)) };
+        let parts = self.own_parts(source, curve)?;
+        let (whole, count) = (parts.len() == 1, parts.len());
+        let mut from = first;
+        for (k, (part, origin)) in parts.into_iter().enumerate() {
+            let to = if k + 1 == count { last } else { self.add_node(part.end(), origin) };
+            self.pieces.push(Piece::new(part, [from, to], source, whole));
+            from = to;
+        }
+        Ok(Some([first, last]))
+    }
+
+    /// The parts of a drawn curve when cut on its own account: at breaks, at self-meetings, and once more where a part would be closed.
+    /// Each with what its end is there for.
+    fn own_parts(&mut self, source: u32, curve: &Curve) -> Result<Vec<(Curve, Origin)>, ArrangeError> {
+        if matches!(curve, Curve::Line(_)) {
+            return Ok(vec![(curve.clone(), Origin::Curve(source))]);
+        }
+        let mut parts = Vec::new();
+        for regular in self.parts_between_breaks(source, curve) {
+            let mut cuts = self.self_cuts(source, &regular)?;
+            cuts.retain(|&t| 0.0 < t && t < 1.0);
+            cuts.sort_by(f64::total_cmp);
+            cuts.dedup();
+            let regular = split(&regular, &cuts);
+            let last = regular.len() - 1;
+            for (k, part) in regular.into_iter().enumerate() {
+                let origin = if k < last { Origin::Meeting(source) } else { Origin::Curve(source) };
+                self.open_up(part, origin, source, &mut parts);
+            }
+        }
+        Ok(parts)
+    }
+
+    fn parts_between_breaks(&mut self, source: u32, curve: &Curve) -> Vec<Curve> {
+        let breaks = curve.breaks();
+        for at_break in &breaks {
+            let kind = match at_break.kind {
+                BreakKind::Cusp => "cusp",
+                BreakKind::TangentJump => "tangent jump",
+            };
+            let degrees = at_break.turn_rad.to_degrees();
+            let what = format!("a {kind} of {degrees:.3}° in {} became a corner", self.entity(source));
+            self.repair(RepairKind::Corner, curve.point(at_break.t), 0.0, what);
+        }
+        let cuts: Vec<f64> = breaks.iter().map(|b| b.t).filter(|&t| 0.0 < t && t < 1.0).collect();
+        split(curve, &cuts)
+    }
+
+    /// The parameters at which a regular part meets itself.
+    fn self_cuts(&mut self, source: u32, part: &Curve) -> Result<Vec<f64>, ArrangeError> {
+        let found = self_meetings(part, self.tolerances.weld).map_err(|budget| ArrangeError {
+            what: format!("{} runs so near to itself that its meetings cannot be told apart", self.entity(source)),
+            at: budget.at,
+            help: "simplify the curve, or raise the tolerance".into(),
+        })?;
+        for meeting in &found {
+            let what = format!("{} meets itself and was split there", self.entity(source));
+            self.repair(RepairKind::SelfSplit, meeting.at, 0.0, what);
+        }
+        Ok(found.iter().flat_map(|m| [m.t, m.u]).collect())
+    }
+
+    /// Adds a part, halved where its ends are one point.
+    fn open_up(&self, part: Curve, origin: Origin, source: u32, parts: &mut Vec<(Curve, Origin)>) {
+        let weld = self.tolerances.weld;
+        if part.start().distance(part.end()) <= weld && extent(part.bounds()) > weld {
+            parts.push((part.part(0.0, 0.5), Origin::Curve(source)));
+            parts.push((part.part(0.5, 1.0), origin));
+        } else {
+            parts.push((part, origin));
+        }
+    }
+}
+
+/// The parts of a curve between ascending parameters inside it.
+fn split(curve: &Curve, cuts: &[f64]) -> Vec<Curve> {
+    if cuts.is_empty() {
+        return vec![curve.clone()];
+    }
+    let starts = [0.0].into_iter().chain(cuts.iter().copied());
+    starts.zip(cuts.iter().copied().chain([1.0])).map(|(t0, t1)| curve.part(t0, t1)).collect()
+}
+
+// ---- where pieces meet ----
+impl Network<'_> {
+    /// Every place where fresh pieces and nodes meet others.
+    pub fn meet(&mut self) -> Result<Found, ArrangeError> {
+        let mut found = Found::default();
+        let grown = self.pieces.iter().map(|p| p.bounds.inflate(self.tolerances.weld, self.tolerances.weld));
+        let boxes = BoxHierarchy::new(grown);
+        self.nodes_on_pieces(&boxes, &mut found);
+        let mut pairs = Vec::new();
+        boxes.pairs(|i, j| {
+            let (a, b) = (CurveId::from_index(i), CurveId::from_index(j));
+            if self.pieces[a].fresh || self.pieces[b].fresh {
+                pairs.push((a, b));
+            }
+        });
+        for (a, b) in pairs {
+            match (&self.pieces[a].curve, &self.pieces[b].curve) {
+                (Curve::Line(_), Curve::Line(_)) => self.cross_lines(a, b, &mut found),
+                _ => self.meet_curves(a, b, &mut found)?,
+            }
+        }
+        self.nodes.iter_mut().for_each(|n| n.fresh = false);
+        self.pieces.iter_mut().for_each(|p| p.fresh = false);
+        Ok(found)
+    }
+
+    /// Nodes that lie on pieces without being their ends: T-junctions, collinear overlaps, drawn points on curves.
+    fn nodes_on_pieces(&mut self, boxes: &BoxHierarchy, found: &mut Found) {
+        let mut near = Vec::new();
+        for (id, node) in self.nodes.enumerate() {
+            boxes.meeting(Rect::from_points(node.at, node.at), |i| {
+                let piece = CurveId::from_index(i);
+                if (node.fresh || self.pieces[piece].fresh) && !self.pieces[piece].ends.contains(&id) {
+                    near.push((id, piece));
+                }
+                true
+            });
+        }
+        near.sort_unstable();
+        for (id, piece) in near {
+            let at = self.nodes[id].at;
+            let (t, distance) = self.pieces[piece].curve.nearest(at, 0.0, 1.0);
+            if distance <= self.tolerances.weld {
+                let site = self.site(piece, t, self.pieces[piece].curve.point(t));
+                join(found, (piece, site), id);
+            }
+        }
+    }
+
+    /// The proper crossing of two lines. All other ways in which lines meet have an end of one on the other.
+    fn cross_lines(&mut self, a: CurveId, b: CurveId, found: &mut Found) {
+        let [p, q] = [a, b].map(|id| &self.pieces[id]);
+        if p.ends.iter().any(|end| q.ends.contains(end)) {
+            return;
+        }
+        let (p0, p1, q0, q1) = (p.curve.start(), p.curve.end(), q.curve.start(), q.curve.end());
+        let sides = [orient(p0, p1, q0), orient(p0, p1, q1), orient(q0, q1, p0), orient(q0, q1, p1)];
+        if sides[0] == sides[1] || sides[2] == sides[3] || sides.contains(&Orientation::Collinear) {
+            return;
+        }
+        let (dp, dq, between) = (p1 - p0, q1 - q0, q0 - p0);
+        let det = dp.cross(dq);
+        // The signs above are exact: the lines do cross. Where rounding leaves nothing of the determinant, the middles will do.
+        let [t, u] = if det == 0.0 { [0.5, 0.5] } else { [between.cross(dq) / det, between.cross(dp) / det] };
+        let (t, u) = (t.clamp(0.0, 1.0), u.clamp(0.0, 1.0));
+        self.join_pieces((a, t), (b, u), p0.lerp(p1, t), found);
+    }
+
+    fn meet_curves(&mut self, a: CurveId, b: CurveId, found: &mut Found) -> Result<(), ArrangeError> {
+        let [p, q] = [a, b].map(|id| &self.pieces[id]);
+        let found_here = meetings(&p.curve, &q.curve, self.tolerances.weld).map_err(|budget| ArrangeError {
+            what: format!(
+                "{} and {} run so near to each other that their meetings cannot be told apart",
+                self.entity(p.source),
+                self.entity(q.source)
+            ),
+            at: budget.at,
+            help: "remove one of the two, or raise the tolerance so that they become one".into(),
+        })?;
+        let mut places: Vec<(Point, [f64; 2])> = Vec::new();
+        for meeting in &found_here.points {
+            if !self.is_contact([a, b], [meeting.t, meeting.u], meeting.kind) {
+                places.push((meeting.at, [meeting.t, meeting.u]));
+            }
+        }
+        for overlap in &found_here.overlaps {
+            for k in 0..2 {
+                places.push((p.curve.point(overlap.t[k]), [overlap.t[k], overlap.u[k]]));
+            }
+        }
+        for (at, [t, u]) in places {
+            self.join_pieces((a, t), (b, u), at, found);
+        }
+        Ok(())
+    }
+
+    /// Whether a meeting of two pieces is nothing but their contact at a common end: curves that share a tangent there stay within
+    /// the tolerance of each other for a while. A true crossing further on is one all the same, unless it drowns in rounding.
+    fn is_contact(&self, ids: [CurveId; 2], ts: [f64; 2], kind: MeetingKind) -> bool {
+        let [p, q] = ids.map(|id| &self.pieces[id]);
+        let slack = match kind {
+            MeetingKind::Crossing => self.tolerances.rounding,
+            _ => self.tolerances.weld,
+        };
+        let shared = (0..2).flat_map(|i| (0..2).map(move |j| (i, j))).filter(|&(i, j)| p.ends[i] == q.ends[j]);
+        let within = |t: f64, end: usize, curve: &Curve, other: &Curve| {
+            let end = end as f64;
+            // Halfway and next to the meeting: contact fades slowest there.
+            [0.5, 0.75].iter().all(|&f| other.nearest(curve.point(end + f * (t - end)), 0.0, 1.0).1 <= slack)
+        };
+        shared.into_iter().any(|(i, j)| within(ts[0], i, &p.curve, &q.curve) && within(ts[1], j, &q.curve, &p.curve))
+    }
+
+    /// Makes one node of a place on one piece and a place on another.
+    fn join_pieces(&mut self, a: (CurveId, f64), b: (CurveId, f64), at: Point, found: &mut Found) {
+        let site = |network: &Self, (id, t): (CurveId, f64)| network.site(id, t, network.pieces[id].curve.point(t));
+        let (on_a, on_b) = (site(self, a), site(self, b));
+        match (on_a, on_b) {
+            (Site::End(m), _) => join(found, (b.0, on_b), m),
+            (_, Site::End(n)) => join(found, (a.0, on_a), n),
+            _ => {
+                let node = self.add_node(at, Origin::Meeting(self.pieces[a.0].source));
+                join(found, (a.0, on_a), node);
+                join(found, (b.0, on_b), node);
+            }
+        }
+    }
+
+    /// A place on a piece: one of its ends, where it is that near.
+    fn site(&self, id: CurveId, t: f64, at: Point) -> Site {
+        let piece = &self.pieces[id];
+        let end = piece.ends.into_iter().min_by(|&m, &n| {
+            let [m, n] = [m, n].map(|n| self.nodes[n].at.distance(at));
+            m.total_cmp(&n)
+        });
+        match end {
+            Some(end) if self.nodes[end].at.distance(at) <= self.tolerances.weld => Site::End(end),
+            _ => Site::Inside(t, at),
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Site {
+    End(PointId),
+    Inside(f64, Point),
+}
+
+fn join(found: &mut Found, (piece, site): (CurveId, Site), node: PointId) {
+    match site {
+        Site::End(end) if end != node => found.links.push([end, node]),
+        Site::End(_) => {}
+        Site::Inside(t, at) => found.cuts.push(Cut { piece, t, at, node }),
+    }
+}

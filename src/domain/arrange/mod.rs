@@ -1,0 +1,274 @@
+//! Drawing → Domain: weld, meet, split, drop, trace, name. The only door to a [`Domain`].
+//!
+//! 1. `cut`: drawn curves are cut at breaks (cusps, tangent jumps), at their meetings with themselves, and once where they are closed.
+//! 2. `cut`, `weld`: pieces are cut where they meet, places within the tolerance become one node, and pieces are moved by a similarity
+//!    to end at their nodes, bit for bit; again, until nothing meets but at common ends. The node is the truth: a drawn end, where there
+//!    is one, rather than a computed crossing. Pieces that coincide become one.
+//! 3. `star`: the curves around every point, in order.
+//! 4. `trace`: faces, winding numbers, hole and region seeds, names.
+//!
+//! All of it happens in a frame scaled by a power of two, so that the same drawing at another such scale gives the same bits.
+
+mod cut;
+mod star;
+mod trace;
+mod weld;
+
+use super::{Domain, DomainCurve, Drawing, FillRule};
+use crate::curve::Curve;
+use crate::geometry::{Point, Rect, magnitude, scaled, unit_scale};
+use crate::ids::{IdVec, PointId};
+use cut::{Network, extent};
+use std::collections::BTreeMap;
+
+/// How a drawing is arranged.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ArrangeOptions {
+    /// Ends nearer than this are one vertex; `None`: 1e-9 of the diagonal, and ends that meet nothing else up to 1e-6 of it. 0 heals nothing.
+    pub tolerance: Option<f64>,
+    /// `None`: the drawing's own rule.
+    pub fill: Option<FillRule>,
+    /// `keep all`: an axis-parallel box named `box` is added, one diagonal of the drawing away from it on every side, and every
+    /// bounded face kept, whatever the fill rule and the hole seeds say.
+    pub keep_all: bool,
+}
+
+/// Something that was mended on the way in, with its place and size (a length; 0 where nothing moved).
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct Repair {
+    pub kind: RepairKind,
+    pub at: [f64; 2],
+    pub size: f64,
+    /// One sentence with the entities.
+    pub what: String,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum RepairKind {
+    /// Ends within the tolerance became one vertex.
+    Weld,
+    /// An open gap was closed to the nearest free end.
+    GapClosed,
+    /// A curve was split where another crosses, touches or ends on it.
+    Split,
+    /// A curve met itself and was split there.
+    SelfSplit,
+    /// A cusp or tangent jump became a corner.
+    Corner,
+    /// A curve that another repeats was dropped.
+    Duplicate,
+    /// Overlapping stretches became one.
+    Overlap,
+    /// A curve of no length was dropped.
+    ZeroLength,
+    /// A hole or region point that lies in no bounded face, or a second one in the same face.
+    Seed,
+}
+
+/// What cannot be repaired, where, and the way out.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{what} at ({}, {})", at.x, at.y)]
+pub struct ArrangeError {
+    /// What is wrong, with the entities.
+    pub what: String,
+    pub at: Point,
+    /// What the user can do.
+    pub help: String,
+}
+
+impl Repair {
+    /// Place and size times a factor.
+    pub(super) fn scale(&mut self, factor: f64) {
+        self.at = self.at.map(|x| x * factor);
+        self.size *= factor;
+    }
+}
+
+/// Lengths below which things are one, in the unit frame.
+#[derive(Clone, Copy, Debug)]
+struct Tolerances {
+    /// Ends nearer than this are one node.
+    weld: f64,
+    /// Free ends nearer than this are joined; 0: never.
+    gap: f64,
+    /// What rounding does to coordinates.
+    rounding: f64,
+    /// The length, in the drawing's units, of one unit of the frame: for messages.
+    unit: f64,
+}
+
+impl Drawing {
+    /// The domain that the drawing describes.
+    ///
+    /// # Errors
+    ///
+    /// Where there is nothing to mesh, a coordinate is not a finite number, or curves run so near to each other that rounded
+    /// arithmetic cannot tell how they lie: with the place and the way out.
+    pub fn arrange(&self, options: &ArrangeOptions) -> Result<Domain, ArrangeError> {
+        let bounds = self.check_extent()?;
+        let factor = unit_scale(magnitude(bounds));
+        let (unit, tolerances) = self.in_unit_frame(factor, options)?;
+        match arrange_in_unit_frame(&unit, tolerances, options) {
+            Ok(domain) => Ok(domain.scaled(1.0 / factor)),
+            Err(error) => Err(ArrangeError { at: scaled(error.at, 1.0 / factor), ..error }),
+        }
+    }
+
+    /// Refuses a drawing without curves, with places that are no numbers, or whose extent leaves no digits to work with.
+    fn check_extent(&self) -> Result<Rect, ArrangeError> {
+        let stray = |p: Point| !p.is_finite();
+        let places = self.points.iter().map(|p| (p.at, &p.entity)).chain(self.seeds.iter().map(|s| (s.at, &s.entity)));
+        let bounds = self.curves.iter().map(|c| c.curve.bounds()).reduce(|a, b| a.union(b));
+        let Some(bounds) = bounds else { return Err(self.no_curves()) };
+        let refuse = |what: String, help: &str| Err(ArrangeError { what, at: bounds.center(), help: help.into() });
+        if let Some((_, entity)) = places.into_iter().find(|(at, _)| stray(*at)) {
+            return refuse(format!("{entity} has a coordinate that is no finite number"), "correct it in the file");
+        }
+        let size = magnitude(bounds);
+        if !bounds.is_finite() || (size != 0.0 && !(1e-140..1e140).contains(&size)) {
+            // Areas are squares of lengths, and must neither overflow nor underflow (1e±308).
+            return refuse(format!("coordinates as large as {size:e}"), "scale the drawing to usual numbers");
+        }
+        if extent(bounds) == 0.0 {
+            return refuse("nothing to mesh: all curves lie in one point".into(), "check the units of the file");
+        }
+        // Fewer than 2^16 representable numbers across the drawing are too few for any mesh.
+        if extent(bounds) < size * f64::EPSILON * 65536.0 {
+            let what = format!("the drawing is {:e} across, but lies {size:e} from the origin", extent(bounds));
+            return refuse(what, "move it nearer to the origin: its coordinates have no digits left");
+        }
+        Ok(bounds)
+    }
+
+    fn no_curves(&self) -> ArrangeError {
+        let skipped: Vec<String> =
+            self.skipped.iter().map(|s| format!("{} {} ({})", s.count, s.entity, s.why)).collect();
+        let help = match skipped.is_empty() {
+            true => "the file holds no curves".to_owned(),
+            false => format!("the file holds no curves; left out: {}", skipped.join(", ")),
+        };
+        ArrangeError { what: "nothing to mesh: the drawing has no curves".into(), at: Point::ORIGIN, help }
+    }
+
+    /// The drawing times a power of two, with the box of `keep all`, and its tolerances.
+    fn in_unit_frame(&self, factor: f64, options: &ArrangeOptions) -> Result<(Drawing, Tolerances), ArrangeError> {
+        let mut unit = self.clone();
+        unit.curves.iter_mut().for_each(|c| c.curve = c.curve.scaled(factor));
+        unit.points.iter_mut().for_each(|p| p.at = scaled(p.at, factor));
+        for seed in &mut unit.seeds {
+            seed.at = scaled(seed.at, factor);
+            if let super::SeedKind::Region { max_area: Some(area), .. } = &mut seed.kind {
+                *area *= factor * factor;
+            }
+        }
+        let bounds = unit.curves.iter().map(|c| c.curve.bounds()).reduce(|a, b| a.union(b)).unwrap_or_default();
+        let tolerances = unit.tolerances(bounds, factor, options)?;
+        if options.keep_all {
+            unit.add_box(bounds.inflate(extent(bounds), extent(bounds)));
+        }
+        Ok((unit, tolerances))
+    }
+
+    fn tolerances(&self, bounds: Rect, factor: f64, options: &ArrangeOptions) -> Result<Tolerances, ArrangeError> {
+        let diagonal = extent(bounds);
+        let refuse = |what: String| {
+            let help = "give a welding distance of 0 or a small part of the drawing's size".into();
+            Err(ArrangeError { what, at: bounds.center(), help })
+        };
+        // Sixteen units of rounding of the largest number that points are computed from, as in the search for meetings: arcs from
+        // their centers too, though of nearly straight ones no more than the default tolerance.
+        let carried = self.curves.iter().map(|c| carrier_magnitude(&c.curve)).fold(magnitude(bounds), f64::max);
+        let coordinates = 16.0 * f64::EPSILON * magnitude(bounds);
+        let rounding = (16.0 * f64::EPSILON * carried).min(1e-9 * diagonal).max(coordinates);
+        let (weld, gap) = match options.tolerance {
+            None => (1e-9 * diagonal, 1e-6 * diagonal),
+            Some(given) if !(given >= 0.0) => return refuse(format!("a tolerance of {given}")),
+            Some(given) if given * factor >= diagonal / 4.0 => {
+                return refuse(format!("a tolerance of {given} for a drawing {} across", diagonal / factor));
+            }
+            Some(given) => (given * factor, 0.0),
+        };
+        Ok(Tolerances { weld: weld.max(rounding), gap, rounding, unit: 1.0 / factor })
+    }
+
+    /// Adds the sides of a box as boundary `box`.
+    fn add_box(&mut self, bounds: Rect) {
+        let [x0, x1, y0, y1] = [bounds.x0, bounds.x1, bounds.y0, bounds.y1];
+        let corners = [Point::new(x0, y0), Point::new(x1, y0), Point::new(x1, y1), Point::new(x0, y1)];
+        for (k, side) in ["bottom", "right", "top", "left"].into_iter().enumerate() {
+            if let Ok(line) = Curve::line(corners[k], corners[(k + 1) % 4]) {
+                self.add(line, "box", format!("{side} of the box"));
+            }
+        }
+    }
+}
+
+/// The largest number that a curve's points are computed from.
+fn carrier_magnitude(curve: &Curve) -> f64 {
+    let from = |center: Point, reach: f64| center.x.abs().max(center.y.abs()) + reach;
+    match curve {
+        Curve::Arc(arc) => from(arc.center, arc.radius),
+        Curve::Ellipse(ellipse) => from(ellipse.center, ellipse.u.hypot().max(ellipse.v.hypot())),
+        Curve::Line(_) | Curve::Bezier(_) | Curve::Spline(_) => magnitude(curve.bounds()),
+    }
+}
+
+fn arrange_in_unit_frame(
+    drawing: &Drawing,
+    tolerances: Tolerances,
+    options: &ArrangeOptions,
+) -> Result<Domain, ArrangeError> {
+    let mut network = Network::new(drawing, tolerances)?;
+    network.settle()?;
+    if tolerances.gap > 0.0 && network.close_gaps() {
+        network.settle()?;
+    }
+    let mut domain = bare_domain(&mut network)?;
+    // Level lines keep twice the rounding away from ends of curves.
+    let faces = trace::Faces::trace(&domain, 2.0 * tolerances.rounding)?;
+    let rule = if options.keep_all { FillRule::Regions } else { options.fill.unwrap_or(drawing.fill) };
+    trace::keep(&network, &mut domain, &faces, rule, !options.keep_all)?;
+    Ok(domain)
+}
+
+/// Points, curves and stars, without regions.
+fn bare_domain(network: &mut Network) -> Result<Domain, ArrangeError> {
+    let drawing = network.drawing;
+    let (points, point_of) = used_points(network);
+    let curve = |piece: &cut::Piece| DomainCurve {
+        curve: piece.curve.clone(),
+        ends: piece.ends.map(|end| point_of[end].expect("a piece ends at used points")),
+        sides: [None, None],
+        name: drawing.curves[piece.source as usize].name,
+        source: piece.source,
+    };
+    let curves = network.pieces.iter().map(curve).collect();
+    let stars = star::stars(&points, &curves)?;
+    let mut point_names = BTreeMap::new();
+    for (drawn, &node) in drawing.points.iter().zip(&network.drawn_points) {
+        if let (Some(name), Some(point)) = (drawn.name, point_of[node]) {
+            point_names.entry(point).or_insert(name);
+        }
+    }
+    Ok(Domain {
+        points,
+        curves,
+        regions: IdVec::new(),
+        names: drawing.names.clone(),
+        point_names,
+        repairs: std::mem::take(&mut network.repairs),
+        tolerance: network.tolerances.weld,
+        stars,
+    })
+}
+
+/// The nodes at which pieces end or points were drawn, as points of P.
+fn used_points(network: &Network) -> (IdVec<PointId, Point>, IdVec<PointId, Option<PointId>>) {
+    let mut used: IdVec<PointId, bool> = vec![false; network.nodes.len()].into();
+    let ends = network.pieces.iter().flat_map(|p| p.ends);
+    ends.chain(network.drawn_points.iter().copied()).for_each(|node| used[node] = true);
+    let mut points = IdVec::new();
+    let point_of = network.nodes.enumerate().map(|(id, node)| used[id].then(|| points.push(node.at))).collect();
+    (points, point_of)
+}

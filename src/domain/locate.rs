@@ -1,0 +1,205 @@
+//! Where a point lies among the curves of a domain: the nearest curve and its side, and what an axis-parallel line crosses.
+
+use super::{Domain, Incident};
+use crate::curve::{Curve, End};
+use crate::geometry::boxes::BoxHierarchy;
+use crate::geometry::exact::{Orientation, orient};
+use crate::geometry::{Point, Rect, Vec2, turn_from};
+use crate::ids::{CurveId, Id, PointId, RegionId};
+use std::f64::consts::{PI, TAU};
+
+/// A side of a curve, seen in its direction of travel.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Side {
+    Left,
+    Right,
+}
+
+impl Side {
+    /// Its place in `DomainCurve::sides`.
+    pub fn index(self) -> usize {
+        match self {
+            Side::Left => 0,
+            Side::Right => 1,
+        }
+    }
+
+    pub fn other(self) -> Self {
+        match self {
+            Side::Left => Side::Right,
+            Side::Right => Side::Left,
+        }
+    }
+}
+
+/// A curve side that is seen from a point without anything between.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(super) struct Sight {
+    pub curve: CurveId,
+    pub side: Side,
+    pub distance: f64,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Axis {
+    Horizontal,
+    Vertical,
+}
+
+/// Where an axis-parallel line crosses a curve.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(super) struct Hit {
+    /// The coordinate along the line.
+    pub along: f64,
+    pub curve: CurveId,
+    /// The side of the curve that lies before the crossing, where coordinates are smaller.
+    pub before: Side,
+}
+
+/// Answers where points lie, in about O(log n) each.
+pub struct Locator<'a> {
+    domain: &'a Domain,
+    boxes: BoxHierarchy,
+}
+
+impl<'a> Locator<'a> {
+    pub(super) fn new(domain: &'a Domain) -> Self {
+        Self { domain, boxes: BoxHierarchy::new(domain.curves.iter().map(|c| c.curve.bounds())) }
+    }
+
+    /// The kept region that contains `p`; `None` outside all of them. Of a point on a curve: the region on one of its sides.
+    pub fn region(&self, p: Point) -> Option<RegionId> {
+        let sight = self.sight(p)?;
+        self.domain.curves[sight.curve].sides[sight.side.index()]
+    }
+
+    /// The nearest curve and the side of it that faces `p`.
+    pub(super) fn sight(&self, p: Point) -> Option<Sight> {
+        let distance = |i: usize, _| self.curve(i).nearest(p, 0.0, 1.0).1;
+        let (item, distance) = self.boxes.nearest(p, f64::INFINITY, distance)?;
+        let (curve, side) = self.facing(CurveId::from_index(item), p, distance);
+        Some(Sight { curve, side, distance })
+    }
+
+    fn curve(&self, i: usize) -> &'a Curve {
+        &self.domain.curves[CurveId::from_index(i)].curve
+    }
+
+    /// The side of the nearest curve that faces `p`; where an end of it is nearest, the curve whose side borders that sector.
+    fn facing(&self, id: CurveId, p: Point, distance: f64) -> (CurveId, Side) {
+        let domain = self.domain;
+        let near = &domain.curves[id];
+        let (t, _) = near.curve.nearest(p, 0.0, 1.0);
+        let foot = near.curve.point(t);
+        for end in near.ends {
+            let corner = domain.points[end];
+            // A foot this near to an end (an angle of 1e-6 seen from p) leaves every curve there at about 90° or more from p, so
+            // that the sector which holds p is at least about 180° wide: no doubt about it.
+            if corner.distance(foot) <= 1e-6 * distance {
+                return sector(domain, end, p - corner);
+            }
+        }
+        (id, side_of(&near.curve, t, foot, p))
+    }
+
+    /// The crossings of a line with all curves at the coordinates of `range`, ascending; `None` where the line passes there within
+    /// `margin` of an end of a curve, or nearly along a curve, so that another line is to be tried.
+    pub(super) fn hits(&self, axis: Axis, level: f64, range: [f64; 2], margin: f64) -> Option<Vec<Hit>> {
+        let strip = match axis {
+            Axis::Horizontal => Rect::new(range[0], level, range[1], level),
+            Axis::Vertical => Rect::new(level, range[0], level, range[1]),
+        };
+        let (mut hits, mut clear) = (Vec::new(), true);
+        self.boxes.meeting(strip, |i| {
+            let id = CurveId::from_index(i);
+            let curve = self.curve(i);
+            clear &= [curve.start(), curve.end()].iter().all(|&p| (across(axis, p) - level).abs() > margin);
+            clear = clear && crossings(curve, axis, level, |along, before| hits.push(Hit { along, curve: id, before }));
+            clear
+        });
+        hits.retain(|hit| range[0] <= hit.along && hit.along <= range[1]);
+        hits.sort_by(|a, b| a.along.total_cmp(&b.along).then(a.curve.cmp(&b.curve)));
+        clear.then_some(hits)
+    }
+}
+
+fn across(axis: Axis, p: Point) -> f64 {
+    match axis {
+        Axis::Horizontal => p.y,
+        Axis::Vertical => p.x,
+    }
+}
+
+/// Calls `each` with every crossing of the curve; `false` where it runs nearly along the line.
+fn crossings(curve: &Curve, axis: Axis, level: f64, mut each: impl FnMut(f64, Side)) -> bool {
+    let mut report = |p: Point, tangent: Vec2| {
+        let (along, rise) = match axis {
+            Axis::Horizontal => (p.x, tangent.y),
+            Axis::Vertical => (p.y, -tangent.x),
+        };
+        each(along, if rise > 0.0 { Side::Left } else { Side::Right });
+        // Below a slope of 1e-6 a crossing and a touching are hard to tell apart in rounded arithmetic.
+        rise.abs() > 1e-6 * tangent.hypot()
+    };
+    if let Curve::Line(line) = curve {
+        let (a, b) = (across(axis, line.start), across(axis, line.end));
+        let t = (level - a) / (b - a);
+        return ((a < level) == (b < level)) || report(line.start.lerp(line.end, t), line.end - line.start);
+    }
+    let (through, direction) = match axis {
+        Axis::Horizontal => (Point::new(curve.start().x, level), Vec2::new(1.0, 0.0)),
+        Axis::Vertical => (Point::new(level, curve.start().y), Vec2::new(0.0, 1.0)),
+    };
+    let ts = curve.line_crossings(through, direction, 0.0, 1.0);
+    ts.into_iter().all(|t| report(curve.point(t), curve.tangent(t, End::Start)))
+}
+
+fn side_of(curve: &Curve, t: f64, foot: Point, p: Point) -> Side {
+    let left = match curve {
+        Curve::Line(line) => orient(line.start, line.end, p) == Orientation::CounterClockwise,
+        _ => curve.tangent(t, End::Start).cross(p - foot) > 0.0,
+    };
+    if left { Side::Left } else { Side::Right }
+}
+
+/// The side of a curve that borders the sector which lies in direction `towards` from a point of P.
+fn sector(domain: &Domain, at: PointId, towards: Vec2) -> (CurveId, Side) {
+    let star = domain.star(at);
+    let direction = |i: Incident| domain.curves[i.curve].curve.direction_at(i.end);
+    let mut best: (f64, Incident) = (f64::NEG_INFINITY, star[0]);
+    for (k, &from) in star.iter().enumerate() {
+        let gap = gap_between(direction(from), direction(star[(k + 1) % star.len()]), star.len());
+        let off = ccw(direction(from), towards);
+        let holds = if off < gap { gap } else { gap - TAU };
+        if holds > best.0 {
+            best = (holds, from);
+        }
+    }
+    (best.1.curve, left_of(best.1))
+}
+
+/// The side of the curve that lies counter-clockwise of it, seen from the end.
+pub(super) fn left_of(incident: Incident) -> Side {
+    match incident.end {
+        End::Start => Side::Left,
+        End::Finish => Side::Right,
+    }
+}
+
+/// The angle of the sector from one curve of a star to the next, in [0, 2π].
+pub(super) fn gap_between(from: Vec2, to: Vec2, star: usize) -> f64 {
+    let gap = ccw(from, to);
+    match star {
+        1 => TAU,
+        // Curves with a common tangent: the rounded angle may come out just below a full turn. No other star has such a sector,
+        // but one of two curves that leave at zero angle, where either answer closes the circle.
+        _ if gap > TAU - 1e-6 => 0.0,
+        _ => gap,
+    }
+}
+
+/// Angle from `u` counter-clockwise to `v`, in [0, 2π).
+fn ccw(u: Vec2, v: Vec2) -> f64 {
+    let turn = turn_from(u, v);
+    if turn < 0.0 { (turn + TAU).min(TAU - f64::EPSILON * PI) } else { turn }
+}

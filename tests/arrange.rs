@@ -1,0 +1,615 @@
+//! Drawings as people make them, arranged: what is kept, what is mended, what is refused.
+
+use squinch::curve::Curve;
+use squinch::domain::{
+    ArrangeError, ArrangeOptions, Domain, Drawing, DrawnPoint, FillRule, RepairKind, Seed, SeedKind,
+};
+use squinch::geometry::{Point, Vec2};
+use squinch::ids::{CurveId, Id};
+use std::f64::consts::{PI, TAU};
+
+fn p(x: f64, y: f64) -> Point {
+    Point::new(x, y)
+}
+
+fn line(a: (f64, f64), b: (f64, f64)) -> Curve {
+    Curve::line(p(a.0, a.1), p(b.0, b.1)).unwrap()
+}
+
+fn drawing(curves: impl IntoIterator<Item = Curve>) -> Drawing {
+    let mut drawing = Drawing::default();
+    for (i, curve) in curves.into_iter().enumerate() {
+        drawing.add(curve, "wall", format!("curve {}", i + 1));
+    }
+    drawing
+}
+
+fn polygon(points: &[(f64, f64)]) -> Vec<Curve> {
+    (0..points.len()).map(|i| line(points[i], points[(i + 1) % points.len()])).collect()
+}
+
+fn square(x: f64, y: f64, side: f64) -> Vec<Curve> {
+    polygon(&[(x, y), (x + side, y), (x + side, y + side), (x, y + side)])
+}
+
+fn circle(x: f64, y: f64, r: f64) -> Curve {
+    Curve::circle(p(x, y), r).unwrap()
+}
+
+/// The domain by a fill rule, after asking it for flaws.
+fn filled(drawing: &Drawing, fill: FillRule) -> Domain {
+    let domain = drawing.arrange(&ArrangeOptions { fill: Some(fill), ..Default::default() }).unwrap();
+    assert_eq!(domain.flaws(), [""; 0]);
+    domain
+}
+
+fn regions(drawing: &Drawing) -> Domain {
+    filled(drawing, FillRule::Regions)
+}
+
+fn areas(domain: &Domain) -> Vec<f64> {
+    domain.regions().iter().map(|r| r.area).collect()
+}
+
+fn close(found: &[f64], wanted: &[f64]) {
+    assert_eq!(found.len(), wanted.len(), "{found:?} instead of {wanted:?}");
+    for (f, w) in found.iter().zip(wanted) {
+        assert!((f - w).abs() <= 1e-12 * w, "{found:?} instead of {wanted:?}");
+    }
+}
+
+fn repairs(domain: &Domain, kind: RepairKind) -> usize {
+    domain.repairs().iter().filter(|r| r.kind == kind).count()
+}
+
+/// Everything but coordinates.
+fn topology(domain: &Domain) -> impl PartialEq + std::fmt::Debug + use<> {
+    let curves: Vec<_> = domain.curves().iter().map(|c| (c.ends, c.sides, c.name, c.source)).collect();
+    let stars: Vec<_> = domain.points().ids().map(|p| domain.star(p).to_vec()).collect();
+    (curves, stars)
+}
+
+// ---- lines ----
+
+#[test]
+fn a_square_is_one_region_with_four_corners() {
+    let domain = regions(&drawing(square(0.0, 0.0, 1.0)));
+    assert_eq!((domain.points().len(), domain.curves().len()), (4, 4));
+    assert_eq!(areas(&domain), [1.0]);
+    assert_eq!(domain.name(domain.regions().iter().next().unwrap().name), "region");
+    assert!(domain.repairs().is_empty());
+    assert!(domain.curves().iter().all(|c| c.sides[0].is_some() && c.sides[1].is_none()));
+    assert!(domain.points().ids().all(|p| domain.star(p).len() == 2 && !domain.is_acute(p)));
+    assert_eq!(domain.lfs().as_slice(), [1.0; 4]);
+    assert_eq!(domain.lfs0().as_slice(), [1.0; 4]);
+}
+
+#[test]
+fn crossing_lines_are_split_and_an_hourglass_has_two_halves() {
+    let domain = regions(&drawing(polygon(&[(0.0, 0.0), (2.0, 2.0), (2.0, 0.0), (0.0, 2.0)])));
+    assert_eq!((domain.points().len(), domain.curves().len()), (5, 6));
+    close(&areas(&domain), &[1.0, 1.0]);
+    assert_eq!(repairs(&domain, RepairKind::Split), 2);
+    // Its halves go around opposite ways: both rules keep both.
+    for rule in [FillRule::NonZero, FillRule::EvenOdd] {
+        close(&areas(&filled(&drawing(polygon(&[(0.0, 0.0), (2.0, 2.0), (2.0, 0.0), (0.0, 2.0)])), rule)), &[1.0, 1.0]);
+    }
+}
+
+#[test]
+fn fill_rules_tell_a_ring_from_a_disk() {
+    let mut same_way = square(0.0, 0.0, 4.0);
+    same_way.extend(square(1.0, 1.0, 1.0));
+    let ring = drawing(same_way.clone());
+    close(&areas(&filled(&ring, FillRule::EvenOdd)), &[15.0]);
+    close(&areas(&filled(&ring, FillRule::NonZero)), &[15.0, 1.0]);
+    close(&areas(&regions(&ring)), &[15.0, 1.0]);
+    let mut against = square(0.0, 0.0, 4.0);
+    against.extend(square(1.0, 1.0, 1.0).iter().map(Curve::reversed));
+    close(&areas(&filled(&drawing(against), FillRule::NonZero)), &[15.0]);
+}
+
+#[test]
+fn overlapping_squares_count_every_stretch_as_often_as_it_was_drawn() {
+    // Two squares side by side, with the common side drawn twice; then one square drawn twice over.
+    let mut pair = square(0.0, 0.0, 1.0);
+    pair.extend(square(1.0, 0.0, 1.0));
+    let domain = filled(&drawing(pair), FillRule::EvenOdd);
+    close(&areas(&domain), &[1.0, 1.0]);
+    assert_eq!((domain.curves().len(), repairs(&domain, RepairKind::Duplicate)), (7, 1));
+
+    let twice = drawing(square(0.0, 0.0, 1.0).into_iter().chain(square(0.0, 0.0, 1.0)));
+    close(&areas(&filled(&twice, FillRule::NonZero)), &[1.0]);
+    let refused = twice.arrange(&ArrangeOptions { fill: Some(FillRule::EvenOdd), ..Default::default() }).unwrap_err();
+    assert!(refused.help.contains("fill rule"), "{refused:?}");
+}
+
+#[test]
+fn collinear_overlaps_become_one_stretch() {
+    let mut curves = square(0.0, 0.0, 3.0);
+    curves.push(line((1.0, 0.0), (2.0, 0.0)));
+    curves.push(line((2.5, 0.0), (-1.0, 0.0)));
+    let domain = regions(&drawing(curves));
+    close(&areas(&domain), &[9.0]);
+    // The bottom side in 0, 1, 2, 2.5, 3 and a stub to −1.
+    assert_eq!(domain.curves().len(), 3 + 4 + 1);
+    assert!(repairs(&domain, RepairKind::Overlap) >= 3);
+}
+
+#[test]
+fn ends_on_curves_split_them_and_open_curves_stay_as_constraints() {
+    let mut curves = square(0.0, 0.0, 2.0);
+    curves.push(line((0.0, 1.0), (1.5, 1.0)));
+    curves.push(line((5.0, 5.0), (6.0, 5.0)));
+    for rule in [FillRule::Regions, FillRule::EvenOdd, FillRule::NonZero] {
+        let domain = filled(&drawing(curves.clone()), rule);
+        close(&areas(&domain), &[4.0]);
+        let stub = domain.curves().iter().find(|c| c.source == 4).unwrap();
+        assert!(stub.sides[0].is_some() && stub.sides[0] == stub.sides[1]);
+        let away = domain.curves().iter().find(|c| c.source == 5).unwrap();
+        assert_eq!(away.sides, [None, None]);
+    }
+}
+
+#[test]
+fn a_chord_divides_whatever_the_fill_rule() {
+    let mut curves = square(0.0, 0.0, 2.0);
+    curves.push(line((0.0, 0.0), (2.0, 2.0)));
+    curves.push(line((-1.0, 1.0), (3.0, 1.0)));
+    for rule in [FillRule::Regions, FillRule::EvenOdd, FillRule::NonZero] {
+        let domain = filled(&drawing(curves.clone()), rule);
+        close(&areas(&domain), &[1.5, 1.5, 0.5, 0.5]);
+    }
+}
+
+#[test]
+fn lines_that_enclose_only_by_crossing_are_filled() {
+    let hash = [((0.0, 1.0), (3.0, 1.0)), ((0.0, 2.0), (3.0, 2.0)), ((1.0, 0.0), (1.0, 3.0)), ((2.0, 0.0), (2.0, 3.0))];
+    for rule in [FillRule::Regions, FillRule::EvenOdd, FillRule::NonZero] {
+        close(&areas(&filled(&drawing(hash.map(|(a, b)| line(a, b))), rule)), &[1.0]);
+    }
+}
+
+#[test]
+fn gaps_are_welded_or_closed_and_said() {
+    let open = |gap: f64| {
+        drawing([
+            line((0.0, 0.0), (1.0, 0.0)),
+            line((1.0, 0.0), (1.0, 1.0)),
+            line((1.0, 1.0), (0.0, 1.0)),
+            line((0.0, 1.0), (gap, 0.0)),
+        ])
+    };
+    let welded = regions(&open(1e-10));
+    assert_eq!((repairs(&welded, RepairKind::Weld), repairs(&welded, RepairKind::GapClosed)), (1, 0));
+    assert_eq!(welded.repairs()[0].size, 1e-10);
+    let closed = drawing(open(1e-7).curves.into_iter().map(|c| c.curve));
+    // The end lies on the first side: it is a corner there, and no gap is left.
+    let domain = regions(&closed);
+    assert_eq!(repairs(&domain, RepairKind::Split), 1);
+
+    let apart = |gap: f64| {
+        drawing([
+            line((0.0, 0.0), (1.0, 0.0)),
+            line((1.0, 0.0), (1.0, 1.0)),
+            line((1.0, 1.0), (0.0, 1.0)),
+            line((0.0, 1.0), (0.0, gap)),
+        ])
+    };
+    let domain = regions(&apart(1e-7));
+    assert_eq!(repairs(&domain, RepairKind::GapClosed), 1);
+    assert_eq!(domain.points().len(), 4);
+    let strict = ArrangeOptions { tolerance: Some(0.0), ..Default::default() };
+    for refused in [apart(1e-7).arrange(&strict), apart(1e-3).arrange(&ArrangeOptions::default())] {
+        let error: ArrangeError = refused.unwrap_err();
+        assert!(error.what.contains("nothing to mesh"), "{error}");
+        assert!(error.at.distance(p(0.0, 0.0)) < 1e-2 && error.help.contains("away"), "{error:?}");
+    }
+}
+
+#[test]
+fn what_encloses_nothing_is_refused_with_a_place() {
+    let there_and_back = polygon(&[(1.0, 1.0), (3.0, 1.0), (2.0, 1.0)]);
+    for curves in [there_and_back, vec![line((0.0, 0.0), (1.0, 1.0))]] {
+        let error = drawing(curves).arrange(&ArrangeOptions::default()).unwrap_err();
+        assert!(error.what.contains("nothing to mesh"), "{error}");
+    }
+    let error = Drawing::default().arrange(&ArrangeOptions::default()).unwrap_err();
+    assert!(error.what.contains("no curves"), "{error}");
+}
+
+#[test]
+fn lines_of_no_length_are_dropped_and_said() {
+    let mut curves = square(0.0, 0.0, 1.0);
+    curves.push(line((0.5, 0.5), (0.5, 0.5)));
+    curves.push(line((0.0, 0.0), (1e-12, 0.0)));
+    let domain = regions(&drawing(curves));
+    assert_eq!((domain.curves().len(), repairs(&domain, RepairKind::ZeroLength)), (4, 2));
+}
+
+// ---- seeds, points, names ----
+
+fn seed(x: f64, y: f64, kind: SeedKind) -> Seed {
+    Seed { at: p(x, y), kind, entity: format!("seed at {x} {y}") }
+}
+
+#[test]
+fn seeds_cut_holes_and_name_regions() {
+    let mut rings = drawing((0..5).flat_map(|i| square(f64::from(i), f64::from(i), 20.0 - 2.0 * f64::from(i))));
+    let steel = rings.names.intern("steel");
+    let limit = Some(0.5);
+    rings.seeds = vec![
+        seed(0.5, 0.5, SeedKind::Region { name: steel, max_area: limit }),
+        seed(10.0, 10.0, SeedKind::Region { name: steel, max_area: limit }),
+        seed(1.5, 1.5, SeedKind::Hole),
+        seed(50.0, 0.0, SeedKind::Hole),
+        seed(1.5, 18.5, SeedKind::Hole),
+    ];
+    let domain = regions(&rings);
+    assert_eq!(repairs(&domain, RepairKind::Seed), 2);
+    let names: Vec<&str> = domain.regions().iter().map(|r| domain.name(r.name)).collect();
+    assert_eq!(names, ["steel", "region1", "region2"]);
+    close(&areas(&domain), &[400.0 - 324.0 + 144.0, 256.0 - 196.0, 196.0 - 144.0]);
+    assert_eq!(domain.regions().iter().next().unwrap().max_area, limit);
+    let region = |x: f64| domain.locate_region(p(x, 10.0)).map(|r| domain.name(domain.regions()[r].name));
+    assert_eq!(
+        [0.5, 1.5, 2.5, 3.5, 4.5].map(region),
+        [Some("steel"), None, Some("region1"), Some("region2"), Some("steel")]
+    );
+    assert_eq!(region(-1.0), None);
+}
+
+#[test]
+fn drawn_points_are_kept_and_split_what_they_lie_on() {
+    let mut drawn = drawing(square(0.0, 0.0, 2.0));
+    let name = drawn.names.intern("probe");
+    for (x, y) in [(1.0, 1.0), (1.0, 0.0), (2.0, 2.0), (9.0, 9.0)] {
+        drawn.points.push(DrawnPoint { at: p(x, y), name: Some(name), entity: format!("point {x} {y}") });
+    }
+    let domain = regions(&drawn);
+    assert_eq!((domain.points().len(), domain.curves().len()), (7, 5));
+    assert_eq!(domain.point_names().len(), 4);
+    assert!(domain.point_names().keys().any(|&q| domain.points()[q] == p(1.0, 0.0) && domain.star(q).len() == 2));
+}
+
+#[test]
+fn keep_all_adds_a_box_and_keeps_every_face() {
+    let mut drawn = drawing([circle(0.0, 0.0, 1.0), circle(0.0, 0.0, 0.5)]);
+    drawn.seeds.push(seed(0.0, 0.0, SeedKind::Hole));
+    let domain = drawn.arrange(&ArrangeOptions { keep_all: true, ..Default::default() }).unwrap();
+    assert_eq!(domain.flaws(), [""; 0]);
+    let side = 2.0 + 2.0 * 8f64.sqrt();
+    close(&areas(&domain), &[side * side - PI, 0.75 * PI, 0.25 * PI]);
+    assert_eq!(domain.curves().iter().filter(|c| domain.name(c.name) == "box").count(), 4);
+}
+
+// ---- curves ----
+
+#[test]
+fn a_circle_is_split_and_its_area_is_exact() {
+    let domain = regions(&drawing([circle(3.0, 4.0, 2.0)]));
+    close(&areas(&domain), &[4.0 * PI]);
+    assert_eq!((domain.points().len(), domain.curves().len()), (2, 2));
+    assert!(domain.repairs().is_empty());
+    let split = domain.split_to_turning(0.5);
+    assert_eq!(split.flaws(), [""; 0]);
+    assert!(split.curves().iter().all(|c| c.curve.turning(0.0, 1.0) <= 0.5 + 1e-12));
+    assert_eq!(split.curves().len(), 14);
+    close(&areas(&split), &[4.0 * PI]);
+}
+
+#[test]
+fn crossing_circles_make_three_faces() {
+    let domain = regions(&drawing([circle(0.0, 0.0, 1.0), circle(1.0, 0.0, 1.0)]));
+    let lens = TAU / 3.0 - 3f64.sqrt() / 2.0;
+    close(&areas(&domain), &[PI - lens, PI - lens, lens]);
+    let ring = filled(&drawing([circle(0.0, 0.0, 1.0), circle(1.0, 0.0, 1.0)]), FillRule::EvenOdd);
+    close(&areas(&ring), &[PI - lens, PI - lens]);
+    assert_eq!(areas(&filled(&drawing([circle(0.0, 0.0, 1.0), circle(1.0, 0.0, 1.0)]), FillRule::NonZero)).len(), 3);
+}
+
+#[test]
+fn tangent_circles_share_one_point() {
+    for (x, inner) in [(2.0, PI), (0.5, 0.25 * PI)] {
+        let small = if x == 2.0 { 1.0 } else { 0.5 };
+        let domain = regions(&drawing([circle(0.0, 0.0, 1.0), circle(x, 0.0, small)]));
+        let outer = if x == 2.0 { PI } else { 0.75 * PI };
+        close(&areas(&domain), &[outer, inner]);
+        let touching: Vec<_> = domain.points().ids().filter(|&q| domain.star(q).len() == 4).collect();
+        assert_eq!(touching.len(), 1);
+        assert!(domain.points()[touching[0]].distance(p(1.0, 0.0)) < 1e-9);
+        assert!(domain.is_acute(touching[0]) && domain.corner(touching[0]).unwrap().angle_rad < 1e-6);
+    }
+}
+
+#[test]
+fn many_curves_that_leave_at_zero_angle_are_ordered_as_they_lie() {
+    // Circles of several sizes, and a line, all tangent at the origin.
+    let mut curves = vec![line((-9.0, 0.0), (9.0, 0.0))];
+    for r in [1.0, 0.5, 0.25, 3.0] {
+        curves.extend([circle(0.0, r, r), circle(0.0, -r, r)]);
+    }
+    let domain = regions(&drawing(curves));
+    let rings = [9.0 - 1.0, 1.0 - 0.25, 0.25 - 0.0625, 0.0625];
+    let wanted: Vec<f64> = rings.iter().flat_map(|a| [a * PI, a * PI]).collect();
+    close(&areas(&domain), &wanted);
+    let most = domain.points().ids().max_by_key(|&q| domain.star(q).len()).unwrap();
+    assert_eq!(domain.star(most).len(), 18);
+}
+
+#[test]
+fn arcs_on_one_circle_overlap_into_one() {
+    let arc = |start: f64, sweep: f64| Curve::arc(p(1.0, 2.0), 1.5, start, sweep).unwrap();
+    let domain = regions(&drawing([arc(0.0, 4.0), arc(3.0, 4.0), arc(1.0, -0.5)]));
+    close(&areas(&domain), &[2.25 * PI]);
+    assert!(repairs(&domain, RepairKind::Overlap) >= 2);
+    let twice = regions(&drawing([circle(0.0, 0.0, 1.0), circle(0.0, 0.0, 1.0)]));
+    close(&areas(&twice), &[PI]);
+    assert_eq!(twice.curves().len(), 2);
+}
+
+#[test]
+fn a_lens_of_two_arcs_shares_both_ends() {
+    let (a, b) = (p(0.0, 0.0), p(1.0, 0.0));
+    let bulge = libm::tan(PI / 12.0);
+    let lens = drawing([Curve::bulge(a, b, bulge).unwrap(), Curve::bulge(b, a, bulge).unwrap()]);
+    let domain = regions(&lens);
+    assert_eq!((domain.points().len(), domain.curves().len()), (2, 2));
+    close(&areas(&domain), &[PI / 3.0 - 3f64.sqrt() / 2.0]);
+    assert!(domain.points().ids().all(|q| (domain.corner(q).unwrap().angle_rad - PI / 3.0).abs() < 1e-12));
+}
+
+#[test]
+fn a_plate_with_holes_and_rings_five_deep() {
+    let mut curves = square(-10.0, -10.0, 20.0);
+    curves.extend((0..5).map(|i| circle(-4.0, 0.0, 5.0 - f64::from(i))));
+    curves.push(circle(5.0, 5.0, 2.0));
+    curves.push(Curve::ellipse(p(5.0, -5.0), Vec2::new(3.0, 0.0), Vec2::new(0.0, 1.0), 0.0, TAU).unwrap());
+    let domain = filled(&drawing(curves.clone()), FillRule::EvenOdd);
+    close(&areas(&domain), &[400.0 - (25.0 + 4.0 + 3.0) * PI, 7.0 * PI, 3.0 * PI]);
+    close(
+        &areas(&regions(&drawing(curves))),
+        &[400.0 - 32.0 * PI, 9.0 * PI, 7.0 * PI, 5.0 * PI, 4.0 * PI, 3.0 * PI, 3.0 * PI, PI],
+    );
+}
+
+#[test]
+fn a_spiral_inside_a_disk_is_a_constraint() {
+    let points: Vec<Point> =
+        (0..40).map(|i| Point::ORIGIN + Vec2::from_angle(f64::from(i) * 0.4) * (0.02 * f64::from(i + 1))).collect();
+    let spiral = Curve::natural_spline(&points).unwrap();
+    let domain = filled(&drawing([circle(0.0, 0.0, 1.0), spiral]), FillRule::EvenOdd);
+    close(&areas(&domain), &[PI]);
+    let inside = domain.curves().iter().filter(|c| c.source == 1);
+    assert!(inside.clone().count() > 0 && inside.clone().all(|c| c.sides[0].is_some() && c.sides[0] == c.sides[1]));
+}
+
+#[test]
+fn a_bezier_that_crosses_itself_is_split_into_a_loop() {
+    let alpha = Curve::bezier(vec![p(0.0, 0.0), p(4.0, 3.0), p(-3.0, 3.0), p(1.0, 0.0)]).unwrap();
+    let domain = regions(&drawing([alpha]));
+    assert_eq!(domain.regions().len(), 1);
+    assert_eq!(repairs(&domain, RepairKind::SelfSplit), 1);
+    assert_eq!(domain.points().ids().filter(|&q| domain.star(q).len() == 4).count(), 1);
+}
+
+#[test]
+fn closed_splines_are_regions() {
+    let points: Vec<Point> = (0..12)
+        .map(|i| p(2.0, 1.0) + Vec2::from_angle(f64::from(i) * TAU / 12.0) * (1.0 + 0.3 * f64::from(i % 2)))
+        .collect();
+    let star = Curve::periodic_spline(&points).unwrap();
+    let area = star.green(p(2.0, 1.0));
+    let domain = regions(&drawing([star]));
+    close(&areas(&domain), &[area]);
+    assert!(domain.repairs().is_empty(), "{:?}", domain.repairs());
+}
+
+#[test]
+fn a_cusp_becomes_a_corner() {
+    // A cubic with a cusp at t = ½, closed by a line.
+    let cusp = Curve::bezier(vec![p(0.0, 0.0), p(1.0, 1.0), p(0.0, 1.0), p(1.0, 0.0)]).unwrap();
+    let domain = regions(&drawing([cusp, line((1.0, 0.0), (0.0, 0.0))]));
+    assert_eq!(repairs(&domain, RepairKind::Corner), 1);
+    assert!(domain.points().iter().any(|q| q.distance(p(0.5, 0.75)) < 1e-9));
+    assert!(domain.points().ids().any(|q| domain.corner(q).is_some_and(|c| c.angle_rad < 1e-6)));
+}
+
+#[test]
+fn nearly_closed_arcs_close_without_losing_their_shape() {
+    let arc = Curve::arc(p(0.0, 0.0), 1.0, 0.0, TAU - 1e-8).unwrap();
+    let domain = regions(&drawing([arc]));
+    assert!((domain.measure() - PI).abs() < 1e-6);
+    assert_eq!(repairs(&domain, RepairKind::GapClosed), 1);
+    for c in domain.curves().iter() {
+        assert!(c.curve.bounds().width() < 2.1, "{c:?}");
+    }
+}
+
+// ---- laws ----
+
+/// A drawing with something of everything, scaled and moved.
+fn mixture(factor: f64, offset: f64) -> Drawing {
+    let mut curves = square(-4.0, -4.0, 8.0);
+    curves.extend([circle(0.0, 0.0, 2.0), circle(1.0, 0.0, 1.0), circle(-3.0, -3.0, 0.5)]);
+    curves.push(line((-5.0, 1.0), (5.0, 1.5)));
+    curves.push(Curve::bezier(vec![p(-4.0, -4.0), p(0.0, 3.0), p(1.0, -6.0), p(3.0, 2.0)]).unwrap());
+    curves.push(Curve::ellipse(p(2.0, 2.0), Vec2::new(1.5, 0.5), Vec2::new(-0.2, 0.7), 0.0, TAU).unwrap());
+    let moved = |c: Curve| c.transformed(kurbo::Affine::translate((offset, offset)));
+    drawing(curves.into_iter().map(|c| if offset == 0.0 { c } else { moved(c) }).map(|c| c.scaled(factor)))
+}
+
+#[test]
+fn scaling_by_a_power_of_two_changes_no_bit() {
+    let plain = regions(&mixture(1.0, 0.0));
+    assert!(plain.regions().len() > 6);
+    for exponent in [-40, 40, 3] {
+        let factor = libm::ldexp(1.0, exponent);
+        let scaled = regions(&mixture(factor, 0.0));
+        assert_eq!(topology(&scaled), topology(&plain));
+        for (a, b) in scaled.points().iter().zip(plain.points().iter()) {
+            assert_eq!(*a, p(b.x * factor, b.y * factor));
+        }
+        assert!(scaled.regions().iter().zip(plain.regions().iter()).all(|(a, b)| a.area == b.area * factor * factor));
+        assert!(
+            scaled.repairs().iter().zip(plain.repairs()).all(|(a, b)| a.kind == b.kind && a.size == b.size * factor)
+        );
+    }
+}
+
+#[test]
+fn far_from_the_origin_the_faces_are_the_same() {
+    let plain = regions(&mixture(1.0, 0.0));
+    let far = regions(&mixture(1.0, 1e7));
+    assert_eq!((far.curves().len(), far.points().len()), (plain.curves().len(), plain.points().len()));
+    for (a, b) in areas(&far).iter().zip(areas(&plain)) {
+        // Coordinates of 1e7 have units of 2e-9 in the last place.
+        assert!((a - b).abs() < 1e-6, "{:?} {:?}", areas(&far), areas(&plain));
+    }
+}
+
+#[test]
+fn arranging_is_repeatable_and_turning_splits_keep_every_promise() {
+    let domain = regions(&mixture(1.0, 0.0));
+    assert_eq!(topology(&domain), topology(&regions(&mixture(1.0, 0.0))));
+    for tau in [0.1, 0.5, PI / 3.0] {
+        let split = domain.split_to_turning(tau);
+        assert_eq!(split.flaws(), [""; 0]);
+        assert!(split.curves().iter().all(|c| c.curve.turning(0.0, 1.0) <= tau * (1.0 + 1e-9)));
+        close(&areas(&split), &areas(&domain));
+    }
+}
+
+// ---- oracles ----
+
+/// A fixed sequence of numbers in 0..1.
+fn numbers(seed: u64) -> impl FnMut() -> f64 {
+    let mut state = seed;
+    move || {
+        state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        (state >> 40) as f64 / (1u64 << 24) as f64
+    }
+}
+
+#[test]
+fn random_segments_cross_as_often_as_all_pairs_tell() {
+    let mut number = numbers(7);
+    let mut segments = Vec::new();
+    for _ in 0..150 {
+        let (x, y) = (number(), number());
+        segments.push(((x, y), (x + 0.3 * (number() - 0.5), y + 0.3 * (number() - 0.5))));
+    }
+    let cross =
+        |a: (f64, f64), b: (f64, f64), c: (f64, f64)| (b.0 - a.0) * (c.1 - a.1) - (b.1 - a.1) * (c.0 - a.0) > 0.0;
+    let mut crossings = 0;
+    for (i, &(a, b)) in segments.iter().enumerate() {
+        for &(c, d) in &segments[i + 1..] {
+            crossings += usize::from(cross(a, b, c) != cross(a, b, d) && cross(c, d, a) != cross(c, d, b));
+        }
+    }
+    let domain = regions(&drawing(segments.iter().map(|&(a, b)| line(a, b))));
+    assert_eq!(domain.points().len(), 2 * segments.len() + crossings);
+    assert_eq!(domain.curves().len(), segments.len() + 2 * crossings);
+}
+
+#[test]
+fn winding_numbers_agree_with_counting_along_a_ray() {
+    let mut number = numbers(3);
+    let loops: Vec<Vec<(f64, f64)>> = (0..6).map(|_| (0..7).map(|_| (number(), number())).collect()).collect();
+    let drawn = drawing(loops.iter().flat_map(|l| polygon(l)));
+    let winding = |x: f64, y: f64| {
+        let mut total = 0;
+        for points in &loops {
+            for (i, a) in points.iter().enumerate() {
+                let b = points[(i + 1) % points.len()];
+                let left = (b.0 - a.0) * (y - a.1) - (b.1 - a.1) * (x - a.0) > 0.0;
+                total += i32::from(a.1 <= y && b.1 > y && left) - i32::from(a.1 > y && b.1 <= y && !left);
+            }
+        }
+        total
+    };
+    let (even, nonzero) = (filled(&drawn, FillRule::EvenOdd), filled(&drawn, FillRule::NonZero));
+    let (even, nonzero) = (even.locator(), nonzero.locator());
+    for _ in 0..2000 {
+        let (x, y) = (1.2 * number() - 0.1, 1.2 * number() - 0.1);
+        let w = winding(x, y);
+        assert_eq!(even.region(p(x, y)).is_some(), w % 2 != 0, "at {x} {y}");
+        assert_eq!(nonzero.region(p(x, y)).is_some(), w != 0, "at {x} {y}");
+    }
+}
+
+#[test]
+fn feature_sizes_agree_with_all_pairs() {
+    let domain = regions(&mixture(1.0, 0.0)).split_to_turning(1.0);
+    let (lfs, lfs0) = (domain.lfs(), domain.lfs0());
+    for (id, &q) in domain.points().enumerate() {
+        let others = domain.points().enumerate().filter(|&(o, _)| o != id).map(|(_, o)| o.distance(q));
+        let nearest = others.fold(f64::INFINITY, f64::min);
+        assert_eq!(lfs0[id], nearest);
+        let apart = domain.curves().iter().filter(|c| !c.ends.contains(&id));
+        let nearest = apart.map(|c| c.curve.nearest(q, 0.0, 1.0).1).fold(nearest, f64::min);
+        assert_eq!(lfs[id], nearest);
+    }
+}
+
+#[test]
+fn regions_of_a_mixture_are_what_a_grid_of_points_counts() {
+    let domain = regions(&mixture(1.0, 0.0));
+    let locator = domain.locator();
+    let n = 200;
+    let mut counted = vec![0.0; domain.regions().len()];
+    for i in 0..n * n {
+        let at = |k: usize| -4.0 + 8.0 * (k as f64 + 0.5) / n as f64;
+        if let Some(region) = locator.region(p(at(i % n), at(i / n))) {
+            counted[region.index()] += 64.0 / (n * n) as f64;
+        }
+    }
+    for (counted, area) in counted.iter().zip(areas(&domain)) {
+        // A border cell is 0.04 wide: regions with borders of a few lengths are off by a few hundredths.
+        assert!((counted - area).abs() < 0.15, "{counted} {area}");
+    }
+    assert!(domain.curves().ids().all(|c| c < CurveId(1000)));
+}
+
+// ---- files ----
+
+/// Points, segments and holes of a `.poly` file, as plainly as a test needs.
+fn read_poly(text: &str) -> Option<Drawing> {
+    let lines = text.lines().map(|l| l.split('#').next().unwrap_or("").trim()).filter(|l| !l.is_empty());
+    let mut rows =
+        lines.map(|l| l.split_whitespace().map(|w| w.parse::<f64>().unwrap_or(f64::NAN)).collect::<Vec<_>>());
+    let count = rows.next()?[0] as usize;
+    let points: Vec<Vec<f64>> = rows.by_ref().take(count).collect();
+    let first = points.first()?[0] as usize;
+    let count = rows.next()?[0] as usize;
+    let mut drawing = Drawing { fill: FillRule::Regions, ..Default::default() };
+    for row in rows.by_ref().take(count) {
+        let at = |k: usize| points.get((row[k] as usize).wrapping_sub(first)).map(|q| p(q[1], q[2]));
+        drawing.add(Curve::line(at(1)?, at(2)?).ok()?, "wall", format!("segment {}", row[0]));
+    }
+    let holes = rows.next().map_or(0, |r| r[0] as usize);
+    for row in rows.take(holes) {
+        drawing.seeds.push(seed(row[1], row[2], SeedKind::Hole));
+    }
+    Some(drawing)
+}
+
+#[test]
+fn every_poly_file_at_hand_is_arranged_without_a_flaw() {
+    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
+    for folder in ["poly", "plsg"] {
+        // Beside the project, or beside the folder of its worktrees; the test passes without.
+        let paths = ["../shared/cases", "../../shared/cases"].map(|shared| root.join(shared).join(folder));
+        let Some(entries) = paths.iter().find_map(|path| std::fs::read_dir(path).ok()) else { continue };
+        let mut files: Vec<_> = entries.filter_map(|e| e.ok().map(|e| e.path())).collect();
+        files.retain(|f| f.extension().is_some_and(|e| e == "poly"));
+        files.sort();
+        for file in files {
+            let drawing = read_poly(&std::fs::read_to_string(&file).unwrap()).expect("a .poly file");
+            match drawing.arrange(&ArrangeOptions::default()) {
+                Ok(domain) => assert_eq!(domain.flaws(), [""; 0], "{}", file.display()),
+                Err(error) => assert!(error.what.contains("nothing to mesh"), "{}: {error}", file.display()),
+            }
+        }
+    }
+}
