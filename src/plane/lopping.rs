@@ -26,7 +26,7 @@
 //! - *Rounded circumcenters.* Each decision (ball, encroachment, cavity) is made on the rounded point. A circumcenter outside its own
 //!   cavity would not remove its triangle: it is not inserted, and the triangle is owed.
 //!
-//! Termination is Corollary 3's for κ below [`crate::mesh::verify::guaranteed_angle`]; beyond it the vertex budget ends what does not end by itself. The
+//! Termination is Corollary 3's for κ below [`guaranteed_angle`]; beyond it the vertex budget ends what does not end by itself. The
 //! result says which it was. A piece that coordinates cannot split any more ends the run with its place.
 
 use super::balls::Balls;
@@ -39,6 +39,7 @@ use crate::domain::Domain;
 use crate::geometry::exact::{CircleSide, in_circle, in_diametral};
 use crate::geometry::{self, Point, Vec2};
 use crate::ids::{BallId, CurveId, Id, IdVec, PieceId, PointId, TriangleId, VertexId};
+use crate::mesh::verify::guaranteed_angle;
 use crate::mesh::{self, BallReason, CurveEdge, CurveLink, Mesh};
 use crate::refine::{Counters, Progress, Stop, StopReason, WorstFirst};
 use crate::size::{SizeField, Sizing};
@@ -234,7 +235,7 @@ impl Lopping {
     }
 
     fn first_rule(&mut self) -> Rule {
-        if self.reason == StopReason::Arithmetic || self.origins.len() > 2 * self.options.max_vertices {
+        if self.reason == StopReason::Arithmetic || self.origins.len() > self.most_vertices() {
             return Rule::Rest;
         }
         if let Some(ball) = self.intruded.pop_front() {
@@ -256,6 +257,11 @@ impl Lopping {
             Some(suspect) => Rule::Split(suspect),
             None => Rule::Rest,
         }
+    }
+
+    /// The budget; once there was a valid mesh, twice as much, so that what is begun can be made valid again.
+    fn most_vertices(&self) -> usize {
+        self.options.max_vertices.saturating_mul(if self.carved { 2 } else { 1 })
     }
 
     /// Whether every piece is an edge that nothing encroaches, and every triangle has its region.
@@ -302,10 +308,13 @@ impl Lopping {
         }
     }
 
-    /// Triangles that still miss a bound, and the first of their places.
+    /// Pieces and triangles that still miss a bound, and some of their places, the most crowded pieces first.
     fn owed(&mut self) -> (usize, Vec<Point>) {
         const PLACES: usize = 16;
-        let (mut owed, mut places) = (self.too_near.len(), Vec::new());
+        let mut pieces: Vec<(f64, Point)> = self.suspects.iter().map(|&id| self.length_and_place(id)).collect();
+        pieces.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+        let mut owed = self.too_near.len() + pieces.len();
+        let mut places: Vec<Point> = pieces.into_iter().map(|(_, at)| at).take(PLACES).collect();
         while let Some(suspect) = self.skinny.pop().or_else(|| self.oversized.pop()) {
             if self.is_stale(&suspect) {
                 continue;
@@ -318,6 +327,11 @@ impl Lopping {
         (owed, places)
     }
 
+    fn length_and_place(&self, id: PieceId) -> (f64, Point) {
+        let [x, y] = self.subcurves.get(id).ends.map(|v| self.delaunay.point(v));
+        (x.distance(y), x.midpoint(y))
+    }
+
     fn count_kernel(&mut self) {
         let kernel = self.delaunay.counters();
         self.counters.add("predicates", kernel.orient + kernel.in_circle);
@@ -325,6 +339,29 @@ impl Lopping {
         self.counters.add("walk_steps", kernel.walk_steps);
         self.counters.add("cavity_triangles", kernel.cavity_triangles);
     }
+}
+
+/// The largest turning of corner arcs for which κ is proven, where that is the domain's to prove: `lambda_rad` is the largest lens angle
+/// of its curves. Elsewhere π/3, the largest that keeps the angles at the rim of a ball at 60° and more (section 6).
+///
+/// Arcs are curves: of turning T they have λ = T/2, so arcs of π/3 prove κ only up to 8.594°. Finer ones than a tenth of a radian would
+/// crowd the ball with vertices for the sake of the proof; then the angle is reached, not proven.
+pub fn arc_turning(kappa_rad: f64, lambda_rad: f64) -> f64 {
+    const FINEST: f64 = 0.1;
+    if kappa_rad >= guaranteed_angle(lambda_rad) || kappa_rad < guaranteed_angle(FRAC_PI_3 / 2.0) {
+        return FRAC_PI_3;
+    }
+    // The guarantee falls as λ grows: 50 halvings reach the spacing of f64.
+    let (mut covered, mut missed) = (0.0, FRAC_PI_3 / 2.0);
+    for _ in 0..50 {
+        let middle = 0.5 * (covered + missed);
+        if kappa_rad < guaranteed_angle(middle) {
+            covered = middle;
+        } else {
+            missed = middle;
+        }
+    }
+    if 2.0 * covered >= FINEST { 2.0 * covered } else { FRAC_PI_3 }
 }
 
 // ---- the beginning: P and ball points ----
@@ -1092,10 +1129,7 @@ impl Lopping {
 
     /// The longest piece, spokes apart, that a point encroaches.
     fn longest_encroached(&self, at: Point, pieces: &[(Side, PieceId)]) -> Option<PieceId> {
-        let length = |piece: PieceId| {
-            let [x, y] = self.subcurves.get(piece).ends.map(|v| self.delaunay.point(v));
-            x.distance_squared(y)
-        };
+        let length = |piece: PieceId| self.length_and_place(piece).0;
         pieces
             .iter()
             .map(|&(_, piece)| piece)
