@@ -1,1 +1,147 @@
-//! Readers: files → Drawing. One file a format; no cleaning here.
+//! Readers: files → [`Drawing`]. One file a format; nothing is welded, split or dropped here, that is
+//! [`Drawing::arrange`]'s part. Every quirk that a reader met and every liberty that it took is a sentence in [`Drawing::notes`].
+
+pub mod airfoil;
+pub mod outline;
+pub mod poly;
+pub mod vtu;
+
+pub use airfoil::{AirfoilOptions, TrailingEdge};
+
+use crate::domain::Drawing;
+use std::path::Path;
+
+/// Why a file cannot be read, where, and the way out.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{}{what}", place(.line, .column))]
+pub struct ImportError {
+    /// What is wrong, with the entity.
+    pub what: String,
+    /// Line in the file, from 1.
+    pub line: Option<usize>,
+    /// Byte in the line, from 1.
+    pub column: Option<usize>,
+    /// What the user can do.
+    pub help: String,
+}
+
+fn place(line: &Option<usize>, column: &Option<usize>) -> String {
+    match (line, column) {
+        (Some(line), Some(column)) => format!("line {line}, column {column}: "),
+        (Some(line), None) => format!("line {line}: "),
+        _ => String::new(),
+    }
+}
+
+impl ImportError {
+    fn new(what: impl Into<String>, help: impl Into<String>) -> Self {
+        Self { what: what.into(), line: None, column: None, help: help.into() }
+    }
+
+    fn at(line: usize, what: impl Into<String>, help: impl Into<String>) -> Self {
+        Self { line: Some(line), ..Self::new(what, help) }
+    }
+}
+
+/// A format that can be read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// Airfoil coordinates: Selig, Lednicer, MSES/XFOIL blade files.
+    Airfoil,
+    /// Triangle's planar straight-line graph.
+    Poly,
+    /// Triangle's vertices alone.
+    Node,
+    /// Our own curves, as JSON.
+    Outline,
+}
+
+impl Format {
+    pub const ALL: [Self; 4] = [Self::Airfoil, Self::Poly, Self::Node, Self::Outline];
+
+    /// The name by which a user asks for the format.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Airfoil => "airfoil",
+            Self::Poly => "poly",
+            Self::Node => "node",
+            Self::Outline => "outline",
+        }
+    }
+
+    /// The format of this name, as [`Format::name`] gives it.
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|f| f.name() == name)
+    }
+
+    /// A guess from the first bytes, for files whose suffix says nothing.
+    ///
+    /// JSON starts with a brace. Triangle's first line holds whole numbers of which the second, the dimension, is 2; with one line of
+    /// that shape more, the segment header, it is a `.poly`. Anything else that has a line of two numbers may be an airfoil.
+    pub fn sniff(bytes: &[u8]) -> Option<Self> {
+        let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+        if text.iter().find(|b| !b.is_ascii_whitespace()) == Some(&b'{') {
+            return Some(Self::Outline);
+        }
+        if let Some(format) = poly::sniff(text) {
+            return Some(format);
+        }
+        let two_numbers = |line: &[u8]| numbers(line).take(2).filter(Option::is_some).count() == 2;
+        text.split(|&b| b == b'\n' || b == b'\r').any(two_numbers).then_some(Self::Airfoil)
+    }
+}
+
+/// The format that a file's suffix names; `None` where it names none.
+pub fn format_of(path: &Path) -> Option<Format> {
+    match path.extension()?.to_str()?.to_ascii_lowercase().as_str() {
+        "dat" | "txt" => Some(Format::Airfoil),
+        "poly" => Some(Format::Poly),
+        "node" => Some(Format::Node),
+        "json" => Some(Format::Outline),
+        _ => None,
+    }
+}
+
+/// What a reader may be told.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Options {
+    pub airfoil: AirfoilOptions,
+    /// The `.node` file beside a `.poly` file that holds no vertices of its own.
+    pub nodes: Option<Vec<u8>>,
+}
+
+/// Reads a drawing. `stem` (the file's name without its suffix) is the title where the file gives none.
+///
+/// # Errors
+/// [`ImportError`] with the line where the file breaks its format. Never panics, and takes memory in proportion to `bytes`.
+pub fn read(bytes: &[u8], format: Format, stem: &str, options: &Options) -> Result<Drawing, ImportError> {
+    match format {
+        Format::Airfoil => airfoil::read(bytes, stem, &options.airfoil),
+        Format::Poly => poly::read_poly(bytes, stem, options.nodes.as_deref()),
+        Format::Node => poly::read_node(bytes, stem),
+        Format::Outline => outline::read(bytes, stem),
+    }
+}
+
+/// A finite number as Fortran, C and spreadsheets write it (`.5`, `1.`, `-1.5D-03`); words such as `nan` are none.
+fn number(token: &[u8]) -> Option<f64> {
+    let text = std::str::from_utf8(token).ok()?;
+    if !text.starts_with(|c: char| c.is_ascii_digit() || matches!(c, '+' | '-' | '.')) {
+        return None;
+    }
+    let value = match text.parse::<f64>() {
+        Ok(value) => value,
+        Err(_) => text.replace(['d', 'D'], "e").parse().ok()?,
+    };
+    value.is_finite().then_some(value)
+}
+
+/// The tokens of a line between blanks, commas and semicolons.
+fn tokens(line: &[u8]) -> impl Iterator<Item = &[u8]> {
+    line.split(|b| b.is_ascii_whitespace() || matches!(b, b',' | b';')).filter(|t| !t.is_empty())
+}
+
+/// The tokens of a line, each as a number where it is one.
+fn numbers(line: &[u8]) -> impl Iterator<Item = Option<f64>> {
+    tokens(line).map(number)
+}

@@ -1,4 +1,5 @@
-//! The mesh: plain data, whoever made it. Nodes, cells, regions, boundaries, links back to curves, and the balls that excuse cells.
+//! The mesh: plain data, whoever made it. Nodes, cells, regions, boundaries, links back to curves, and the balls that
+//! excuse cells.
 
 pub mod quality;
 pub mod verify;
@@ -16,7 +17,8 @@ pub struct Mesh {
     pub triangle_regions: IdVec<TriangleId, RegionId>,
     /// Name of each region.
     pub regions: IdVec<RegionId, NameId>,
-    /// Every mesh edge that lies on a curve, along the curve's direction, grouped by curve and in order along it where links are known.
+    /// Every mesh edge that lies on a curve, along the curve's direction, grouped by curve and in order along it where
+    /// links are known.
     pub edges: Vec<CurveEdge>,
     pub names: Names,
     /// For each node that is a point of P: which (sorted by point).
@@ -61,6 +63,16 @@ pub enum BallReason {
 }
 
 impl Mesh {
+    /// The corners of a triangle.
+    pub fn corners(&self, t: TriangleId) -> [Point; 3] {
+        self.triangles[t].map(|v| self.nodes[v])
+    }
+
+    /// The name of a triangle's region.
+    pub fn region_name(&self, t: TriangleId) -> &str {
+        self.names.text(self.regions[self.triangle_regions[t]])
+    }
+
     /// All coordinates and radii times a power of two: exact.
     pub fn scaled(mut self, factor: f64) -> Self {
         for p in self.nodes.iter_mut() {

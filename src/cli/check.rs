@@ -1,0 +1,100 @@
+//! `check MESH`: the judge's verdict on a mesh file, ours or not.
+
+use super::files::{self, Input, Staged, unwritable};
+use super::options::{Options, Resolved};
+use super::{Halt, Volume, remember, say};
+use clap::Args;
+use squinch::domain::Domain;
+use squinch::export;
+use squinch::import::vtu::{self, MeshFile};
+use squinch::mesh::quality::Quality;
+use squinch::mesh::verify::Status;
+use squinch::pipeline::{self, Exit, Plan};
+use squinch::report::{FailureKind, FailureReport, MeshReport, PromiseReport, Report};
+use squinch::request::Request;
+use std::path::{Path, PathBuf};
+
+#[derive(Args)]
+pub struct Check {
+    /// A mesh file: .vtu; - for standard input
+    #[arg(value_name = "MESH")]
+    mesh: PathBuf,
+    /// The drawing that the mesh is of: without it, checks that need the curves are n/a
+    #[arg(long, value_name = "IN")]
+    against: Option<PathBuf>,
+    /// The report as JSON; - for standard output
+    #[arg(long, value_name = "FILE.json")]
+    report: Option<PathBuf>,
+    /// What the mesh is held to. A mesh of ours says what it was asked for, which holds where nothing is given here
+    #[command(flatten)]
+    options: Options,
+}
+
+/// Whether a path is a mesh's by its suffix.
+pub fn is_mesh_file(path: &Path) -> bool {
+    export::format_of(path) == Some(export::Format::Vtu)
+}
+
+/// Reads a mesh file, and its path as it is shown.
+pub fn open(path: &Path) -> Result<(MeshFile, String), Halt> {
+    let shown = path.display().to_string();
+    let bytes = files::read(path).map_err(|e| Halt::Unreadable(format!("{shown}: {e}")))?;
+    match vtu::read(&bytes) {
+        Ok(file) => Ok((file, shown)),
+        Err(error) => {
+            let failure = FailureReport::new(FailureKind::Unreadable, error.what, error.help);
+            let input = Input { path: shown, bytes, format: None, nodes: None };
+            Err(Halt::Failure(Box::new(failure), Some(Box::new(input))))
+        }
+    }
+}
+
+/// Key under which our mesh files say what they were asked for: the options, as in a `--config` file.
+pub const REQUEST_STAMP: &str = "request";
+
+impl Check {
+    pub fn run(self, volume: Volume) -> Result<Exit, Halt> {
+        let (MeshFile { mesh, stamps, notes }, path) = open(&self.mesh)?;
+        let stamped = stamps.iter().find(|(key, _)| key == REQUEST_STAMP).map(|(_, text)| text.as_str());
+        let Resolved { request, input_format } = self.options.resolve_over(stamped.unwrap_or(""))?;
+        let mut report = Report::new(&path, &request);
+        let against = match &self.against {
+            Some(drawing) => Some(against(&Input::open(drawing, input_format)?, &request, &mut report)?),
+            None => None,
+        };
+        let (domain, plan) = against.map_or_else(|| (None, Plan::without_domain(&request)), |(d, p)| (Some(d), p));
+        let verdict = plan.judge(domain.as_ref(), &mesh);
+        report.input.notes.extend(notes);
+        report.mesh = Some(MeshReport::new(&mesh));
+        report.quality = Some(Quality::of(domain.as_ref(), &mesh, &verdict));
+        report.promise = Some(PromiseReport::new(&verdict));
+        if let Some(path) = &self.report {
+            let mut staged = Staged::default();
+            staged.add(path, report.to_json().as_bytes()).and_then(|()| staged.commit()).map_err(unwritable)?;
+        }
+        if volume > Volume::Quiet {
+            let ink = say::Ink::stderr();
+            say::line(&format!("{} {path}: {}", ink.bold("squinch"), say::promise(&verdict, ink)));
+            let shown = verdict.checks.iter().filter(|c| volume == Volume::Verbose || c.status != Status::NotAsked);
+            shown.flat_map(|check| say::check_lines(check, ink)).for_each(|text| say::line(&text));
+        }
+        Ok(if verdict.kept() { Exit::Done } else { Exit::Missed })
+    }
+}
+
+/// The domain that a mesh is to be of, and what is asked of it.
+fn against(input: &Input, request: &Request, report: &mut Report) -> Result<(Domain, Plan), Halt> {
+    remember(input, request);
+    let stages = || {
+        let drawing = pipeline::read(&input.source(), request)?;
+        let arranged = pipeline::arrange(&drawing, request)?;
+        let plan = Plan::new(&drawing, &arranged, request)?;
+        Ok((drawing, arranged, plan))
+    };
+    let (drawing, arranged, plan) =
+        stages().map_err(|failure| Halt::Failure(Box::new(failure), Some(Box::new(input.clone()))))?;
+    report.input.describe(&drawing);
+    report.input.repairs = arranged.repairs().to_vec();
+    report.request.note_use(&drawing, &arranged, &plan);
+    Ok((arranged.split_to_turning(plan.tau_rad), plan))
+}

@@ -1,0 +1,163 @@
+//! `draw IN --stage S -o X.svg|X.png`: a picture of any stage of a drawing, or of a mesh file.
+
+use super::files::{Input, Staged, unwritable};
+use super::options::{Options, Resolved};
+use super::{Halt, Volume, check, remember};
+use clap::{Args, ValueEnum};
+use squinch::canvas::Canvas;
+use squinch::domain::{Domain, Drawing};
+use squinch::export::picture::{MeshColour, PictureOptions, picture_of_domain, picture_of_drawing, picture_of_mesh};
+use squinch::export::{Format, format_of};
+use squinch::geometry::{Point, Rect};
+use squinch::pipeline::{self, Exit, Plan};
+use squinch::report::FailureReport;
+use squinch::request::Request;
+use std::path::PathBuf;
+
+#[derive(Args)]
+pub struct Draw {
+    /// A drawing, or a mesh .vtu; - for standard input
+    #[arg(value_name = "IN")]
+    input: PathBuf,
+    /// What to draw; a mesh file is drawn as it is
+    #[arg(long, value_enum, default_value_t = Stage::Mesh, value_name = "STAGE")]
+    stage: Stage,
+    /// Where the picture goes: .svg or .png; - for standard output, as SVG
+    #[arg(short, long, value_name = "OUT")]
+    output: PathBuf,
+    /// What triangles are coloured by
+    #[arg(long, value_enum, default_value_t = Colour::Quality, value_name = "BY")]
+    colour: Colour,
+    /// The window to show, in the drawing's units [default: all of it]
+    #[arg(long, value_name = "X0,Y0,X1,Y1", value_parser = window, allow_hyphen_values = true)]
+    view: Option<Rect>,
+    /// Width of the picture in pixels
+    #[arg(long, value_name = "PX", default_value_t = 1200, value_parser = clap::value_parser!(u32).range(100..=8192))]
+    width: u32,
+    #[command(flatten)]
+    options: Options,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Stage {
+    /// The curves as found, and where the first flaw is
+    Drawing,
+    /// Welded, split and named: regions, points, sharp corners
+    Domain,
+    /// The domain's curves cut to the largest turning
+    Subcurves,
+    /// The triangulation as soon as every piece of a curve is an edge
+    Triangulation,
+    /// Refined, with the balls that protect sharp corners
+    Refined,
+    /// The mesh as it is written
+    Mesh,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Colour {
+    Quality,
+    Region,
+    Size,
+}
+
+fn window(text: &str) -> Result<Rect, String> {
+    let numbers: Result<Vec<f64>, _> = text.split(',').map(|part| part.trim().parse::<f64>()).collect();
+    match numbers.as_deref() {
+        Ok(&[x0, y0, x1, y1]) if x0 < x1 && y0 < y1 && [x0, y0, x1, y1].iter().all(|x| x.is_finite()) => {
+            Ok(Rect::new(x0, y0, x1, y1))
+        }
+        _ => Err("four numbers X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1 are expected".into()),
+    }
+}
+
+impl Draw {
+    pub fn run(self, _volume: Volume) -> Result<Exit, Halt> {
+        let Resolved { request, input_format } = self.options.resolve()?;
+        let format = match format_of(&self.output) {
+            Some(format @ (Format::Svg | Format::Png)) => format,
+            None if self.output.as_os_str() == "-" => Format::Svg,
+            _ => return Err(Halt::Usage(format!("-o {}: pictures are .svg or .png", self.output.display()))),
+        };
+        let canvas = if check::is_mesh_file(&self.input) {
+            let (file, title) = check::open(&self.input)?;
+            picture_of_mesh(&file.mesh, None, self.mesh_colour(), &self.picture(title, true))
+        } else {
+            let input = Input::open(&self.input, input_format)?;
+            remember(&input, &request);
+            self.stage(&input, &request).map_err(|failure| Halt::Failure(Box::new(failure), Some(Box::new(input))))?
+        };
+        let bytes = match format {
+            Format::Png => canvas.png(1.0),
+            _ => canvas.svg().map(String::into_bytes),
+        };
+        let mut staged = Staged::default();
+        bytes.and_then(|bytes| staged.add(&self.output, &bytes)).and_then(|()| staged.commit()).map_err(unwritable)?;
+        Ok(Exit::Done)
+    }
+
+    fn stage(&self, input: &Input, request: &Request) -> Result<Canvas, FailureReport> {
+        let drawing = pipeline::read(&input.source(), request)?;
+        let arranged = pipeline::arrange(&drawing, request);
+        let picture = self.picture(drawing.title.clone(), self.stage != Stage::Mesh);
+        if self.stage == Stage::Drawing {
+            let marks = arranged.err().and_then(mark).into_iter().collect();
+            return Ok(picture_of_drawing(&drawing, &PictureOptions { marks, ..picture }));
+        }
+        self.stage_of_domain(&drawing, &arranged?, request, &picture)
+    }
+
+    fn stage_of_domain(
+        &self,
+        drawing: &Drawing,
+        arranged: &Domain,
+        request: &Request,
+        picture: &PictureOptions,
+    ) -> Result<Canvas, FailureReport> {
+        if self.stage == Stage::Domain {
+            return Ok(picture_of_domain(arranged, picture));
+        }
+        let plan = Plan::new(drawing, arranged, request)?;
+        let domain = arranged.split_to_turning(plan.tau_rad);
+        if self.stage == Stage::Subcurves {
+            return Ok(picture_of_domain(&domain, picture));
+        }
+        let refined = match self.stage {
+            Stage::Triangulation => plan.conform(&domain)?,
+            _ => plan.refine(&domain, &mut |_| true)?,
+        };
+        let mesh = refined.mesh.ok_or_else(|| pipeline::no_mesh(&refined.stop))?;
+        Ok(picture_of_mesh(&mesh, Some(&domain), self.mesh_colour(), picture))
+    }
+
+    fn mesh_colour(&self) -> MeshColour {
+        match self.colour {
+            Colour::Quality => MeshColour::Quality,
+            Colour::Region => MeshColour::Region,
+            Colour::Size => MeshColour::Size,
+        }
+    }
+
+    fn picture(&self, title: String, balls: bool) -> PictureOptions {
+        PictureOptions { width_px: self.width, view: self.view, balls, title, ..PictureOptions::default() }
+    }
+}
+
+/// Where a flaw is, with what it is.
+fn mark(failure: FailureReport) -> Option<(Point, String)> {
+    let [x, y] = failure.at?;
+    Some((Point::new(x, y), failure.what))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_window_is_four_numbers_in_order() {
+        assert_eq!(window("-1, -2.5,3,4e1"), Ok(Rect::new(-1.0, -2.5, 3.0, 40.0)));
+        for wrong in ["", "1,2,3", "0,0,0,1", "0,1,1,0", "0,0,nan,1", "0,0,1,inf", "0,0,1,1,2"] {
+            assert!(window(wrong).is_err(), "{wrong}");
+        }
+    }
+}

@@ -1,0 +1,134 @@
+//! Files in and out: inputs with their bytes, outputs that are whole or not there.
+
+use super::Halt;
+use squinch::case::Case;
+use squinch::import::Format;
+use squinch::pipeline::Source;
+use squinch::request::Request;
+use std::fs;
+use std::io::{self, Read, Write};
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
+
+/// An input with its bytes.
+#[derive(Clone)]
+pub struct Input {
+    /// As given; `-` for standard input.
+    pub path: String,
+    pub bytes: Vec<u8>,
+    pub format: Option<Format>,
+    /// The `.node` file beside a `.poly` file.
+    pub nodes: Option<Vec<u8>>,
+}
+
+impl Input {
+    /// Reads a file, or standard input for `-`, whose format must be given.
+    pub fn open(path: &Path, format: Option<Format>) -> Result<Self, Halt> {
+        let shown = path.display().to_string();
+        if shown == "-" && format.is_none() {
+            return Err(Halt::Usage("standard input has no suffix: say its format by --input-format".into()));
+        }
+        let bytes = read(path).map_err(|e| Halt::Unreadable(format!("{shown}: {e}")))?;
+        let beside = path.with_extension("node");
+        let nodes = path.extension().filter(|e| e.eq_ignore_ascii_case("poly")).and_then(|_| fs::read(beside).ok());
+        Ok(Self { path: shown, bytes, format, nodes })
+    }
+
+    pub fn source(&self) -> Source<'_> {
+        Source { path: &self.path, bytes: &self.bytes, format: self.format, nodes: self.nodes.as_deref() }
+    }
+
+    pub fn case(&self, outcome: &str, request: &Request) -> Case {
+        Case::new(outcome, &self.source(), request)
+    }
+}
+
+/// The bytes of a file, or of standard input for `-`.
+pub fn read(path: &Path) -> io::Result<Vec<u8>> {
+    if path.as_os_str() != "-" {
+        return fs::read(path);
+    }
+    let mut bytes = Vec::new();
+    io::stdin().lock().read_to_end(&mut bytes)?;
+    Ok(bytes)
+}
+
+/// Temporary files that exist now, for whoever ends the program early.
+static TEMPORARY: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+
+/// Removes every temporary file there is.
+pub fn remove_temporaries() {
+    for path in TEMPORARY.lock().unwrap_or_else(PoisonError::into_inner).drain(..) {
+        let _ = fs::remove_file(path); // nothing better can be done on the way out
+    }
+}
+
+fn forget(path: &Path) {
+    TEMPORARY.lock().unwrap_or_else(PoisonError::into_inner).retain(|p| p != path);
+}
+
+/// Outputs under temporary names: all appear together by [`Staged::commit`], or none does.
+#[derive(Default)]
+pub struct Staged {
+    /// Temporary and final name.
+    files: Vec<(PathBuf, PathBuf)>,
+    /// What goes to standard output.
+    stdout: Vec<u8>,
+}
+
+impl Staged {
+    /// Stages `bytes` for `path`, or for standard output where it is `-`.
+    pub fn add(&mut self, path: &Path, bytes: &[u8]) -> io::Result<()> {
+        if path.as_os_str() == "-" {
+            self.stdout.extend_from_slice(bytes);
+            return Ok(());
+        }
+        let named = |e: io::Error| io::Error::new(e.kind(), format!("{}: {e}", path.display()));
+        // Through a link to the file that it names; a device or a pipe cannot be renamed over.
+        let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+        match fs::metadata(&target) {
+            Ok(there) if there.is_dir() => return Err(named(io::ErrorKind::IsADirectory.into())),
+            Ok(there) if !there.is_file() => return fs::write(&target, bytes).map_err(named),
+            _ => {}
+        }
+        let name = target.file_name().ok_or_else(|| named(io::ErrorKind::InvalidInput.into()))?;
+        let temporary = target.with_file_name(format!(".{}.{}.tmp", name.to_string_lossy(), std::process::id()));
+        TEMPORARY.lock().unwrap_or_else(PoisonError::into_inner).push(temporary.clone());
+        self.files.push((temporary.clone(), target));
+        fs::write(&temporary, bytes).map_err(named)
+    }
+
+    /// Gives every file its name, then writes to standard output.
+    pub fn commit(mut self) -> io::Result<()> {
+        for (temporary, target) in std::mem::take(&mut self.files) {
+            let renamed = fs::rename(&temporary, &target);
+            if renamed.is_err() {
+                let _ = fs::remove_file(&temporary); // the error that counts is the renaming's
+            }
+            forget(&temporary);
+            renamed.map_err(|e| io::Error::new(e.kind(), format!("{}: {e}", target.display())))?;
+        }
+        let mut stdout = io::stdout().lock();
+        stdout.write_all(&self.stdout)?;
+        stdout.flush()
+    }
+}
+
+impl Drop for Staged {
+    fn drop(&mut self) {
+        for (temporary, _) in &self.files {
+            let _ = fs::remove_file(temporary); // it may never have come to exist
+            forget(temporary);
+        }
+    }
+}
+
+/// Prints data to standard output.
+pub fn print(text: &str) -> Result<(), Halt> {
+    let mut staged = Staged::default();
+    staged.add(Path::new("-"), text.as_bytes()).and_then(|()| staged.commit()).map_err(unwritable)
+}
+
+pub fn unwritable(error: io::Error) -> Halt {
+    Halt::Unwritable(error.to_string())
+}

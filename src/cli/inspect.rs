@@ -1,0 +1,252 @@
+//! `inspect IN`: what is in a file, every repair and every flaw with its place.
+
+use super::files::{self, Input};
+use super::options::{Options, Resolved};
+use super::{Halt, Volume, remember, say};
+use clap::Args;
+use serde::Serialize;
+use squinch::domain::{Domain, Drawing, Repair, Skipped};
+use squinch::ids::Id;
+use squinch::pipeline::{self, Exit};
+use squinch::report::{FailureReport, SCHEMA, kinds};
+use std::collections::BTreeMap;
+use std::fmt::Write;
+use std::path::PathBuf;
+
+#[derive(Args)]
+pub struct Inspect {
+    /// A drawing: airfoil .dat, .poly, .node, outline .json; - for standard input
+    #[arg(value_name = "IN")]
+    input: PathBuf,
+    /// As JSON
+    #[arg(long)]
+    json: bool,
+    #[command(flatten)]
+    options: Options,
+}
+
+impl Inspect {
+    pub fn run(self, volume: Volume) -> Result<Exit, Halt> {
+        let Resolved { request, input_format } = self.options.resolve()?;
+        let input = Input::open(&self.input, input_format)?;
+        remember(&input, &request);
+        let drawing = match pipeline::read(&input.source(), &request) {
+            Ok(drawing) => drawing,
+            Err(failure) => return Err(Halt::Failure(Box::new(failure), Some(Box::new(input)))),
+        };
+        let findings = Findings::new(&input.path, &drawing, pipeline::arrange(&drawing, &request));
+        let text = if self.json {
+            serde_json::to_string_pretty(&findings).expect("findings are strings, numbers and lists of them") + "\n"
+        } else {
+            findings.text(volume)
+        };
+        files::print(&text)?;
+        Ok(if findings.flaws.is_empty() { Exit::Done } else { Exit::Geometry })
+    }
+}
+
+/// What was found in a file. Lengths in the drawing's unit.
+#[derive(Serialize)]
+struct Findings {
+    schema: u32,
+    version: &'static str,
+    path: String,
+    format: String,
+    title: String,
+    unit: Option<String>,
+    unit_from: Option<String>,
+    /// x₀, y₀, x₁, y₁.
+    bounds: Option<[f64; 4]>,
+    curves: BTreeMap<&'static str, usize>,
+    points: usize,
+    seeds: usize,
+    boundaries: Vec<Boundary>,
+    /// Absent where the drawing could not be arranged.
+    domain: Option<DomainFindings>,
+    skipped: Vec<Skipped>,
+    notes: Vec<String>,
+    repairs: Vec<Repair>,
+    flaws: Vec<Flaw>,
+}
+
+#[derive(Serialize)]
+struct Boundary {
+    name: String,
+    curves: usize,
+    length: f64,
+}
+
+#[derive(Serialize)]
+struct DomainFindings {
+    points: usize,
+    curves: usize,
+    tolerance: f64,
+    area: f64,
+    regions: Vec<RegionFindings>,
+    acute_corners: usize,
+    smallest_angle: Option<CornerFindings>,
+}
+
+#[derive(Serialize)]
+struct RegionFindings {
+    name: String,
+    area: f64,
+}
+
+#[derive(Serialize)]
+struct CornerFindings {
+    angle_deg: f64,
+    at: [f64; 2],
+    between: [String; 2],
+}
+
+#[derive(Serialize)]
+struct Flaw {
+    what: String,
+    at: Option<[f64; 2]>,
+    help: String,
+}
+
+impl Findings {
+    fn new(path: &str, drawing: &Drawing, arranged: Result<Domain, FailureReport>) -> Self {
+        let (unit, unit_from) = drawing.unit.clone().unzip();
+        let flaws = match &arranged {
+            Ok(domain) => domain.flaws().into_iter().map(|what| Flaw { what, at: None, help: String::new() }).collect(),
+            Err(f) => vec![Flaw { what: f.what.clone(), at: f.at, help: f.help.clone() }],
+        };
+        Self {
+            schema: SCHEMA,
+            version: env!("CARGO_PKG_VERSION"),
+            path: path.to_owned(),
+            format: drawing.format.clone(),
+            title: drawing.title.clone(),
+            unit,
+            unit_from,
+            bounds: drawing.bounds().map(|b| [b.x0, b.y0, b.x1, b.y1]),
+            curves: kinds(drawing),
+            points: drawing.points.len(),
+            seeds: drawing.seeds.len(),
+            boundaries: boundaries(drawing),
+            domain: arranged.as_ref().ok().map(DomainFindings::new),
+            skipped: drawing.skipped.clone(),
+            notes: drawing.notes.clone(),
+            repairs: arranged.as_ref().map(|d| d.repairs().to_vec()).unwrap_or_default(),
+            flaws,
+        }
+    }
+
+    fn text(&self, volume: Volume) -> String {
+        let ink = say::Ink::stdout();
+        let mut text = String::new();
+        let mut row = |name: &str, value: &str| {
+            let _ = writeln!(text, "  {}  {value}", ink.dim(&format!("{name:<8}"))); // a String takes every write
+        };
+        row("title", &self.title);
+        row("format", &self.format);
+        let unit = match (&self.unit, &self.unit_from) {
+            (Some(unit), Some(from)) => format!("{unit} ({from})"),
+            _ => "not known".into(),
+        };
+        row("unit", &unit);
+        if let Some([x0, y0, x1, y1]) = self.bounds {
+            row("bounds", &format!("{} to {}", say::place([x0, y0]), say::place([x1, y1])));
+        }
+        row("curves", &say::kinds(&self.curves));
+        if self.points + self.seeds > 0 {
+            row(
+                "others",
+                &format!(
+                    "{}, {}",
+                    say::plural(self.points, "point", "points"),
+                    say::plural(self.seeds, "seed", "seeds")
+                ),
+            );
+        }
+        for b in &self.boundaries {
+            row(
+                "boundary",
+                &format!(
+                    "{}: {}, length {}",
+                    b.name,
+                    say::plural(b.curves, "curve", "curves"),
+                    say::number(b.length, 9)
+                ),
+            );
+        }
+        if let Some(domain) = &self.domain {
+            domain.rows(&mut row);
+        }
+        for skipped in &self.skipped {
+            row("left out", &format!("{} {}: {}", skipped.count, skipped.entity, skipped.why));
+        }
+        self.notes.iter().for_each(|note| row("note", note));
+        if volume == Volume::Verbose {
+            self.repairs.iter().for_each(|repair| row("repair", &say::repair_line(repair)));
+        } else if !self.repairs.is_empty() {
+            row("repairs", &format!("{} (-v lists them)", say::repair_kinds(&self.repairs)));
+        }
+        for flaw in &self.flaws {
+            let place = flaw.at.map_or_else(String::new, |at| format!(" at {}", say::place(at)));
+            row("flaw", &format!("{}{place}", ink.red(&flaw.what)));
+            if !flaw.help.is_empty() {
+                row("", &flaw.help);
+            }
+        }
+        text
+    }
+}
+
+fn boundaries(drawing: &Drawing) -> Vec<Boundary> {
+    let named = drawing.names.iter().map(|(_, name)| Boundary { name: name.to_owned(), curves: 0, length: 0.0 });
+    let mut boundaries: Vec<_> = named.collect();
+    for drawn in &drawing.curves {
+        let boundary = &mut boundaries[drawn.name.index()];
+        boundary.curves += 1;
+        boundary.length += drawn.curve.length();
+    }
+    boundaries.retain(|b| b.curves > 0);
+    boundaries
+}
+
+impl DomainFindings {
+    fn new(domain: &Domain) -> Self {
+        let corners = || domain.points().ids().filter_map(|p| Some((p, domain.corner(p)?)));
+        let smallest = corners().min_by(|(_, a), (_, b)| a.angle_rad.total_cmp(&b.angle_rad));
+        let name_of = |curve| domain.name(domain.curves()[curve].name).to_owned();
+        Self {
+            points: domain.points().len(),
+            curves: domain.curves().len(),
+            tolerance: domain.tolerance(),
+            area: domain.measure(),
+            regions: domain
+                .regions()
+                .iter()
+                .map(|r| RegionFindings { name: domain.name(r.name).to_owned(), area: r.area })
+                .collect(),
+            acute_corners: domain.points().ids().filter(|&p| domain.is_acute(p)).count(),
+            smallest_angle: smallest.map(|(p, corner)| CornerFindings {
+                angle_deg: corner.angle_rad.to_degrees(),
+                at: [domain.points()[p].x, domain.points()[p].y],
+                between: corner.between.map(name_of),
+            }),
+        }
+    }
+
+    fn rows(&self, row: &mut dyn FnMut(&str, &str)) {
+        let arranged = format!(
+            "{}, {}, welded within {}",
+            say::plural(self.points, "point", "points"),
+            say::plural(self.curves, "curve", "curves"),
+            say::number(self.tolerance, 3)
+        );
+        row("arranged", &arranged);
+        for region in &self.regions {
+            row("region", &format!("{}: area {}", region.name, say::number(region.area, 9)));
+        }
+        if let Some(corner) = &self.smallest_angle {
+            let [a, b] = &corner.between;
+            let (at, n) = (say::place(corner.at), say::count(self.acute_corners));
+            row("corners", &format!("{n} acute; smallest {:.4}° at {at}, {a} and {b}", corner.angle_deg));
+        }
+    }
+}

@@ -1,0 +1,174 @@
+//! The command line: one file a verb, what they share, and the exit code.
+
+mod check;
+mod draw;
+mod files;
+mod inspect;
+mod mesh;
+mod options;
+mod reduce;
+mod replay;
+mod say;
+
+use clap::{Parser, Subcommand};
+use files::{Input, Staged};
+use squinch::case::{self, Case};
+use squinch::pipeline::Exit;
+use squinch::report::FailureReport;
+use squinch::request::Request;
+use std::path::Path;
+use std::process::ExitCode;
+use std::sync::{Mutex, PoisonError};
+
+/// Provably good triangle meshes of domains with curved boundaries, verified after every run.
+#[derive(Parser)]
+#[command(name = "squinch", version, max_term_width = 110, arg_required_else_help = true, after_help = EXIT_CODES)]
+struct Cli {
+    #[command(subcommand)]
+    verb: Verb,
+    /// Only errors
+    #[arg(long, short, global = true, conflicts_with = "verbose")]
+    quiet: bool,
+    /// Also every repair and every check
+    #[arg(long, short, global = true)]
+    verbose: bool,
+}
+
+const EXIT_CODES: &str = "\
+Exit codes:
+  0    done, every promise kept
+  2    usage
+  3    input unreadable
+  4    geometry invalid
+  5    a requested bound missed, or a budget ran out
+  6    output not written
+  70   our bug; a case file was written
+  130  cancelled";
+
+#[derive(Subcommand)]
+enum Verb {
+    /// Read, arrange, mesh, verify, write
+    Mesh(Box<mesh::Mesh>),
+    /// The judge's verdict on a mesh file
+    Check(Box<check::Check>),
+    /// What is in a file: curves, names, regions, corners, every repair and flaw with its place
+    Inspect(Box<inspect::Inspect>),
+    /// A picture of any stage of a file, or of a mesh
+    Draw(Box<draw::Draw>),
+    /// Repeat a recorded run
+    Replay(replay::Replay),
+    /// Shrink a recorded run while it ends the same way
+    Reduce(reduce::Reduce),
+}
+
+/// How much is said on stderr.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Volume {
+    Quiet,
+    Normal,
+    Verbose,
+}
+
+/// What ends a verb early.
+enum Halt {
+    /// All is said.
+    Said(Exit),
+    Usage(String),
+    Unreadable(String),
+    /// Told by a stage, with the file to point into.
+    Failure(Box<FailureReport>, Option<Box<Input>>),
+    Unwritable(String),
+}
+
+/// Parses the arguments and runs the verb. A panic inside becomes a case file and exit code 70.
+pub fn run() -> ExitCode {
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(error) => return usage(error),
+    };
+    // Without a handler Ctrl-C still ends the program, only temporary files would stay.
+    let _ = ctrlc::set_handler(|| {
+        files::remove_temporaries();
+        say::line("cancelled");
+        std::process::exit(Exit::Cancelled as i32);
+    });
+    let volume = match (cli.quiet, cli.verbose) {
+        (true, _) => Volume::Quiet,
+        (_, true) => Volume::Verbose,
+        _ => Volume::Normal,
+    };
+    let exit = match case::caught(|| dispatch(cli.verb, volume)) {
+        Ok(Ok(exit)) => exit,
+        Ok(Err(halt)) => say::halt(halt),
+        Err(panic) => {
+            files::remove_temporaries();
+            say::error(&format!("squinch broke down: {panic}"));
+            write_case(&format!("panic: {panic}"), "panic");
+            Exit::Bug
+        }
+    };
+    ExitCode::from(exit as u8)
+}
+
+fn dispatch(verb: Verb, volume: Volume) -> Result<Exit, Halt> {
+    match verb {
+        Verb::Mesh(verb) => verb.run(volume),
+        Verb::Check(verb) => verb.run(volume),
+        Verb::Inspect(verb) => verb.run(volume),
+        Verb::Draw(verb) => verb.run(volume),
+        Verb::Replay(verb) => verb.run(volume),
+        Verb::Reduce(verb) => verb.run(volume),
+    }
+}
+
+/// Options and verbs of the contract that this version does not have yet.
+const LATER: &[&str] = &[
+    "--size",
+    "--strokes",
+    "--dpi",
+    "--seed",
+    "--steiner",
+    "--delta1",
+    "--delta2",
+    "--mu",
+    "--radius-edge",
+    "--max-volume",
+    "convert",
+    "batch",
+];
+
+fn usage(error: clap::Error) -> ExitCode {
+    use clap::error::{ContextKind, ContextValue};
+    let mut culprits =
+        [ContextKind::InvalidArg, ContextKind::InvalidSubcommand].into_iter().filter_map(|k| error.get(k));
+    let later = culprits.find_map(|culprit| match culprit {
+        ContextValue::String(text) => LATER.iter().find(|later| text.split(['=', ' ']).next() == Some(**later)),
+        _ => None,
+    });
+    match later {
+        Some(later) => say::error(&format!("{later} is not in this version")),
+        // A closed stdout must not turn --help into a panic.
+        None => drop(error.print()),
+    }
+    ExitCode::from(error.exit_code() as u8)
+}
+
+/// The run that is under way, to be recorded should we break down.
+static UNDER_WAY: Mutex<Option<Case>> = Mutex::new(None);
+
+/// Notes what a panic from here on is to be blamed on.
+fn remember(input: &Input, request: &Request) {
+    *UNDER_WAY.lock().unwrap_or_else(PoisonError::into_inner) = Some(input.case("", request));
+}
+
+/// Writes the run under way as `squinch-<kind>-<fingerprint>.case` in the working folder, and says so.
+fn write_case(outcome: &str, kind: &str) {
+    let Some(mut case) = UNDER_WAY.lock().unwrap_or_else(PoisonError::into_inner).take() else { return };
+    let name = format!("squinch-{kind}-{}.case", case.fingerprint());
+    case.outcome = outcome.into();
+    let mut staged = Staged::default();
+    match staged.add(Path::new(&name), case.to_toml().as_bytes()).and_then(|()| staged.commit()) {
+        Ok(()) => say::help(&format!("please send us {name}; `squinch replay {name}` repeats the run")),
+        Err(error) => say::error(&format!("the case file could not be written: {error}")),
+    }
+}

@@ -1,0 +1,247 @@
+//! The options of a run, on the command line and in a `--config` file alike; the command line wins.
+
+use super::Halt;
+use super::say;
+use clap::Args;
+use serde::{Deserialize, Serialize};
+use squinch::import::Format;
+use squinch::pipeline::Exit;
+use squinch::request::{
+    BallShrinking, ChordError, EdgeTurning, Engine, FillChoice, Keep, MaxTurning, Midpoint, Order, Request, SizeOf,
+    Switch, TrailingEdge,
+};
+use std::path::{Path, PathBuf};
+
+/// What a run is asked for. An option that is not given keeps its default.
+#[derive(Args, Clone, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", default, deny_unknown_fields)]
+pub struct Options {
+    /// Options from a TOML file, keys as the long options here; the command line wins
+    #[arg(long, value_name = "FILE.toml", help_heading = "General")]
+    #[serde(skip)]
+    config: Option<PathBuf>,
+    /// Threads; the result does not depend on it [default: all]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..), help_heading = "General")]
+    threads: Option<u64>,
+    /// Format of the input, where suffix and content do not tell: airfoil, poly, node, outline
+    #[arg(long, value_name = "FORMAT", help_heading = "Input")]
+    input_format: Option<String>,
+
+    /// Smallest angle, in degrees; 0: none [default: 20.7]
+    #[arg(long, value_name = "DEG", help_heading = "Bounds")]
+    min_angle: Option<f64>,
+    /// Largest area of a triangle
+    #[arg(long, value_name = "AREA", help_heading = "Bounds")]
+    max_area: Option<f64>,
+    /// Largest length of an edge
+    #[arg(long, value_name = "LENGTH", help_heading = "Bounds")]
+    max_edge: Option<f64>,
+    /// Triangles whose circumradius is below this are not refined for their angles
+    #[arg(long, value_name = "LENGTH", help_heading = "Bounds")]
+    min_edge: Option<f64>,
+    /// Largest distance from mesh boundary to curve: a length, or a share of the drawing's diagonal as in 0.1%
+    #[arg(long, value_name = "LENGTH|E%", help_heading = "Bounds")]
+    chord_error: Option<ChordError>,
+    /// Largest turning of the curve along a mesh edge, in degrees, or off [default: 15]
+    #[arg(long, value_name = "DEG|off", help_heading = "Bounds")]
+    edge_turning: Option<EdgeTurning>,
+    /// Largest length of an edge on the boundary, or in the region, of this name; may be repeated
+    #[arg(long, value_name = "NAME=LENGTH", help_heading = "Bounds")]
+    size_of: Option<Vec<SizeOf>>,
+    /// Growth of a sized boundary's edge length a unit of distance away from it
+    #[arg(long, value_name = "G", help_heading = "Bounds")]
+    grade: Option<f64>,
+    /// Order of the cells [default: 1]
+    #[arg(long, value_name = "1", help_heading = "Bounds")]
+    order: Option<Order>,
+
+    /// Welding distance; 0 heals nothing [default: 1e-9 of the diagonal; ends that meet nothing else: 1e-6 of it]
+    #[arg(long, value_name = "LENGTH", help_heading = "Input")]
+    tolerance: Option<f64>,
+    /// Which faces are inside [default: auto, the file's own rule]
+    #[arg(long, value_enum, value_name = "RULE", help_heading = "Input")]
+    fill_rule: Option<FillChoice>,
+    /// all: adds a box named `box` and keeps every bounded face [default: inside]
+    #[arg(long, value_enum, value_name = "WHAT", help_heading = "Input")]
+    keep: Option<Keep>,
+    /// Unit of the mesh; the drawing's coordinates are converted where their unit is known
+    #[arg(long, value_name = "UNIT", help_heading = "Input")]
+    unit: Option<String>,
+    /// Factor on every coordinate [default: 1]
+    #[arg(long, value_name = "S", help_heading = "Input")]
+    scale: Option<f64>,
+
+    /// Trailing edge of an airfoil [default: keep]
+    #[arg(long, value_enum, value_name = "HOW", help_heading = "Airfoils")]
+    trailing_edge: Option<TrailingEdge>,
+    /// Radius of the far field in chords; 0 meshes the section itself [default: 20]
+    #[arg(long, value_name = "R", help_heading = "Airfoils")]
+    far_field: Option<f64>,
+    /// Angle of incidence in degrees, nose up [default: 0]
+    #[arg(long, value_name = "DEG", allow_negative_numbers = true, help_heading = "Airfoils")]
+    incidence: Option<f64>,
+
+    /// Vertices after which refinement stops [default: 5000000]
+    #[arg(long, value_name = "N", help_heading = "Budget")]
+    max_vertices: Option<u64>,
+    /// Seconds after which refinement stops
+    #[arg(long, value_name = "S", help_heading = "Budget")]
+    timeout: Option<f64>,
+
+    /// Who refines [default: lop, corner lopping]
+    #[arg(long, value_name = "lop", help_heading = "Engine")]
+    engine: Option<Engine>,
+    /// Largest turning of a curve before it is meshed, at most π/3; auto: the largest whose guarantee covers the angle [default: 0.5]
+    #[arg(long, value_name = "RAD|auto", help_heading = "Engine")]
+    max_turning: Option<MaxTurning>,
+    /// Factor by which a protecting ball shrinks, from 0.5 to below 1 [default: 0.95]
+    #[arg(long, value_name = "B", help_heading = "Engine")]
+    beta: Option<f64>,
+    /// Shrink until the ball is clear, or insert at every step as printed in the paper [default: batched]
+    #[arg(long, value_enum, value_name = "HOW", help_heading = "Engine")]
+    ball_shrinking: Option<BallShrinking>,
+    /// Where a curve is split [default: bisector]
+    #[arg(long, value_enum, value_name = "RULE", help_heading = "Engine")]
+    midpoint: Option<Midpoint>,
+    /// Arcs around sharp corners, which bound the largest angle [default: on]
+    #[arg(long, value_enum, value_name = "on|off", help_heading = "Engine")]
+    corner_arcs: Option<Switch>,
+}
+
+/// Keys of [`Options`] that say how to run, not what to make.
+const OUTSIDE: &[&str] = &["threads", "input-format"];
+
+/// Options resolved: what to make, and how to read the input.
+pub struct Resolved {
+    pub request: Request,
+    pub input_format: Option<Format>,
+}
+
+impl Options {
+    /// Defaults, under the config file, under the command line; checked, and the threads set.
+    pub fn resolve(&self) -> Result<Resolved, Halt> {
+        self.resolve_over("")
+    }
+
+    /// As [`Options::resolve`], with a request recorded as TOML between the defaults and the config file.
+    pub fn resolve_over(&self, recorded: &str) -> Result<Resolved, Halt> {
+        let mut asked: toml::Table = recorded.parse().map_err(usage)?;
+        if let Some(path) = &self.config {
+            asked.extend(table(&read_config(path)?));
+        }
+        asked.extend(table(self));
+        let all: Self = toml::Value::Table(asked.clone()).try_into().map_err(usage)?;
+        asked.retain(|key, _| !OUTSIDE.contains(&key));
+        let request: Request = toml::Value::Table(asked).try_into().map_err(usage)?;
+        request.validate().map_err(usage)?;
+        if let Some(threads) = all.threads {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(usize::try_from(threads).unwrap_or(usize::MAX));
+            pool.build_global().map_err(usage)?;
+        }
+        let input_format = all.input_format.as_deref().map(input_format).transpose()?;
+        Ok(Resolved { request, input_format })
+    }
+}
+
+fn usage(error: impl std::fmt::Display) -> Halt {
+    Halt::Usage(error.to_string().trim_end().to_owned())
+}
+
+fn input_format(name: &str) -> Result<Format, Halt> {
+    Format::from_name(name).ok_or_else(|| {
+        let names: Vec<_> = Format::ALL.iter().map(|f| f.name()).collect();
+        Halt::Usage(format!("--input-format {name}: one of {}", names.join(", ")))
+    })
+}
+
+/// What is given, by key.
+fn table(options: &Options) -> toml::Table {
+    toml::Table::try_from(options).expect("options are words, numbers and lists of them")
+}
+
+fn read_config(path: &Path) -> Result<Options, Halt> {
+    let shown = path.display().to_string();
+    let text = std::fs::read_to_string(path).map_err(|e| Halt::Usage(format!("--config {shown}: {e}")))?;
+    toml::from_str(&text).map_err(|error| match error.span() {
+        Some(span) => {
+            say::pointing(error.message(), None, &shown, &text, span);
+            Halt::Said(Exit::Usage)
+        }
+        None => Halt::Usage(format!("--config {shown}: {}", error.message())),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::{CommandFactory, Parser};
+
+    #[derive(Parser)]
+    struct Line {
+        #[command(flatten)]
+        options: Options,
+    }
+
+    #[test]
+    fn every_option_of_a_request_can_be_given_and_nothing_else() {
+        let keys = |table: toml::Table| table.keys().cloned().collect::<std::collections::BTreeSet<_>>();
+        let command = Line::command();
+        let mut given: std::collections::BTreeSet<String> =
+            command.get_arguments().filter_map(|a| a.get_long()).map(str::to_owned).collect();
+        for outside in OUTSIDE.iter().chain(&["config"]) {
+            assert!(given.remove(*outside), "{outside}");
+        }
+        let full = Request {
+            max_area: Some(1.0),
+            max_edge: Some(1.0),
+            min_edge: Some(1.0),
+            chord_error: Some(ChordError::Length(1.0)),
+            grade: Some(1.0),
+            size_of: vec!["a=1".parse().unwrap()],
+            tolerance: Some(0.0),
+            unit: Some("mm".into()),
+            scale: Some(1.0),
+            timeout: Some(1.0),
+            ..Request::default()
+        };
+        assert_eq!(given, keys(toml::Table::try_from(full).unwrap()));
+    }
+
+    #[test]
+    fn what_is_given_reaches_the_request() {
+        let line = Line::parse_from([
+            "x",
+            "--min-angle",
+            "15",
+            "--max-turning",
+            "auto",
+            "--size-of",
+            "a=1",
+            "--size-of",
+            "b=2",
+            "--incidence",
+            "-3",
+            "--fill-rule",
+            "evenodd",
+            "--corner-arcs",
+            "off",
+            "--max-vertices",
+            "1000",
+            "--input-format",
+            "poly",
+            "--chord-error",
+            "1%",
+        ]);
+        let Ok(Resolved { request, input_format }) = line.options.resolve() else { panic!("refused") };
+        assert_eq!(input_format, Some(Format::Poly));
+        assert_eq!(request.min_angle, 15.0);
+        assert_eq!(request.max_turning, MaxTurning::Auto);
+        assert_eq!(request.size_of.len(), 2);
+        assert_eq!(request.incidence, -3.0);
+        assert_eq!(request.fill_rule, FillChoice::EvenOdd);
+        assert_eq!(request.corner_arcs, Switch::Off);
+        assert_eq!(request.max_vertices, 1000);
+        assert_eq!(request.chord_error, Some(ChordError::Percent(1.0)));
+        assert_eq!(request.beta, Request::default().beta);
+    }
+}

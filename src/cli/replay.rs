@@ -1,0 +1,56 @@
+//! `replay CASE`: repeats a recorded run.
+
+use super::files::{self, Input};
+use super::mesh::mesh_with_progress;
+use super::{Halt, Volume, remember, say};
+use clap::Args;
+use squinch::case::Case;
+use squinch::import::Format;
+use squinch::pipeline::{self, Exit, Extent};
+use std::path::{Path, PathBuf};
+
+#[derive(Args)]
+pub struct Replay {
+    /// A case file; - for standard input
+    #[arg(value_name = "CASE")]
+    case: PathBuf,
+    /// Stop after this many steps of the engine, and judge what there is
+    #[arg(long, value_name = "N")]
+    until: Option<u64>,
+}
+
+/// Reads a case file: the record, and its input as if it had been read from a file.
+pub fn open(path: &Path) -> Result<(Case, Input), Halt> {
+    let unreadable = |e: &dyn std::fmt::Display| Halt::Unreadable(format!("{}: {e}", path.display()));
+    let bytes = files::read(path).map_err(|e| unreadable(&e))?;
+    let text = String::from_utf8(bytes).map_err(|e| unreadable(&e))?;
+    let case = Case::from_toml(&text).map_err(|e| unreadable(&e))?;
+    let (bytes, nodes) = case.bytes().map_err(|e| unreadable(&e))?;
+    let format = match &case.input.format {
+        Some(name) => Some(Format::from_name(name).ok_or_else(|| unreadable(&format!("format {name} is not known")))?),
+        None => None,
+    };
+    case.request.validate().map_err(|e| unreadable(&e))?;
+    let input = Input { path: case.input.name.clone(), bytes, format, nodes };
+    Ok((case, input))
+}
+
+impl Replay {
+    pub fn run(self, volume: Volume) -> Result<Exit, Halt> {
+        let (case, input) = open(&self.case)?;
+        remember(&input, &case.request);
+        let outcome = match self.until {
+            Some(steps) => pipeline::run(&input.source(), &case.request, Extent::Steps(steps)),
+            None => mesh_with_progress(&input, &case.request, volume),
+        };
+        if let Some(failure) = &outcome.report.failure {
+            say::failure(failure, Some(&input));
+        }
+        say::summary(&outcome, &[], volume);
+        let ending = pipeline::ending(&outcome);
+        if self.until.is_none() && ending != case.outcome && volume > Volume::Quiet {
+            say::line(&format!("recorded by squinch {}: {}; now: {ending}", case.squinch, case.outcome));
+        }
+        Ok(outcome.exit)
+    }
+}

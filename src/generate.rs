@@ -1,0 +1,212 @@
+//! Seeded hard inputs: complexes of curves that meet at every angle down to zero.
+//!
+//! A complex is a grid of cells in a frame; each cell holds one *motif*, turned and sized at random, so that nothing crosses by accident.
+//! Curves that share a tangent at a point differ there in curvature by at least 0.1 / radius: below it, the separation σ of the pair
+//! asks for more vertices than a test can hold.
+
+use crate::curve::Curve;
+use crate::domain::{Drawing, FillRule};
+use crate::geometry::{Point, Vec2};
+use std::f64::consts::{PI, TAU};
+
+/// A sequence of numbers that depends on its seed alone (SplitMix64, Steele, Lea & Flood 2014).
+#[derive(Clone, Debug)]
+pub struct Dice(u64);
+
+impl Dice {
+    pub fn new(seed: u64) -> Self {
+        Self(seed)
+    }
+
+    fn bits(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    /// A number in `low..high`.
+    pub fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * (self.bits() >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    /// A whole number in `0..n`.
+    pub fn below(&mut self, n: usize) -> usize {
+        (self.bits() % n as u64) as usize
+    }
+}
+
+/// A place to draw in: a turned frame whose unit is the cell's usable radius.
+struct Place {
+    center: Point,
+    radius: f64,
+    turn: f64,
+}
+
+impl Place {
+    /// The point at (x, y) of the frame.
+    fn at(&self, x: f64, y: f64) -> Point {
+        let (s, c) = (libm::sin(self.turn), libm::cos(self.turn));
+        self.center + Vec2::new(c * x - s * y, s * x + c * y) * self.radius
+    }
+}
+
+/// A complex of curves with angles down to zero in a frame; the same seed gives the same drawing.
+pub fn curved_complex(seed: u64) -> Drawing {
+    let mut dice = Dice::new(seed);
+    let cells = 1 + dice.below(3);
+    let mut drawing = Drawing { format: "generated".into(), fill: FillRule::Regions, ..Drawing::default() };
+    let size = cells as f64 * 2.2;
+    frame(&mut drawing, &mut dice, size);
+    for i in 0..cells {
+        for j in 0..cells {
+            let center = Point::new(2.2 * (i as f64 + 0.5), 2.2 * (j as f64 + 0.5));
+            let place = Place { center, radius: dice.between(0.5, 1.0), turn: dice.between(0.0, TAU) };
+            motif(&mut drawing, &mut dice, &place);
+        }
+    }
+    drawing
+}
+
+/// A square of side `size`, or one with a bulging side.
+fn frame(drawing: &mut Drawing, dice: &mut Dice, size: f64) {
+    let corners = [(0.0, 0.0), (size, 0.0), (size, size), (0.0, size)].map(|(x, y)| Point::new(x, y));
+    for i in 0..4 {
+        let bulge = if dice.below(3) == 0 { dice.between(0.05, 0.6) } else { 0.0 };
+        add(drawing, Curve::bulge(corners[i], corners[(i + 1) % 4], bulge), "frame");
+    }
+}
+
+fn add<E: std::fmt::Debug>(drawing: &mut Drawing, curve: Result<Curve, E>, name: &str) {
+    let entity = format!("curve {}", drawing.curves.len());
+    drawing.add(curve.expect("a generated curve is sound"), name, entity);
+}
+
+fn motif(drawing: &mut Drawing, dice: &mut Dice, place: &Place) {
+    match dice.below(9) {
+        0 => tangent_circles(drawing, dice, place),
+        1 => tangent_fan(drawing, dice, place),
+        2 => lens(drawing, dice, place),
+        3 => tangent_cubics(drawing, dice, place),
+        4 => blob(drawing, dice, place),
+        5 => wedge(drawing, dice, place),
+        6 => ellipse_and_chord(drawing, dice, place),
+        7 => half_disk(drawing, dice, place),
+        _ => spline_and_point(drawing, dice, place),
+    }
+}
+
+/// Two circles that touch from inside or outside.
+fn tangent_circles(drawing: &mut Drawing, dice: &mut Dice, place: &Place) {
+    let inner = dice.below(2) == 0;
+    let (r, s) = if inner { (0.9, dice.between(0.2, 0.8)) } else { (0.45, dice.between(0.15, 0.45)) };
+    let first = if inner { 0.0 } else { -0.45 };
+    let second = if inner { r - s } else { s };
+    let touch = place.at(first + r, 0.0);
+    for (center, radius) in [(first, r), (second, s)] {
+        let arc = circle_from(place, center, radius, if inner || center == first { 0.0 } else { PI });
+        add(drawing, arc.map(|c| c.with_ends(touch, touch)), "circle");
+    }
+}
+
+/// A circle centered on the frame's x axis that starts at an angle of the frame.
+fn circle_from(place: &Place, x: f64, radius: f64, start: f64) -> Result<Curve, crate::curve::CurveError> {
+    Curve::arc(place.at(x, 0.0), radius * place.radius, place.turn + start, TAU)
+}
+
+/// Arcs that leave one point along one tangent, each with its own curvature.
+fn tangent_fan(drawing: &mut Drawing, dice: &mut Dice, place: &Place) {
+    let k = 2 + dice.below(4);
+    let root = place.at(-0.8, 0.0);
+    for i in 0..k {
+        let curvature = (i as f64 - (k - 1) as f64 / 2.0) * dice.between(0.3, 0.6);
+        let length = dice.between(0.8, 1.4);
+        // End of the arc of that curvature and length that leaves the root along +x of the frame.
+        let half = curvature * length / 2.0;
+        let chord = if half.abs() < 1e-9 { length } else { length * libm::sin(half) / half };
+        let end = place.at(-0.8 + chord * libm::cos(half), chord * libm::sin(half));
+        add(drawing, Curve::bulge(root, end, libm::tan(half / 2.0)), "fan");
+    }
+}
+
+/// Two arcs with both ends in common, at a small or zero angle.
+fn lens(drawing: &mut Drawing, dice: &mut Dice, place: &Place) {
+    let (a, b) = (place.at(-0.8, 0.0), place.at(0.8, 0.0));
+    let low = dice.between(0.0, 0.3);
+    let high = low + dice.between(0.02, 0.3);
+    add(drawing, Curve::bulge(a, b, low), "lens");
+    add(drawing, Curve::bulge(a, b, high), "lens");
+}
+
+/// Cubics tangent to a line at one point: y = c·x² there.
+fn tangent_cubics(drawing: &mut Drawing, dice: &mut Dice, place: &Place) {
+    let root = place.at(-0.7, 0.0);
+    add(drawing, Curve::line(root, place.at(0.7, 0.0)), "cubic");
+    for sign in [-1.0, 1.0] {
+        let lift = sign * dice.between(0.2, 0.6);
+        let points = vec![root, place.at(-0.3, 0.0), place.at(0.2, 0.5 * lift), place.at(0.6, lift)];
+        add(drawing, Curve::bezier(points), "cubic");
+    }
+}
+
+/// A closed spline through points round a circle.
+fn blob(drawing: &mut Drawing, dice: &mut Dice, place: &Place) {
+    let n = 5 + dice.below(8);
+    let points: Vec<Point> = (0..n)
+        .map(|i| {
+            let (angle, r) = (TAU * i as f64 / n as f64, dice.between(0.5, 0.9));
+            place.at(r * libm::cos(angle), r * libm::sin(angle))
+        })
+        .collect();
+    add(drawing, Curve::periodic_spline(&points), "blob");
+}
+
+/// Straight segments at a small angle, and an arc across their ends.
+fn wedge(drawing: &mut Drawing, dice: &mut Dice, place: &Place) {
+    let angle = dice.between(0.02, 0.6);
+    let (apex, end) = (place.at(-0.8, 0.0), place.at(0.7, 0.0));
+    let other = place.at(-0.8 + 1.5 * libm::cos(angle), 1.5 * libm::sin(angle) * 0.6);
+    add(drawing, Curve::line(apex, end), "wedge");
+    add(drawing, Curve::line(apex, other), "wedge");
+    if dice.below(2) == 0 {
+        add(drawing, Curve::bulge(end, other, 0.2), "wedge");
+    }
+}
+
+/// An ellipse and a line that touches it at its vertex.
+fn ellipse_and_chord(drawing: &mut Drawing, dice: &mut Dice, place: &Place) {
+    let (a, b) = (0.8, dice.between(0.25, 0.6));
+    let (u, v) = (place.at(a, 0.0) - place.center, place.at(0.0, b) - place.center);
+    let touch = place.at(0.0, b);
+    let ellipse = Curve::ellipse(place.center, u, v, PI / 2.0, TAU);
+    add(drawing, ellipse.map(|c| c.with_ends(touch, touch)), "ellipse");
+    add(drawing, Curve::line(touch, place.at(0.6, b)), "ellipse");
+}
+
+/// A D: an arc and its chord.
+fn half_disk(drawing: &mut Drawing, dice: &mut Dice, place: &Place) {
+    let (a, b) = (place.at(-0.7, -0.3), place.at(0.7, -0.3));
+    add(drawing, Curve::line(a, b), "half disk");
+    add(drawing, Curve::bulge(b, a, dice.between(0.1, 0.9)), "half disk");
+}
+
+/// An open spline, and a point beside it.
+fn spline_and_point(drawing: &mut Drawing, dice: &mut Dice, place: &Place) {
+    let points: Vec<Point> = (0..5).map(|i| place.at(-0.8 + 0.4 * f64::from(i), dice.between(-0.3, 0.3))).collect();
+    add(drawing, Curve::natural_spline(&points), "spline");
+    let at = place.at(0.0, dice.between(0.5, 0.8));
+    drawing.points.push(crate::domain::DrawnPoint { at, name: None, entity: "point".into() });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_seed_gives_the_same_drawing_and_another_seed_another() {
+        let picture = |seed| format!("{:?}", curved_complex(seed));
+        assert_eq!(picture(7), picture(7));
+        assert_ne!(picture(7), picture(8));
+    }
+}

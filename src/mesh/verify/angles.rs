@@ -1,0 +1,315 @@
+//! The Delaunay property, the angles of the triangles, and what excuses a small one.
+
+use super::balls::SoundBall;
+use super::evidence::Evidence;
+use super::tally::Tally;
+use super::{Check, Excuse, Status};
+use crate::domain::Domain;
+use crate::geometry::boxes::BoxHierarchy;
+use crate::geometry::exact::{CircleSide, in_circle};
+use crate::geometry::{Point, Rect};
+use crate::ids::TriangleId;
+use crate::mesh::quality::angle_range;
+use std::f64::consts::{FRAC_PI_2, PI, SQRT_2};
+
+/// The guarantee of the angle rule on straight input, arcsin ¼ = 14.4775° in radians.
+///
+/// Where z encroaches xy, the rule cuts at p with |xp| : |py| = a : b, a = |xz| ≤ b = |yz|. With |xy| = 2 Stewart's
+/// theorem gives |pz|²/|xp|² = (b/a)·((a+b)² − 4)/4, and a² + b² ≤ 4 (z is in the circle) bounds that by b²/2 ≤ 2: η =
+/// √2, approached as a → 0; with ζ = √2, arcsin(1/(2ζη)) = arcsin ¼. No η is known of the rule on curves, so there
+/// nothing is proven.
+pub const ANGLE_RULE_GUARANTEE_RAD: f64 = 0.252_680_255_142_078_65;
+
+/// The κ (radians) below which corner lopping with the bisector rule is proven to end where no curve has a lens angle
+/// above `lambda_rad` (Pav & Walkington 2005, Corollary 3, with λ for τ; 0 ≤ λ ≤ π/3). 20.705° for straight input.
+///
+/// κ < arcsin(1/(2√2μ)) ∧ arcsin(1/(2ζη)) with t = tan(λ/2), η = (1+t)/(1−t), μ = 1/(1−t). Lemma 2's ζ is *corrected*:
+/// the lens' arc has central angle 2λ (the proof has λ), so ζ = √2·sin λ/(sin λ + cos λ − 1), which is √2/(1−t) and so
+/// well defined at λ = 0. (Counterexample to the printed ζ: the chord (±1, 0), the curve bent at (0, tan(λ/2)), and p =
+/// (0, 1).)
+///
+/// Beyond λ = π/2 nothing is guaranteed: 0.
+pub fn guaranteed_angle(lambda_rad: f64) -> f64 {
+    if lambda_rad.is_nan() || lambda_rad >= FRAC_PI_2 {
+        return 0.0;
+    }
+    let t = libm::tan(0.5 * lambda_rad);
+    let (eta, mu, zeta) = ((1.0 + t) / (1.0 - t), 1.0 / (1.0 - t), SQRT_2 / (1.0 - t));
+    libm::asin(1.0 / (2.0 * SQRT_2 * mu)).min(libm::asin(1.0 / (2.0 * zeta * eta)))
+}
+
+/// What κ the theory covers for this domain: whether a bound that holds is proven or merely reached.
+fn status_of_angle_bound(ev: &Evidence, kappa: f64) -> Status {
+    // What theory says of our engine says nothing of a mesh from elsewhere; and triangles left alone for their size are
+    // no part of it.
+    let ours = ev.domain.filter(|_| !ev.promise.foreign && ev.promise.sizing.min_edge.is_none());
+    let covered = |domain: &Domain| {
+        let lens = domain.curves().iter().map(|c| c.curve.lens_angle(0.0, 1.0)).fold(0.0, f64::max);
+        let has_arcs = ev.promise.corner_arcs && domain.points().ids().any(|p| domain.is_acute(p));
+        // A circular arc's lens angle is half its turning.
+        let lens = if has_arcs { lens.max(0.5 * ev.promise.arc_turning_rad) } else { lens };
+        match ev.promise.midpoint_bisector {
+            true => guaranteed_angle(lens),
+            false if lens == 0.0 => ANGLE_RULE_GUARANTEE_RAD,
+            false => 0.0,
+        }
+    };
+    if ours.is_some_and(|domain| kappa < covered(domain)) { Status::Proven } else { Status::Reached }
+}
+
+/// No triangle beside an edge has its far corner inside the circle of the other, exactly. Checked: edges with two
+/// triangles. Worst: the largest sum of the two angles that face an edge, in degrees (180 where all four corners lie on
+/// a circle).
+pub fn delaunay(ev: &Evidence) -> Check {
+    let mut tally = Tally::highest("delaunay");
+    for edge in ev.edges.edges() {
+        let (Some(left), Some(right)) = (edge.left(), edge.right()) else { continue };
+        tally.count();
+        let apex = ev.mesh.triangles[left.triangle][(left.corner + 2) % 3];
+        let across = ev.mesh.triangles[right.triangle][(right.corner + 2) % 3];
+        let at = ev.node(edge.nodes[0]);
+        tally.measure(facing(edge.nodes.map(|v| ev.node(v)), ev.node(apex), ev.node(across)), at);
+        let [x, y] = edge.nodes.map(|v| ev.signs[v]);
+        if in_circle(x, y, ev.signs[apex], ev.signs[across]) == CircleSide::Inside {
+            tally.flaw(|| {
+                format!(
+                    "node {} lies inside the circle of {} across {}",
+                    across.0,
+                    ev.tell(left.triangle),
+                    ev.tell_edge(edge.nodes)
+                )
+            });
+        }
+    }
+    tally.finish(Status::Proven)
+}
+
+/// Sum of the angles at `a` and `b` that face the edge `x y` from its left and right, in degrees.
+fn facing([x, y]: [Point; 2], a: Point, b: Point) -> f64 {
+    let (at_a, at_b) = (((x - a).cross(y - a), (x - a).dot(y - a)), ((y - b).cross(x - b), (y - b).dot(x - b)));
+    // Adding angles is multiplying complex numbers; the sum of two angles of triangles lies within 0..2π.
+    let (sin, cos) = (at_a.0 * at_b.1 + at_a.1 * at_b.0, at_a.1 * at_b.1 - at_a.0 * at_b.0);
+    let angle = libm::atan2(sin, cos).to_degrees();
+    if angle < -90.0 { angle + 360.0 } else { angle }
+}
+
+/// Engine and judge compute an angle by different formulas, each a few ε off times at most 1/κ; in radians.
+const ANGLE: f64 = 1e-12;
+
+/// Where asked: every triangle has all angles ≥ κ, or a corner excuses it (Lemma 6; with corner arcs: all three of its
+/// nodes lie in one ball). Worst: the smallest angle without excuse, in degrees. Also returns the excuses, by ball.
+pub fn min_angle(ev: &Evidence, balls: &[SoundBall]) -> (Check, Vec<Excuse>) {
+    let Some(kappa) = ev.promise.angle_min_rad else { return (Check::not_asked("min_angle"), Vec::new()) };
+    let mut tally = Tally::lowest("min_angle");
+    let corners = Corners::new(ev, balls);
+    let mut cells: Vec<Vec<u32>> = vec![Vec::new(); balls.len()];
+    let mut too_small = Vec::new();
+    for t in ev.mesh.triangles.ids() {
+        tally.count();
+        let (least, _) = angle_range(ev.mesh.corners(t));
+        if least < kappa - ANGLE {
+            if let Some(ball) = corners.excuse(t) {
+                cells[ball].push(t.0);
+                continue;
+            }
+            if is_below_min_edge(ev, t) {
+                too_small.push(t);
+                continue;
+            }
+            tally.flaw(|| format!("{} has an angle of {}°", ev.tell(t), least.to_degrees()));
+        }
+        tally.measure(least.to_degrees(), ev.node(ev.mesh.triangles[t][0]));
+    }
+    let by_ball = balls.iter().zip(cells).filter(|(_, cells)| !cells.is_empty());
+    let mut excused: Vec<Excuse> = by_ball
+        .map(|(b, cells)| Excuse { at: [b.center.x, b.center.y], radius: b.radius, why: b.why, cells })
+        .collect();
+    excused.extend(excuse_of_min_edge(ev, &too_small));
+    (tally.finish(status_of_angle_bound(ev, kappa)), excused)
+}
+
+/// The user's own wish: triangles with a circumradius below `min_edge` are not refined for their angles.
+fn is_below_min_edge(ev: &Evidence, t: TriangleId) -> bool {
+    let limit = ev.promise.sizing.min_edge.unwrap_or(0.0);
+    Circle::around(ev.mesh.corners(t)).is_some_and(|c| c.radius <= limit)
+}
+
+fn excuse_of_min_edge(ev: &Evidence, too_small: &[TriangleId]) -> Option<Excuse> {
+    let at = ev.centroid(*too_small.first()?);
+    let radius = ev.promise.sizing.min_edge?;
+    Some(Excuse { at: [at.x, at.y], radius, why: "min_edge", cells: too_small.iter().map(|t| t.0).collect() })
+}
+
+/// With corner arcs: no angle of any triangle, excused or not, is above max(180° − 2κ, 90°) (section 6). Worst in
+/// degrees.
+pub fn max_angle(ev: &Evidence) -> Check {
+    let Some(kappa) = ev.promise.angle_min_rad.filter(|_| ev.promise.corner_arcs) else {
+        return Check::not_asked("max_angle");
+    };
+    let mut tally = Tally::highest("max_angle");
+    let limit = (PI - 2.0 * kappa).max(FRAC_PI_2) + ANGLE;
+    for t in ev.mesh.triangles.ids() {
+        let corners = ev.mesh.corners(t);
+        let (_, most) = angle_range(corners);
+        // Nodes rounded by `rounding` each turn an edge of length l by 2·rounding/l: all that matters at a cusp.
+        let slack = || 2.0 * ev.rounding / shortest_edge(corners);
+        if most > limit && is_below_min_edge(ev, t) {
+            tally.exempt();
+            continue;
+        }
+        tally.count();
+        tally.measure(most.to_degrees(), ev.node(ev.mesh.triangles[t][0]));
+        if most > limit && most > limit + slack() {
+            tally.flaw(|| format!("{} has an angle of {}°", ev.tell(t), most.to_degrees()));
+        }
+    }
+    tally.finish(status_of_angle_bound(ev, kappa))
+}
+
+fn shortest_edge([a, b, c]: [Point; 3]) -> f64 {
+    a.distance(b).min(b.distance(c)).min(c.distance(a))
+}
+
+/// The balls, found by place.
+struct Corners<'a> {
+    ev: &'a Evidence<'a>,
+    balls: &'a [SoundBall],
+    hierarchy: BoxHierarchy,
+}
+
+/// Engine and judge each round a circumcenter; 1e-9 of the radius is above either for angles down to 1e-6, and what is
+/// thinner gets the rounding of its own circle on top.
+const CENTER: f64 = 1e-9;
+
+impl<'a> Corners<'a> {
+    fn new(ev: &'a Evidence<'a>, balls: &'a [SoundBall]) -> Self {
+        let boxes = balls.iter().map(|b| {
+            let side = 2.0 * (b.radius * (1.0 + CENTER) + ev.rounding);
+            Rect::from_center_size(b.center, (side, side))
+        });
+        Self { ev, balls, hierarchy: BoxHierarchy::new(boxes) }
+    }
+
+    /// The ball that excuses a triangle.
+    fn excuse(&self, t: TriangleId) -> Option<usize> {
+        let corners = self.ev.mesh.corners(t);
+        if self.ev.promise.corner_arcs { self.holding(&corners) } else { self.over(Circle::around(corners)?) }
+    }
+
+    /// The ball in which all corners lie, up to the rounding of nodes that were placed on its rim.
+    fn holding(&self, corners: &[Point; 3]) -> Option<usize> {
+        // 1e-12 as for the radius itself; the rim's points are rounded where they lie.
+        let reach = |ball: &SoundBall| ball.radius * (1.0 + 1e-12) + self.ev.rounding;
+        self.find(Rect::from_points(corners[0], corners[0]), |ball| {
+            corners.iter().all(|c| c.distance(ball.center) <= reach(ball))
+        })
+    }
+
+    /// The open ball that holds the circle's centre, up to what rounding does to it.
+    fn over(&self, circle: Circle) -> Option<usize> {
+        let at = circle.center;
+        self.find(Rect::from_points(at, at).inflate(circle.error, circle.error), |ball| {
+            at.distance(ball.center) < ball.radius * (1.0 + CENTER) + circle.error
+        })
+    }
+
+    fn find(&self, near: Rect, holds: impl Fn(&SoundBall) -> bool) -> Option<usize> {
+        let mut found = None;
+        self.hierarchy.meeting(near, |i| {
+            if holds(&self.balls[i]) {
+                found = Some(i);
+            }
+            found.is_none()
+        });
+        found
+    }
+}
+
+/// A triangle's circumcircle, and how far rounding may have moved its centre.
+struct Circle {
+    center: Point,
+    radius: f64,
+    error: f64,
+}
+
+impl Circle {
+    /// `None` where the corners lie on a line.
+    fn around([a, b, c]: [Point; 3]) -> Option<Self> {
+        let (u, v) = (b - a, c - a);
+        let (uu, vv, cross) = (u.hypot2(), v.hypot2(), u.cross(v));
+        let to_center = crate::geometry::Vec2::new(v.y * uu - u.y * vv, u.x * vv - v.x * uu) / (2.0 * cross);
+        let radius = to_center.hypot();
+        let (least, _) = angle_range([a, b, c]);
+        // The cross product of edges that meet at an angle θ is a few ε/sin θ off, and the centre as much of the
+        // radius.
+        let error = 16.0 * f64::EPSILON * radius / libm::sin(least).abs();
+        (radius.is_finite() && error.is_finite()).then_some(Self { center: a + to_center, radius, error })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn guarantees_are_those_of_the_corrected_theory() {
+        // τ, degrees guaranteed for any curve (λ = τ), and for circular arcs (λ = τ/2).
+        let table = [
+            (0.0, 20.705, 20.705),
+            (0.02, 20.065, 20.382),
+            (0.1, 17.689, 19.141),
+            (0.2, 15.074, 17.689),
+            (0.5, 8.985, 13.893),
+            (PI / 3.0, 2.295, 8.594),
+        ];
+        for (tau, any, arcs) in table {
+            // The table has three decimals.
+            approx::assert_abs_diff_eq!(guaranteed_angle(tau).to_degrees(), any, epsilon = 5e-4);
+            approx::assert_abs_diff_eq!(guaranteed_angle(0.5 * tau).to_degrees(), arcs, epsilon = 5e-4);
+        }
+    }
+
+    #[test]
+    fn the_short_form_of_zeta_is_the_printed_one_with_twice_the_angle() {
+        for lambda in [0.02, 0.1, 0.5, PI / 3.0] {
+            let zeta = SQRT_2 * libm::sin(lambda) / (libm::sin(lambda) + libm::cos(lambda) - 1.0);
+            approx::assert_relative_eq!(zeta, SQRT_2 / (1.0 - libm::tan(0.5 * lambda)), max_relative = 1e-12);
+        }
+        assert_eq!(guaranteed_angle(2.0), 0.0);
+    }
+
+    #[test]
+    fn the_angle_rule_on_a_segment_has_eta_of_at_most_root_two_and_nearly_attains_it() {
+        let (x, y) = (Point::new(-1.0, 0.0), Point::new(1.0, 0.0));
+        let mut largest: f64 = 0.0;
+        for i in 1..400 {
+            for j in 1..400 {
+                // Denser towards the circle and the end y, where the ratio is largest.
+                let (u, v) = (f64::from(i) / 400.0, f64::from(j) / 400.0);
+                let (r, phi) = (1.0 - u * u * u, PI * v * v);
+                let z = Point::new(r * libm::cos(phi), r * libm::sin(phi));
+                let (a, b) = (z.distance(x), z.distance(y));
+                let p = x.lerp(y, a / (a + b));
+                if (x - z).dot(y - z) < 0.0 {
+                    largest = largest.max(p.distance(z) / (1.0 - p.x.abs()));
+                }
+            }
+        }
+        // The nearest z lies 2e-5 from y, so that 1 − |p.x| keeps eleven digits.
+        assert!(largest < SQRT_2 + 1e-9 && largest > 1.4, "{largest}");
+        approx::assert_abs_diff_eq!(ANGLE_RULE_GUARANTEE_RAD, libm::asin(0.25), epsilon = 1e-15);
+    }
+
+    #[test]
+    fn a_circle_passes_through_its_triangle_wherever_it_lies() {
+        for (scale, offset) in [(1.0, 0.0), (1e-6, 1.0), (1e7, -1e9)] {
+            let at = |x: f64, y: f64| Point::new(offset + scale * x, offset + scale * y);
+            let corners = [at(0.0, 0.0), at(1.0, 0.0), at(0.3, 0.01)];
+            let circle = Circle::around(corners).unwrap();
+            for c in corners {
+                approx::assert_relative_eq!(c.distance(circle.center), circle.radius, max_relative = 1e-8);
+            }
+        }
+        assert!(Circle::around([Point::ZERO, Point::new(1.0, 1.0), Point::new(2.0, 2.0)]).is_none());
+    }
+}

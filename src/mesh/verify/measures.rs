@@ -1,0 +1,245 @@
+//! Sizes, areas and names.
+
+use super::evidence::{Evidence, is_kept};
+use super::tally::Tally;
+use super::{Check, Status};
+use crate::domain::Domain;
+use crate::geometry::{Point, Vec2};
+use crate::ids::{Id, NameId, RegionId};
+use crate::mesh::quality;
+use crate::size::Source;
+
+/// A length is measured from rounded coordinates: a few ε, and 1e-12 is thousands of them.
+const MEASURED: f64 = 1.0 + 1e-12;
+
+/// Where asked: no cell exceeds a limit: edges against `max_edge` and the sources, areas against `max_area` and the
+/// regions' own limits. Checked: triangles and listed edges. Worst: the largest size, in limits.
+pub fn size(ev: &Evidence) -> Check {
+    let limits = Limits::of(ev);
+    if !limits.any() {
+        return Check::not_asked("size");
+    }
+    let mut tally = Tally::highest("size");
+    for t in ev.mesh.triangles.ids() {
+        tally.count();
+        let corners = ev.mesh.corners(t);
+        let region = ev.mesh.triangle_regions[t];
+        let excess = limits.excess_of_triangle(corners, region);
+        tally.measure(excess, corners[0]);
+        if excess > MEASURED {
+            tally.flaw(|| format!("{} is {excess} times as large as asked for", ev.tell(t)));
+        }
+    }
+    for edge in &ev.mesh.edges {
+        tally.count();
+        let [a, b] = edge.nodes.map(|v| ev.node(v));
+        let excess = a.distance(b) / limits.boundary[edge.name.index()];
+        tally.measure(excess, a);
+        if excess > MEASURED {
+            tally.flaw(|| format!("{} is {excess} times as long as asked for", ev.tell_edge(edge.nodes)));
+        }
+    }
+    tally.finish(Status::Proven)
+}
+
+/// Every limit that was asked for, ready to be compared; infinite where there is none.
+struct Limits {
+    /// Longest edge and largest area by region of the mesh.
+    region: Vec<(f64, f64)>,
+    /// Longest edge by name.
+    boundary: Vec<f64>,
+    near: Vec<Near>,
+}
+
+struct Near {
+    from: Point,
+    to: Point,
+    edge: f64,
+    grade: f64,
+}
+
+impl Limits {
+    fn of(ev: &Evidence) -> Self {
+        let sizing = &ev.promise.sizing;
+        let (edge, area) = (sizing.max_edge.unwrap_or(f64::INFINITY), sizing.max_area.unwrap_or(f64::INFINITY));
+        let names: Vec<NameId> = ev.mesh.names.iter().map(|(id, _)| id).collect();
+        let mut limits = Self {
+            region: vec![(edge, area); ev.mesh.regions.len()],
+            boundary: vec![f64::INFINITY; names.len()],
+            near: Vec::new(),
+        };
+        for source in &sizing.sources {
+            limits.add(ev, source);
+        }
+        if let Some(domain) = ev.domain {
+            limits.add_areas_of_regions(ev, domain);
+        }
+        limits
+    }
+
+    fn add(&mut self, ev: &Evidence, source: &Source) {
+        match source {
+            Source::Boundary { name, edge } => {
+                if let Some(id) = ev.mesh.names.find(name) {
+                    self.boundary[id.index()] = self.boundary[id.index()].min(*edge);
+                }
+            }
+            Source::Region { name, edge } => {
+                for (limit, id) in self.region.iter_mut().zip(ev.mesh.regions.iter()) {
+                    if ev.mesh.names.text(*id) == name {
+                        limit.0 = limit.0.min(*edge);
+                    }
+                }
+            }
+            &Source::Near { from, to, edge, grade } => self.near.push(Near { from, to, edge, grade }),
+        }
+    }
+
+    /// The drawing's own area limits; of several regions of one name, the largest holds.
+    fn add_areas_of_regions(&mut self, ev: &Evidence, domain: &Domain) {
+        for (limit, &class) in self.region.iter_mut().zip(ev.classes.of_mesh.iter()) {
+            let same = domain.regions().enumerate().filter(|(id, _)| ev.classes.of_domain[*id] == class);
+            let largest = same.map(|(_, r)| r.max_area.unwrap_or(f64::INFINITY)).reduce(f64::max);
+            limit.1 = limit.1.min(largest.unwrap_or(f64::INFINITY));
+        }
+    }
+
+    fn any(&self) -> bool {
+        let asked = |v: f64| v < f64::INFINITY;
+        self.region.iter().any(|r| asked(r.0) || asked(r.1))
+            || self.boundary.iter().any(|&b| asked(b))
+            || !self.near.is_empty()
+    }
+
+    /// The triangle's size over its tightest limit.
+    fn excess_of_triangle(&self, corners: [Point; 3], region: RegionId) -> f64 {
+        let [a, b, c] = corners;
+        let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
+        let (edge, area) = self.region[region.index()];
+        let near = self.near.iter().map(|n| n.limit_over(corners)).fold(edge, f64::min);
+        (longest / near).max(quality::area(corners) / area)
+    }
+}
+
+impl Near {
+    /// The largest limit within a triangle: distance from a segment is convex, so it is met at a corner.
+    fn limit_over(&self, corners: [Point; 3]) -> f64 {
+        let farthest = corners.iter().map(|&p| self.distance(p)).fold(0.0, f64::max);
+        self.edge + self.grade * farthest
+    }
+
+    fn distance(&self, p: Point) -> f64 {
+        let along: Vec2 = self.to - self.from;
+        let t = ((p - self.from).dot(along) / along.hypot2()).clamp(0.0, 1.0);
+        p.distance(if t.is_nan() { self.from } else { self.from + along * t })
+    }
+}
+
+/// For every region name: the triangles' area and that between the chords and their curves add up to what the curves
+/// enclose. Checked: region names. Worst: the largest difference.
+pub fn area(ev: &Evidence, domain: &Domain) -> Check {
+    let mut tally = Tally::highest("area");
+    let mut sums = vec![Sums::default(); ev.classes.names.len()];
+    for t in ev.mesh.triangles.ids() {
+        sums[ev.class(t) as usize].triangles += quality::area(ev.mesh.corners(t));
+    }
+    for (id, region) in domain.regions().enumerate() {
+        sums[ev.classes.of_domain[id] as usize].asked += region.area;
+    }
+    add_lenses(ev, domain, &mut sums);
+    let bounds = domain.bounds();
+    for (name, sum) in ev.classes.names.iter().zip(sums) {
+        tally.count();
+        let off = (sum.triangles + sum.lenses - sum.asked).abs();
+        tally.measure(off, bounds.center());
+        // Sums of a million rounded terms keep about nine digits of the box at worst; a rim that moved by the weld or
+        // by rounding sweeps its own length times that.
+        let slack = 1e-9 * bounds.area() + (domain.tolerance() + ev.rounding) * sum.rim;
+        if off.is_nan() || off > slack {
+            let (has, asked) = (sum.triangles + sum.lenses, sum.asked);
+            tally.flaw(|| format!("\"{name}\" covers {has} with its curves, but they enclose {asked}"));
+        }
+    }
+    tally.finish(Status::Proven)
+}
+
+#[derive(Clone, Default)]
+struct Sums {
+    triangles: f64,
+    /// Between chords and curves, counted positive where the curve bulges out of the triangles.
+    lenses: f64,
+    asked: f64,
+    rim: f64,
+}
+
+/// Adds what lies between each curve and its chords to the region on its left, and takes it from the one on its right.
+fn add_lenses(ev: &Evidence, domain: &Domain, sums: &mut [Sums]) {
+    let side = |curve: usize, side: usize| {
+        domain.curves().as_slice()[curve].sides[side].map(|r| ev.classes.of_domain[r] as usize)
+    };
+    for (id, curve) in domain.curves().enumerate().filter(|(_, c)| is_kept(c.sides)) {
+        // Green about the curve's own start, so that an offset costs no digits.
+        let green = curve.curve.green(curve.curve.start());
+        let length = curve.curve.length();
+        for (s, sign) in [(0, 1.0), (1, -1.0)] {
+            if let Some(class) = side(id.index(), s) {
+                sums[class].lenses += sign * green;
+                sums[class].rim += length;
+            }
+        }
+    }
+    for piece in &ev.pieces {
+        let origin = domain.curves()[piece.curve].curve.start();
+        let [a, b] = piece.nodes.map(|v| ev.node(v) - origin);
+        for (s, sign) in [(0, 1.0), (1, -1.0)] {
+            if let Some(class) = side(piece.curve.index(), s) {
+                sums[class].lenses -= sign * 0.5 * a.cross(b);
+            }
+        }
+    }
+}
+
+/// Every region name and every name of a curve with a kept side is in the mesh, and each edge on a curve has the
+/// curve's name. n/a of a foreign mesh without names. Checked: names and edges.
+pub fn names(ev: &Evidence, domain: &Domain) -> Check {
+    let mesh = ev.mesh;
+    if ev.promise.foreign && mesh.edges.is_empty() && mesh.regions.len() <= 1 {
+        return Check::not_asked("names");
+    }
+    let mut tally = Tally::highest("names");
+    let mut has_cells = vec![false; mesh.names.iter().count()];
+    mesh.triangle_regions.iter().for_each(|&r| has_cells[mesh.regions[r].index()] = true);
+    let mut has_edges = vec![false; has_cells.len()];
+    mesh.edges.iter().for_each(|e| has_edges[e.name.index()] = true);
+    let is_in = |list: &[bool], text: &str| mesh.names.find(text).is_some_and(|id| list[id.index()]);
+    for name in distinct(domain.regions().iter().map(|r| r.name)) {
+        tally.count();
+        let name = domain.name(name);
+        if !is_in(&has_cells, name) {
+            tally.flaw(|| format!("no triangle is of the region \"{name}\""));
+        }
+    }
+    for name in distinct(domain.curves().iter().filter(|c| is_kept(c.sides)).map(|c| c.name)) {
+        tally.count();
+        let name = domain.name(name);
+        if !is_in(&has_edges, name) {
+            tally.flaw(|| format!("no edge is of the boundary \"{name}\""));
+        }
+    }
+    for piece in &ev.pieces {
+        let asked = domain.name(domain.curves()[piece.curve].name);
+        let Some(has) = piece.name.map(|n| mesh.names.text(n)) else { continue };
+        tally.count();
+        if has != asked {
+            tally.flaw(|| format!("{} is of \"{has}\", its curve of \"{asked}\"", ev.tell_edge(piece.nodes)));
+        }
+    }
+    tally.finish(Status::Proven)
+}
+
+fn distinct(names: impl Iterator<Item = NameId>) -> Vec<NameId> {
+    let mut list: Vec<NameId> = names.collect();
+    list.sort_unstable();
+    list.dedup();
+    list
+}

@@ -1,0 +1,192 @@
+//! The judge: (Domain, Mesh, Promise) → Verdict. It shares with the kernels only what lies below them, and believes
+//! nothing.
+//!
+//! Links between nodes and curves are evaluated again, balls are measured against the domain, edges are counted from
+//! the triangles. What the single checks say adds up: every triangle runs counter-clockwise (*orientation*), every edge
+//! has at most one triangle on either side (*manifold*), and the edges at which a region ends are exactly the chords of
+//! its curves, each once and with the region on the right side (*conforming*, *curve_chain*). The number of triangles
+//! of a region that cover a point is therefore the winding number of the chords around it; and since no two chords
+//! cross (*conforming*) and none has a node on it (*empty_diametral*), that number is 0 or 1: the triangles tile the
+//! region, without overlap. Locally Delaunay edges (*delaunay*) and empty diametral circles at the rim then make the
+//! tiling Delaunay as a whole.
+//!
+//! **Proven or reached.** A check of the output is `proven` where it holds, since nothing is left to believe. The angle
+//! bounds are `proven` only where [`guaranteed_angle`] covers κ, so that no input of that turning could have missed it;
+//! else `reached`.
+//!
+//! Signs come from [`crate::geometry::exact`] on coordinates scaled to unit magnitude; everything measured is plain
+//! `f64` and its tolerance is derived where it stands.
+
+mod angles;
+mod balls;
+mod curves;
+mod edges;
+mod evidence;
+mod measures;
+mod tally;
+mod topology;
+
+pub use angles::{ANGLE_RULE_GUARANTEE_RAD, guaranteed_angle};
+
+use super::Mesh;
+use crate::domain::Domain;
+use crate::size::Sizing;
+use evidence::Evidence;
+use tally::Tally;
+
+/// What a mesh is held to.
+#[derive(Clone, Debug)]
+pub struct Promise {
+    /// κ, the smallest angle asked for; `None`: not asked.
+    pub angle_min_rad: Option<f64>,
+    /// τ of the split.
+    pub tau_rad: f64,
+    pub beta: f64,
+    /// Whether corner arcs were on: which excuse holds, and C₀.
+    pub corner_arcs: bool,
+    /// Largest turning of a corner arc (for what is proven).
+    pub arc_turning_rad: f64,
+    /// The bisector rule (whose η, μ are known), or the angle rule (η ≥ √2).
+    pub midpoint_bisector: bool,
+    pub sizing: Sizing,
+    /// A mesh from elsewhere: no links to curves, balls taken as (√2−1)·lfs₀.
+    pub foreign: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Status {
+    Proven,
+    Reached,
+    Broken,
+    #[serde(rename = "n/a")]
+    NotAsked,
+}
+
+/// One check of the verdict.
+#[derive(Clone, Debug, serde::Serialize)]
+pub struct Check {
+    pub name: &'static str,
+    pub status: Status,
+    /// How many things were checked, and how many failed.
+    pub checked: usize,
+    pub broken: usize,
+    /// How many things the check does not apply to, for a reason that stands elsewhere (balls that a size limit
+    /// capped).
+    #[serde(skip_serializing_if = "is_zero")]
+    pub exempt: usize,
+    /// The worst value met, and where.
+    pub worst: Option<Worst>,
+    /// Sentences with culprits, for people; the first few.
+    #[serde(skip)]
+    pub flaws: Vec<String>,
+}
+
+#[derive(Clone, Copy, Debug, serde::Serialize)]
+pub struct Worst {
+    pub value: f64,
+    pub at: [f64; 2],
+}
+
+/// Triangles below the angle that a corner excuses.
+#[derive(Clone, Debug, serde::Serialize)]
+pub struct Excuse {
+    pub at: [f64; 2],
+    pub radius: f64,
+    pub why: &'static str,
+    pub cells: Vec<u32>,
+}
+
+/// The judge's verdict: `promise` of the report.
+#[derive(Clone, Debug)]
+pub struct Verdict {
+    pub checks: Vec<Check>,
+    pub excused: Vec<Excuse>,
+}
+
+impl Verdict {
+    /// No check is broken.
+    pub fn kept(&self) -> bool {
+        self.checks.iter().all(|c| c.status != Status::Broken)
+    }
+}
+
+fn is_zero(n: &usize) -> bool {
+    *n == 0
+}
+
+/// Judges a mesh against the domain (already τ-split) and a promise. `None` for a mesh whose curves are unknown: checks
+/// that need them are n/a.
+///
+/// The checks come in the contract's order, each once, `n/a` included. A mesh whose ids lead nowhere or whose
+/// coordinates are not finite has `manifold` broken, with the culprits, and everything else `n/a`.
+pub fn verify(domain: Option<&Domain>, mesh: &Mesh, promise: &Promise) -> Verdict {
+    let unreadable = evidence::unreadable(domain, mesh);
+    if !unreadable.is_empty() {
+        return verdict_of_unreadable(unreadable);
+    }
+    let evidence = Evidence::gather(domain, mesh, promise);
+    let known =
+        |check: fn(&Evidence, &Domain) -> Check, name| domain.map_or(Check::not_asked(name), |d| check(&evidence, d));
+    let conforming = known(topology::conforming, "conforming");
+    let on_curve = known(curves::on_curve, "on_curve");
+    let curve_chain = known(curves::curve_chain, "curve_chain");
+    let empty_diametral = known(curves::empty_diametral, "empty_diametral");
+    let (ball_radius, lfs_ratio, balls) = match domain {
+        Some(domain) => balls::judge(&evidence, domain),
+        None => (Check::not_asked("ball_radius"), Check::not_asked("lfs_ratio"), Vec::new()),
+    };
+    let (min_angle, excused) = angles::min_angle(&evidence, &balls);
+    let checks = vec![
+        topology::orientation(&evidence),
+        topology::manifold(&evidence),
+        conforming,
+        on_curve,
+        curve_chain,
+        empty_diametral,
+        angles::delaunay(&evidence),
+        min_angle,
+        angles::max_angle(&evidence),
+        ball_radius,
+        lfs_ratio,
+        known(curves::chord_error, "chord_error"),
+        known(curves::edge_turning, "edge_turning"),
+        measures::size(&evidence),
+        known(measures::area, "area"),
+        known(measures::names, "names"),
+        Check::not_asked("jacobian"),
+    ];
+    Verdict { checks, excused }
+}
+
+/// Names of the checks, in the contract's order.
+const NAMES: [&str; 17] = [
+    "orientation",
+    "manifold",
+    "conforming",
+    "on_curve",
+    "curve_chain",
+    "empty_diametral",
+    "delaunay",
+    "min_angle",
+    "max_angle",
+    "ball_radius",
+    "lfs_ratio",
+    "chord_error",
+    "edge_turning",
+    "size",
+    "area",
+    "names",
+    "jacobian",
+];
+
+fn verdict_of_unreadable(flaws: Vec<String>) -> Verdict {
+    let mut manifold = Tally::highest("manifold");
+    for flaw in flaws {
+        manifold.count();
+        manifold.flaw(|| flaw);
+    }
+    let mut checks: Vec<Check> = NAMES.map(Check::not_asked).into();
+    checks[1] = manifold.finish(Status::Broken);
+    Verdict { checks, excused: Vec::new() }
+}

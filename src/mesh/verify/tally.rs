@@ -1,0 +1,64 @@
+//! Counting while a check goes on.
+
+use super::{Check, Status, Worst};
+use crate::geometry::Point;
+
+/// Sentences kept of one check: enough to see what is wrong, few enough to read.
+const SENTENCES: usize = 10;
+
+/// A check in the making.
+pub struct Tally {
+    check: Check,
+    /// Which values are worse: 1 the larger, −1 the smaller.
+    sense: f64,
+}
+
+impl Check {
+    pub(super) fn not_asked(name: &'static str) -> Self {
+        Self { name, status: Status::NotAsked, checked: 0, broken: 0, exempt: 0, worst: None, flaws: Vec::new() }
+    }
+}
+
+impl Tally {
+    /// A check whose largest value is the worst.
+    pub fn highest(name: &'static str) -> Self {
+        Self { check: Check::not_asked(name), sense: 1.0 }
+    }
+
+    /// A check whose smallest value is the worst.
+    pub fn lowest(name: &'static str) -> Self {
+        Self { check: Check::not_asked(name), sense: -1.0 }
+    }
+
+    /// One more thing was checked.
+    pub fn count(&mut self) {
+        self.check.checked += 1;
+    }
+
+    /// One more thing is exempt.
+    pub fn exempt(&mut self) {
+        self.check.exempt += 1;
+    }
+
+    /// A value met at a place; the worst is kept.
+    #[inline]
+    pub fn measure(&mut self, value: f64, at: Point) {
+        if self.check.worst.is_none_or(|w| (value - w.value) * self.sense > 0.0) {
+            self.check.worst = Some(Worst { value, at: [at.x, at.y] });
+        }
+    }
+
+    /// One thing failed, and why.
+    pub fn flaw(&mut self, sentence: impl FnOnce() -> String) {
+        self.check.broken += 1;
+        if self.check.flaws.len() < SENTENCES {
+            self.check.flaws.push(sentence());
+        }
+    }
+
+    /// The check, of the status `held` where nothing failed.
+    pub fn finish(mut self, held: Status) -> Check {
+        self.check.status = if self.check.broken == 0 { held } else { Status::Broken };
+        self.check
+    }
+}

@@ -1,0 +1,199 @@
+//! Orientation, manifoldness, and whether the mesh conforms to the domain.
+
+use super::edges::Edge;
+use super::evidence::{Evidence, Piece, is_kept, place};
+use super::tally::Tally;
+use super::{Check, Status};
+use crate::domain::Domain;
+use crate::geometry::boxes::BoxHierarchy;
+use crate::geometry::exact::{Orientation, orient};
+use crate::geometry::{Point, Rect, bounds_of};
+use crate::ids::{Id, IdVec, PointId, VertexId};
+use crate::mesh::quality;
+
+/// Every triangle runs counter-clockwise, exactly. Worst: the smallest signed area.
+pub fn orientation(ev: &Evidence) -> Check {
+    let mut tally = Tally::lowest("orientation");
+    for (t, corners) in ev.mesh.triangles.enumerate() {
+        tally.count();
+        tally.measure(quality::area(ev.mesh.corners(t)), ev.node(corners[0]));
+        let [a, b, c] = corners.map(|v| ev.signs[v]);
+        match orient(a, b, c) {
+            Orientation::CounterClockwise => {}
+            Orientation::Clockwise => tally.flaw(|| format!("{} runs clockwise", ev.tell(t))),
+            Orientation::Collinear => tally.flaw(|| format!("{} has no area", ev.tell(t))),
+        }
+    }
+    tally.finish(Status::Proven)
+}
+
+/// Every edge has at most one triangle on either side, and no triangle names a node twice. Regions may touch in a node.
+/// Checked: edges.
+pub fn manifold(ev: &Evidence) -> Check {
+    let mut tally = Tally::highest("manifold");
+    ev.edges.edges().iter().for_each(|_| tally.count());
+    for &t in &ev.edges.collapsed {
+        tally.flaw(|| format!("{} names a node twice", ev.tell(t)));
+    }
+    for side in &ev.edges.surplus {
+        let corners = ev.mesh.triangles[side.triangle];
+        let nodes = [corners[side.corner], corners[(side.corner + 1) % 3]];
+        let what = "lies on a side where another triangle lies already";
+        tally.flaw(|| format!("{} {what}: {}", ev.tell(side.triangle), ev.tell_edge(nodes)));
+    }
+    tally.finish(Status::Proven)
+}
+
+/// The edges at which a region ends are exactly the chords of the curves, each with its regions on the right sides, and
+/// no two chords cross; every point of P in a kept region is a node, and (ours) every node has a triangle. A hanging
+/// node would leave an edge that ends a region on no curve. Checked: chords, other edges that end a region, and points.
+pub fn conforming(ev: &Evidence, domain: &Domain) -> Check {
+    let mut tally = Tally::highest("conforming");
+    let mut on_curve = vec![false; ev.edges.edges().len()];
+    for piece in &ev.pieces {
+        chord(ev, domain, piece, &mut on_curve, &mut tally);
+    }
+    for (edge, _) in ev.edges.edges().iter().zip(&on_curve).filter(|(_, on_curve)| !**on_curve) {
+        if ends_a_region(ev, edge) {
+            tally.count();
+            tally.flaw(|| format!("{} ends a region, but lies on no curve", ev.tell_edge(edge.nodes)));
+        }
+    }
+    crossing_chords(ev, &mut tally);
+    missing_points(ev, domain, &mut tally);
+    if !ev.promise.foreign {
+        idle_nodes(ev, &mut tally);
+    }
+    tally.finish(Status::Proven)
+}
+
+fn chord(ev: &Evidence, domain: &Domain, piece: &Piece, on_curve: &mut [bool], tally: &mut Tally) {
+    tally.count();
+    let Some(place) = piece.edge else {
+        return tally
+            .flaw(|| format!("curve {} asks for {}, which no triangle has", piece.curve.0, ev.tell_edge(piece.nodes)));
+    };
+    if std::mem::replace(&mut on_curve[place], true) {
+        return tally.flaw(|| format!("{} lies on two curves", ev.tell_edge(piece.nodes)));
+    }
+    let asked = domain.curves()[piece.curve].sides.map(|r| r.map(|r| ev.classes.of_domain[r]));
+    let has = sides(ev, &ev.edges.edges()[place], piece.nodes);
+    if asked != has {
+        let name = |class: Option<u32>| class.map_or("nothing", |c| ev.classes.names[c as usize].as_str());
+        tally.flaw(|| {
+            let ([left, right], [to_left, to_right]) = (has.map(name), asked.map(name));
+            let edge = ev.tell_edge(piece.nodes);
+            format!(
+                "{edge} has {left} on its left and {right} on its right; curve {} has {to_left} and {to_right}",
+                piece.curve.0
+            )
+        });
+    }
+}
+
+/// Chords that cross although their curves do not: the triangles beside them would overlap.
+fn crossing_chords(ev: &Evidence, tally: &mut Tally) {
+    let ends = |i: usize| ev.pieces[i].nodes.map(|v| ev.signs[v]);
+    let boxes = BoxHierarchy::new((0..ev.pieces.len()).map(|i| Rect::from_points(ends(i)[0], ends(i)[1])));
+    boxes.pairs(|i, j| {
+        if part(ends(i), ends(j)) && part(ends(j), ends(i)) {
+            let [first, second] = [i, j].map(|k| ev.tell_edge(ev.pieces[k].nodes));
+            tally.flaw(|| format!("{first} crosses {second}"));
+        }
+    });
+}
+
+/// Whether the line through `a b` has `x` and `y` strictly on either side.
+fn part([a, b]: [Point; 2], [x, y]: [Point; 2]) -> bool {
+    let sides = [orient(a, b, x), orient(a, b, y)];
+    sides.contains(&Orientation::Clockwise) && sides.contains(&Orientation::CounterClockwise)
+}
+
+/// Classes on the left and right of an edge followed from `nodes[0]`.
+fn sides(ev: &Evidence, edge: &Edge, nodes: [VertexId; 2]) -> [Option<u32>; 2] {
+    let [left, right] = [edge.left(), edge.right()].map(|side| side.map(|s| ev.class(s.triangle)));
+    if nodes == edge.nodes { [left, right] } else { [right, left] }
+}
+
+pub fn ends_a_region(ev: &Evidence, edge: &Edge) -> bool {
+    let [left, right] = sides(ev, edge, edge.nodes);
+    left != right
+}
+
+/// The node of each point of P: as listed, or (foreign) as found on the curves.
+pub fn nodes_of_points(ev: &Evidence, domain: &Domain) -> IdVec<PointId, Option<VertexId>> {
+    let mut node: IdVec<PointId, Option<VertexId>> = vec![None; domain.points().len()].into();
+    for &(p, v) in &ev.mesh.points {
+        node[p] = Some(v);
+    }
+    if ev.promise.foreign {
+        for piece in &ev.pieces {
+            let ends = domain.curves()[piece.curve].ends;
+            for (t, v) in piece.t.into_iter().zip(piece.nodes) {
+                if t == 0.0 || t == 1.0 {
+                    node[ends[usize::from(t == 1.0)]] = Some(v);
+                }
+            }
+        }
+    }
+    node
+}
+
+/// A point at the end of a kept curve must be a node; one that no curve holds, if a triangle covers it.
+fn missing_points(ev: &Evidence, domain: &Domain, tally: &mut Tally) {
+    let node = nodes_of_points(ev, domain);
+    let mut lone = Vec::new();
+    for (p, &at) in domain.points().enumerate() {
+        tally.count();
+        let kept = domain.star(p).iter().any(|i| is_kept(domain.curves()[i.curve].sides));
+        if node[p].is_none() && kept {
+            tally.flaw(|| format!("point {} at {} is no node", p.0, place(at)));
+        } else if node[p].is_none() && domain.star(p).is_empty() {
+            lone.push(p);
+        }
+    }
+    // A lone point of a foreign mesh may be a node all the same, for nothing lists it.
+    let covered = |p: PointId, corners: [Point; 3]| {
+        let at = domain.points()[p];
+        covers(corners, at)
+            && !(ev.promise.foreign && corners.iter().any(|c| c.distance(at) <= domain.tolerance() + ev.rounding))
+    };
+    for p in covered_by_a_triangle(ev, domain, &lone, covered) {
+        tally.flaw(|| format!("point {} at {} lies in a region, but is no node", p.0, place(domain.points()[p])));
+    }
+}
+
+fn covered_by_a_triangle(
+    ev: &Evidence,
+    domain: &Domain,
+    points: &[PointId],
+    covers: impl Fn(PointId, [Point; 3]) -> bool,
+) -> Vec<PointId> {
+    let hierarchy =
+        BoxHierarchy::new(points.iter().map(|&p| Rect::from_points(domain.points()[p], domain.points()[p])));
+    let mut covered = vec![false; points.len()];
+    for t in ev.mesh.triangles.ids().take(if points.is_empty() { 0 } else { usize::MAX }) {
+        let corners = ev.mesh.corners(t);
+        if let Some(around) = bounds_of(corners) {
+            hierarchy.meeting(around, |i| {
+                covered[i] |= covers(points[i], corners);
+                true
+            });
+        }
+    }
+    points.iter().zip(covered).filter(|(_, covered)| *covered).map(|(&p, _)| p).collect()
+}
+
+/// Whether a triangle holds a point, its border included.
+fn covers([a, b, c]: [Point; 3], p: Point) -> bool {
+    [(a, b), (b, c), (c, a)].iter().all(|&(x, y)| orient(x, y, p) != Orientation::Clockwise)
+}
+
+fn idle_nodes(ev: &Evidence, tally: &mut Tally) {
+    let mut used = vec![false; ev.mesh.nodes.len()];
+    ev.mesh.triangles.iter().flatten().for_each(|v| used[v.index()] = true);
+    for v in ev.mesh.nodes.ids().filter(|v| !used[v.index()]) {
+        tally.count();
+        tally.flaw(|| format!("node {} at {} belongs to no triangle", v.0, place(ev.node(v))));
+    }
+}

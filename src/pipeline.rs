@@ -1,0 +1,507 @@
+//! From bytes to a judged mesh: read → arrange → split to turning → refine → verify. Each stage can be had alone.
+
+use crate::domain::{ArrangeError, ArrangeOptions, Domain, Drawing, DrawnCurve, SizeRequest};
+use crate::geometry::Point;
+use crate::import::{self, AirfoilOptions, Format, ImportError};
+use crate::mesh::Mesh;
+use crate::mesh::quality::Quality;
+use crate::mesh::verify::{Promise, Status, Verdict, verify};
+use crate::plane;
+use crate::plane::lopping::{self, Lopping, RefineError, Refined, Shrinking};
+use crate::refine::{Progress, Stop, StopReason};
+use crate::report::{FailureKind, FailureReport, MeshReport, PromiseReport, Report, StopReport};
+use crate::request::{BallShrinking, Keep, Midpoint, Request, SizeOf, TrailingEdge, metres};
+use crate::size::{Sizing, Source as SizeSource};
+use kurbo::Affine;
+use std::collections::BTreeSet;
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+/// Corner arcs turn at most this: π/3 keeps every arc triangle's angle at the ball above 60° (Pav & Walkington 2005, section 6).
+const ARC_TURNING_RAD: f64 = std::f64::consts::FRAC_PI_3;
+
+/// What is read: the bytes of a file, and how to read them.
+#[derive(Clone, Debug)]
+pub struct Source<'a> {
+    /// As given; its suffix tells the format where none is given, its stem is the title where the file has none.
+    pub path: &'a str,
+    pub bytes: &'a [u8],
+    pub format: Option<Format>,
+    /// The `.node` file beside a `.poly` file, where there is one.
+    pub nodes: Option<&'a [u8]>,
+}
+
+/// How a run ended, as an exit code (contract of the command line).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Exit {
+    /// Every promise kept.
+    Done = 0,
+    Usage = 2,
+    Unreadable = 3,
+    Geometry = 4,
+    /// A requested bound is missed outside the excused places, or a budget ran out.
+    Missed = 5,
+    Unwritable = 6,
+    /// Our own fault.
+    Bug = 70,
+    Cancelled = 130,
+}
+
+impl FailureKind {
+    pub fn exit(self) -> Exit {
+        match self {
+            Self::Request => Exit::Usage,
+            Self::Unreadable => Exit::Unreadable,
+            Self::Geometry => Exit::Geometry,
+            Self::NoMesh => Exit::Missed,
+            Self::Bug => Exit::Bug,
+        }
+    }
+}
+
+/// What came of a run: as much of it as there is.
+#[derive(Debug)]
+pub struct Outcome {
+    pub exit: Exit,
+    pub report: Report,
+    /// The domain, its curves cut to τ.
+    pub domain: Option<Domain>,
+    pub mesh: Option<Mesh>,
+    pub verdict: Option<Verdict>,
+}
+
+/// How far the engine goes.
+pub enum Extent<'a> {
+    /// To its end. The closure is told of the progress now and then; `false` stops as a timeout does.
+    Whole(&'a mut dyn FnMut(&Progress) -> bool),
+    /// So many steps.
+    Steps(u64),
+}
+
+/// Reads, arranges, refines and judges.
+pub fn run(source: &Source, request: &Request, extent: Extent) -> Outcome {
+    let mut outcome = Outcome::begun(source.path, request);
+    let start = Instant::now();
+    let drawing = read(source, request);
+    outcome.report.seconds.read = start.elapsed().as_secs_f64();
+    match drawing {
+        Ok(drawing) => outcome.go_on(&drawing, request, extent),
+        Err(failure) => outcome.fail(failure),
+    }
+    outcome.report.seconds.total = start.elapsed().as_secs_f64();
+    outcome
+}
+
+/// The run from a drawing on.
+pub fn run_drawing(drawing: &Drawing, request: &Request, extent: Extent) -> Outcome {
+    let mut outcome = Outcome::begun(&drawing.title, request);
+    outcome.go_on(drawing, request, extent);
+    outcome
+}
+
+impl Outcome {
+    fn begun(path: &str, request: &Request) -> Self {
+        Self { exit: Exit::Done, report: Report::new(path, request), domain: None, mesh: None, verdict: None }
+    }
+
+    fn fail(&mut self, failure: FailureReport) {
+        self.exit = failure.kind.exit();
+        self.report.failure = Some(failure);
+    }
+
+    fn go_on(&mut self, drawing: &Drawing, request: &Request, extent: Extent) {
+        if let Err(failure) = self.stages(drawing, request, extent) {
+            self.fail(failure);
+        }
+    }
+
+    fn stages(&mut self, drawing: &Drawing, request: &Request, extent: Extent) -> Result<(), FailureReport> {
+        self.report.input.describe(drawing);
+        let mut clock = Clock::start();
+        let arranged = arrange(drawing, request)?;
+        self.report.input.repairs = arranged.repairs().to_vec();
+        let plan = Plan::new(drawing, &arranged, request)?;
+        let domain = arranged.split_to_turning(plan.tau_rad);
+        self.report.request.note_use(drawing, &arranged, &plan);
+        self.report.seconds.arrange = clock.lap();
+
+        let refined = match extent {
+            Extent::Whole(watch) => plan.refine(&domain, &mut until(request.timeout, watch)),
+            Extent::Steps(steps) => plan.refine_steps(&domain, steps),
+        };
+        self.report.seconds.mesh = clock.lap();
+        let Refined { mesh, stop, counters } = refined?;
+        self.report.stop = Some(StopReport::new(&stop));
+        self.report.counters = counters;
+        let mesh = mesh.ok_or_else(|| no_mesh(&stop))?;
+
+        let verdict = plan.judge(Some(&domain), &mesh);
+        self.report.mesh = Some(MeshReport::new(&mesh));
+        self.report.quality = Some(Quality::of(Some(&domain), &mesh, &verdict));
+        self.report.promise = Some(PromiseReport::new(&verdict));
+        self.report.seconds.verify = clock.lap();
+        self.exit = exit_of(&verdict, stop.reason);
+        if self.exit == Exit::Bug {
+            let what = format!("the mesh breaks what no request can excuse: {}", broken(&verdict).join(", "));
+            self.report.failure = Some(FailureReport::new(FailureKind::Bug, what, "please send us the case file"));
+        }
+        (self.domain, self.mesh, self.verdict) = (Some(domain), Some(mesh), Some(verdict));
+        Ok(())
+    }
+}
+
+/// Laps of a wall clock.
+struct Clock(Instant);
+
+impl Clock {
+    fn start() -> Self {
+        Self(Instant::now())
+    }
+
+    /// Seconds since the start or the last lap.
+    fn lap(&mut self) -> f64 {
+        let now = Instant::now();
+        std::mem::replace(&mut self.0, now).elapsed().as_secs_f64()
+    }
+}
+
+/// `watch`, which also says stop after `seconds`.
+fn until(seconds: Option<f64>, watch: &mut dyn FnMut(&Progress) -> bool) -> impl FnMut(&Progress) -> bool {
+    let limit = seconds.map(|s| Duration::try_from_secs_f64(s).unwrap_or(Duration::MAX));
+    let start = Instant::now();
+    move |progress| watch(progress) && limit.is_none_or(|limit| start.elapsed() < limit)
+}
+
+/// Names of the broken checks.
+pub fn broken(verdict: &Verdict) -> Vec<&'static str> {
+    verdict.checks.iter().filter(|c| c.status == Status::Broken).map(|c| c.name).collect()
+}
+
+/// Checks of bounds that were asked for; the rest holds of every mesh that we make.
+const REQUESTED: &[&str] = &["min_angle", "max_angle", "chord_error", "edge_turning", "size", "area"];
+/// What refinement brings about last: owed where a budget ended it.
+const REFINED: &[&str] = &["empty_diametral", "ball_radius", "lfs_ratio"];
+
+fn exit_of(verdict: &Verdict, reason: StopReason) -> Exit {
+    let done = reason == StopReason::Done;
+    let excusable = |name: &str| REQUESTED.contains(&name) || !done && REFINED.contains(&name);
+    let broken = broken(verdict);
+    if broken.iter().any(|name| !excusable(name)) {
+        Exit::Bug
+    } else if broken.is_empty() && done {
+        Exit::Done
+    } else {
+        Exit::Missed
+    }
+}
+
+// ---- the stages ----
+
+/// Bytes → drawing, in the unit asked for.
+pub fn read(source: &Source, request: &Request) -> Result<Drawing, FailureReport> {
+    let path = Path::new(source.path);
+    let format = source.format.or_else(|| import::format_of(path)).or_else(|| Format::sniff(source.bytes));
+    let format = format.ok_or_else(|| {
+        let names: Vec<_> = Format::ALL.iter().map(|f| f.name()).collect();
+        let help = format!("say which by --input-format: {}", names.join(", "));
+        FailureReport::new(FailureKind::Unreadable, "the format cannot be told from name or content", help)
+    })?;
+    let stem = path.file_stem().map_or("", |s| s.to_str().unwrap_or(""));
+    let options = import::Options {
+        airfoil: AirfoilOptions {
+            trailing_edge: match request.trailing_edge {
+                TrailingEdge::Keep => import::TrailingEdge::Keep,
+                TrailingEdge::Sharp => import::TrailingEdge::Sharp,
+                TrailingEdge::Blunt => import::TrailingEdge::Blunt,
+                TrailingEdge::Round => import::TrailingEdge::Round,
+            },
+            far_field: request.far_field,
+            incidence_deg: request.incidence,
+        },
+        nodes: source.nodes.map(<[u8]>::to_vec),
+    };
+    let drawing = import::read(source.bytes, format, stem, &options)?;
+    in_units(drawing, request)
+}
+
+impl From<ImportError> for FailureReport {
+    fn from(error: ImportError) -> Self {
+        let ImportError { what, line, column, help } = error;
+        Self { line, column, ..Self::new(FailureKind::Unreadable, what, help) }
+    }
+}
+
+/// The drawing in the unit and scale of the request. A drawing whose unit has no fixed length takes the name of the unit asked for.
+fn in_units(mut drawing: Drawing, request: &Request) -> Result<Drawing, FailureReport> {
+    let mut factor = request.scale.unwrap_or(1.0);
+    if let Some(unit) = &request.unit {
+        let wanted = metres(unit).ok_or_else(|| {
+            let what = format!("--unit {unit}: no unit of length that is known here");
+            FailureReport::new(FailureKind::Request, what, "nm, um, mm, cm, dm, m, km, in, ft, yd or mi")
+        })?;
+        if let Some(own) = drawing.unit.as_ref().and_then(|(own, _)| metres(own)) {
+            factor *= own / wanted;
+        }
+        drawing.unit = Some((unit.clone(), "--unit".into()));
+    }
+    Ok(if factor == 1.0 { drawing } else { scaled(drawing, factor) })
+}
+
+/// A drawing with every length times a factor.
+fn scaled(mut drawing: Drawing, factor: f64) -> Drawing {
+    let point = |p: Point| Point::new(p.x * factor, p.y * factor);
+    for DrawnCurve { curve, .. } in &mut drawing.curves {
+        *curve = curve.transformed(Affine::scale(factor));
+    }
+    for drawn in &mut drawing.points {
+        drawn.at = point(drawn.at);
+    }
+    for seed in &mut drawing.seeds {
+        seed.at = point(seed.at);
+        if let crate::domain::SeedKind::Region { max_area: Some(area), .. } = &mut seed.kind {
+            *area *= factor * factor;
+        }
+    }
+    for size in &mut drawing.sizes {
+        match size {
+            SizeRequest::Boundary { edge, .. }
+            | SizeRequest::Region { edge, .. }
+            | SizeRequest::Everywhere { edge } => {
+                *edge *= factor;
+            }
+            SizeRequest::Near { from, to, edge, .. } => {
+                (*from, *to) = (point(*from), point(*to));
+                *edge *= factor;
+            }
+        }
+    }
+    drawing
+}
+
+/// Drawing → domain.
+pub fn arrange(drawing: &Drawing, request: &Request) -> Result<Domain, FailureReport> {
+    let options = ArrangeOptions {
+        tolerance: request.tolerance,
+        fill: request.fill_rule.rule(),
+        keep_all: request.keep == Keep::All,
+    };
+    let domain = drawing.arrange(&options)?;
+    if domain.regions().is_empty() {
+        let help = "close the outline, name another --fill-rule, or mesh everything by --keep all";
+        return Err(FailureReport::new(
+            FailureKind::Geometry,
+            "nothing to mesh: the curves enclose no kept region",
+            help,
+        ));
+    }
+    Ok(domain)
+}
+
+impl From<ArrangeError> for FailureReport {
+    fn from(error: ArrangeError) -> Self {
+        Self::new(FailureKind::Geometry, error.what, error.help).at(error.at)
+    }
+}
+
+impl From<RefineError> for FailureReport {
+    fn from(error: RefineError) -> Self {
+        Self::new(FailureKind::Geometry, error.what, error.help).at(error.at)
+    }
+}
+
+/// Why a refinement that stopped has no mesh to show.
+pub fn no_mesh(stop: &Stop) -> FailureReport {
+    let (what, help) = match stop.reason {
+        StopReason::VertexBudget => {
+            ("the vertex budget ended before there was a valid mesh", "give more by --max-vertices")
+        }
+        StopReason::Cancelled => ("the run was stopped before there was a valid mesh", "give more by --timeout"),
+        StopReason::Done | StopReason::Arithmetic => (
+            "features are nearer to each other than the coordinates can tell apart",
+            "move the drawing nearer to the origin, or weld by a larger --tolerance",
+        ),
+    };
+    let failure = FailureReport::new(FailureKind::NoMesh, what, help);
+    match stop.places.first() {
+        Some(&place) => failure.at(place),
+        None => failure,
+    }
+}
+
+/// A request made ready for one domain: what the engine is asked, and what the judge holds it to.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    /// Largest turning of a curve before it is refined.
+    pub tau_rad: f64,
+    options: lopping::Options,
+}
+
+impl Plan {
+    /// # Errors
+    /// A `--size-of` whose name the domain does not know.
+    pub fn new(drawing: &Drawing, domain: &Domain, request: &Request) -> Result<Self, FailureReport> {
+        let tau_rad = request.tau_rad(domain.curves().iter().map(|c| &c.curve));
+        Ok(Self { tau_rad, options: engine_options(request, sizing(drawing, domain, request)?) })
+    }
+
+    /// Of a mesh whose drawing is not known: a share of its diagonal cannot be told, and any name may be of a boundary or a region.
+    pub fn without_domain(request: &Request) -> Self {
+        let mut sizing = plain_sizing(request, None);
+        for SizeOf { name, edge } in &request.size_of {
+            sizing.sources.push(SizeSource::Boundary { name: name.clone(), edge: *edge });
+            sizing.sources.push(SizeSource::Region { name: name.clone(), edge: *edge });
+        }
+        Self { tau_rad: request.tau_rad([]), options: engine_options(request, sizing) }
+    }
+
+    pub fn sizing(&self) -> &Sizing {
+        &self.options.sizing
+    }
+
+    /// Refines a domain whose curves turn at most τ.
+    pub fn refine(&self, domain: &Domain, watch: &mut dyn FnMut(&Progress) -> bool) -> Result<Refined, FailureReport> {
+        Ok(lopping::refine(domain, &self.options, watch)?)
+    }
+
+    /// [`Plan::refine`], stopped as soon as every piece of a curve is an edge: the triangulation from which it refines.
+    pub fn conform(&self, domain: &Domain) -> Result<Refined, FailureReport> {
+        let mut lopping = Lopping::start(domain, &self.options)?;
+        while lopping.progress().phase == "conforming" && lopping.step() {}
+        lopping.cancel();
+        Ok(lopping.finish()?)
+    }
+
+    /// The first `steps` steps of [`Plan::refine`].
+    pub fn refine_steps(&self, domain: &Domain, steps: u64) -> Result<Refined, FailureReport> {
+        let mut lopping = Lopping::start(domain, &self.options)?;
+        let mut left = steps;
+        while left > 0 && lopping.step() {
+            left -= 1;
+        }
+        if left == 0 {
+            lopping.cancel();
+        }
+        Ok(lopping.finish()?)
+    }
+
+    /// Holds a mesh to what was asked: ours by its links to the domain's curves, any other by its coordinates.
+    pub fn judge(&self, domain: Option<&Domain>, mesh: &Mesh) -> Verdict {
+        let angle = self.options.angle_min_rad;
+        let promise = Promise {
+            angle_min_rad: (angle > 0.0).then_some(angle),
+            tau_rad: self.tau_rad,
+            beta: self.options.beta,
+            corner_arcs: self.options.corner_arcs.is_some(),
+            arc_turning_rad: ARC_TURNING_RAD,
+            midpoint_bisector: self.options.midpoint == plane::Midpoint::Bisector,
+            sizing: self.options.sizing.clone(),
+            foreign: mesh.edges.iter().any(|edge| edge.link.is_none()),
+        };
+        verify(domain, mesh, &promise)
+    }
+}
+
+fn engine_options(request: &Request, sizing: Sizing) -> lopping::Options {
+    lopping::Options {
+        angle_min_rad: request.angle_min_rad(),
+        beta: request.beta,
+        shrinking: match request.ball_shrinking {
+            BallShrinking::Batched => Shrinking::Batched,
+            BallShrinking::Literal => Shrinking::Literal,
+        },
+        midpoint: match request.midpoint {
+            Midpoint::Bisector => plane::Midpoint::Bisector,
+            Midpoint::Angle => plane::Midpoint::Angle,
+        },
+        corner_arcs: request.corner_arcs.is_on().then_some(ARC_TURNING_RAD),
+        sizing,
+        max_vertices: request.max_vertices,
+    }
+}
+
+/// Sizes that the request asks for everywhere. `diagonal` is that of the drawing.
+fn plain_sizing(request: &Request, diagonal: Option<f64>) -> Sizing {
+    Sizing {
+        max_area: request.max_area,
+        max_edge: request.max_edge,
+        min_edge: request.min_edge,
+        chord_error: request.chord_error.and_then(|e| e.length(diagonal)),
+        edge_turning_rad: request.edge_turning.deg().map(f64::to_radians),
+        grade: request.grade,
+        sources: Vec::new(),
+    }
+}
+
+/// Sizes of the request and of the drawing.
+fn sizing(drawing: &Drawing, domain: &Domain, request: &Request) -> Result<Sizing, FailureReport> {
+    let diagonal = drawing.bounds().map(|b| libm::hypot(b.width(), b.height()));
+    let plain = plain_sizing(request, diagonal);
+    let mut sizing = plain.with_requests(&drawing.sizes, |name| drawing.names.text(name).to_owned());
+    let boundaries: BTreeSet<&str> = domain.curves().iter().map(|c| domain.name(c.name)).collect();
+    let regions: BTreeSet<&str> = domain.regions().iter().map(|r| domain.name(r.name)).collect();
+    for SizeOf { name, edge } in &request.size_of {
+        let (boundary, region) = (boundaries.contains(name.as_str()), regions.contains(name.as_str()));
+        if boundary {
+            sizing.sources.push(SizeSource::Boundary { name: name.clone(), edge: *edge });
+        }
+        if region {
+            sizing.sources.push(SizeSource::Region { name: name.clone(), edge: *edge });
+        }
+        if !boundary && !region {
+            let list = |names: &BTreeSet<&str>| names.iter().copied().collect::<Vec<_>>().join(", ");
+            let help = format!("boundaries: {}; regions: {}", list(&boundaries), list(&regions));
+            let what = format!("--size-of {name}={edge}: nothing has this name");
+            return Err(FailureReport::new(FailureKind::Request, what, help));
+        }
+    }
+    Ok(sizing)
+}
+
+/// How a run ended, in words that do not depend on coordinates: what a reduced case must keep.
+pub fn ending(outcome: &Outcome) -> String {
+    if let Some(failure) = &outcome.report.failure {
+        let kind = match failure.kind {
+            FailureKind::Request => "request",
+            FailureKind::Unreadable => "unreadable",
+            FailureKind::Geometry => "geometry",
+            FailureKind::NoMesh => "no mesh",
+            FailureKind::Bug => "bug",
+        };
+        return format!("{kind}: {}", without_numbers(&failure.what));
+    }
+    let broken = outcome.verdict.as_ref().map(broken).unwrap_or_default();
+    match outcome.report.stop.as_ref().map(|s| s.reason) {
+        Some(StopReason::Done) | None if broken.is_empty() => "done".into(),
+        Some(StopReason::Done) | None => format!("missed: {}", broken.join(", ")),
+        Some(StopReason::VertexBudget) => "stopped: vertex budget".into(),
+        Some(StopReason::Cancelled) => "stopped: timeout".into(),
+        Some(StopReason::Arithmetic) => "stopped: arithmetic".into(),
+    }
+}
+
+/// `#` for every number of a text.
+fn without_numbers(text: &str) -> String {
+    let of_number = |c: char| c.is_ascii_digit() || matches!(c, '.' | '+' | '-' | 'e' | 'E');
+    let mut plain = String::with_capacity(text.len());
+    let mut rest = text;
+    while let Some(start) = rest.find(|c: char| c.is_ascii_digit()) {
+        let sign = rest[..start].ends_with(['-', '+']);
+        plain.push_str(&rest[..start - usize::from(sign)]);
+        plain.push('#');
+        let end = rest[start..].find(|c| !of_number(c)).map_or(rest.len(), |n| start + n);
+        rest = &rest[end..];
+    }
+    plain + rest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn endings_forget_numbers() {
+        assert_eq!(without_numbers("line 12 meets arc 7 at -1.5e-3, twice"), "line # meets arc # at #, twice");
+        assert_eq!(without_numbers("no number"), "no number");
+        assert_eq!(without_numbers("3"), "#");
+    }
+}

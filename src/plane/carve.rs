@@ -1,0 +1,84 @@
+//! Which region each triangle belongs to. Carving is topological: a triangle takes its region from the side of the curve that it lies
+//! on, or from a neighbour with no curve between. Nothing is cut away: D(P′) stays whole, and triangles outside have no region.
+//!
+//! Regions are right whenever every piece is an edge and no piece is encroached: then no vertex lies between a piece and its chord (the
+//! lens lies in the empty diametral disk), so chords bound what the curves bound. Between two such moments only triangles made since
+//! may need a new region; a triangle that was there before and still stands keeps its own (a piece that bulges over it would have
+//! destroyed it, since the split point lies in its circumdisk).
+
+use super::insert::Delaunay;
+use super::subcurves::{Carrier, Subcurves};
+use super::triangulation::Side;
+use crate::domain::DomainCurve;
+use crate::ids::{CurveId, Id, IdVec, RegionId, TriangleId};
+
+/// Gives regions to triangles that were made since the last time; `fresh` is left with those that are alive, each once.
+pub fn carve(
+    delaunay: &mut Delaunay,
+    subcurves: &Subcurves,
+    curves: &IdVec<CurveId, DomainCurve>,
+    fresh: &mut Vec<TriangleId>,
+) {
+    fresh.sort_unstable();
+    fresh.dedup();
+    fresh.retain(|&t| delaunay.topology().is_alive(t));
+    let mut known = vec![false; fresh.len()];
+    let mut stack: Vec<usize> = Vec::new();
+    for i in 0..fresh.len() {
+        if let Some(region) = region_by_sides(delaunay, subcurves, curves, fresh, fresh[i]) {
+            delaunay.topology_mut().set_region(fresh[i], region);
+            known[i] = true;
+            stack.push(i);
+        }
+    }
+    while let Some(i) = stack.pop() {
+        let region = delaunay.topology().region(fresh[i]);
+        for s in sides_of(fresh[i]) {
+            let beyond = delaunay.topology().twin(s).triangle();
+            let Ok(j) = fresh.binary_search(&beyond) else { continue };
+            if !known[j] && bounded_by(delaunay, subcurves, s).is_none() {
+                delaunay.topology_mut().set_region(beyond, region);
+                known[j] = true;
+                stack.push(j);
+            }
+        }
+    }
+}
+
+/// The curve on a side and whether it runs along it (`true`) or against it; `None` of a side that bounds nothing.
+fn bounded_by(delaunay: &Delaunay, subcurves: &Subcurves, s: Side) -> Option<(CurveId, bool)> {
+    let piece = subcurves.get(delaunay.topology().piece(s)?);
+    let Carrier::Curve(curve) = piece.carrier else { return None };
+    Some((curve, delaunay.topology().origin(s) == piece.ends[0]))
+}
+
+/// The region that the sides of a triangle tell: from a curve on it, or from a neighbour whose region stands.
+fn region_by_sides(
+    delaunay: &Delaunay,
+    subcurves: &Subcurves,
+    curves: &IdVec<CurveId, DomainCurve>,
+    fresh: &[TriangleId],
+    t: TriangleId,
+) -> Option<Option<RegionId>> {
+    let topology = delaunay.topology();
+    if topology.is_ghost(t) {
+        return Some(None);
+    }
+    sides_of(t).into_iter().find_map(|s| match bounded_by(delaunay, subcurves, s) {
+        Some((curve, along)) => Some(curves[curve].sides[usize::from(!along)]),
+        None => {
+            let beyond = topology.twin(s).triangle();
+            fresh.binary_search(&beyond).is_err().then(|| topology.region(beyond))
+        }
+    })
+}
+
+/// Every triangle, ghosts included, for the first carving.
+pub fn all_triangles(delaunay: &Delaunay) -> Vec<TriangleId> {
+    let topology = delaunay.topology();
+    (0..topology.triangle_capacity()).map(TriangleId::from_index).filter(|&t| topology.is_alive(t)).collect()
+}
+
+fn sides_of(t: TriangleId) -> [Side; 3] {
+    [0, 1, 2].map(|i| t.side_of(i))
+}

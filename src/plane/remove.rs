@@ -1,0 +1,111 @@
+//! Removal of a vertex.
+//!
+//! Sides at the vertex are flipped away, ear by ear, until three are left (or, on the hull, until what is left of its
+//! star lies outside the new hull); then the vertex goes, and flips (Lawson 1977) make the hole Delaunay. Every step is
+//! a plane triangulation, whatever points are cocircular.
+
+use super::insert::Delaunay;
+use super::triangulation::{GHOST, Side};
+use crate::geometry::exact::{CircleSide, Orientation};
+use crate::ids::{TriangleId, VertexId};
+
+impl Delaunay {
+    /// Deletes a vertex of any degree, inside or on the hull; the triangulation is that of the other points, and the id
+    /// is dead.
+    ///
+    /// Pieces on the vertex's own sides are lost. A new triangle has the region of a lost one next to it: where a lost
+    /// piece parted two regions, the caller mends them. Returns `false`, and changes nothing, where the vertex is dead
+    /// already or the other points lie on one line.
+    pub fn remove(&mut self, v: VertexId) -> bool {
+        if v == GHOST || self.carries_the_plane(v) {
+            return false;
+        }
+        let mut diagonals = self.clip_ears(v);
+        if self.topology.sides_from(v).any(|s| self.topology.target(s) == GHOST) {
+            self.topology.move_to_infinity(v);
+        } else {
+            self.topology.merge_star(v);
+        }
+        self.make_delaunay(&mut diagonals);
+        self.check_slowly();
+        true
+    }
+
+    /// Whether no triangle would be left without `v` (or none is there at all): every link side has a ghost across, and
+    /// the link is straight.
+    fn carries_the_plane(&self, v: VertexId) -> bool {
+        let topology = &self.topology;
+        let mut spokes = topology.sides_from(v).filter(|s| !topology.is_ghost(s.triangle())).peekable();
+        let Some(&first) = spokes.peek() else { return true };
+        let (a, b) = (self.point(topology.target(first)), self.point(topology.apex(first)));
+        spokes.all(|s| {
+            topology.is_ghost(topology.twin(s.next()).triangle())
+                && self.in_sight(|sight| sight.orient(a, b, self.point(topology.apex(s)))) == Orientation::Collinear
+        })
+    }
+
+    /// Flips sides of `v` away as long as any may be, in time linear in the degree; returns the diagonals that came.
+    ///
+    /// The link is star-shaped around `v`: a neighbour w between neighbours u and x is an ear where u w x turns left
+    /// and v is not strictly inside u w x. Inside the hull a link of four or more has one: of the two ears that any
+    /// triangulation of it has, v, which lies inside or on one side of it, spoils at most one.
+    fn clip_ears(&mut self, v: VertexId) -> Vec<Side> {
+        let mut diagonals = Vec::new();
+        let mut left = self.topology.sides_from(v).count();
+        let inside = self.topology.sides_from(v).all(|s| self.topology.target(s) != GHOST);
+        let Some(mut s) = self.topology.sides_from(v).next() else { return diagonals };
+        let mut refused = 0;
+        while refused < left && !(inside && left == 3) {
+            if self.is_ear(v, s, inside) {
+                let (t, u) = (s.triangle(), self.topology.twin(s).triangle());
+                self.topology.flip(s);
+                diagonals.push(t.side_of(2));
+                left -= 1;
+                refused = 0;
+                // Triangle u is (next, v, prev): the neighbour before is looked at again.
+                s = u.side_of(1);
+            } else {
+                refused += 1;
+                s = self.topology.twin(s.prev());
+            }
+        }
+        diagonals
+    }
+
+    /// Whether the neighbour that side `s` of `v` leads to may be cut off.
+    fn is_ear(&self, v: VertexId, s: Side, inside: bool) -> bool {
+        let topology = &self.topology;
+        let (before, here, after) = (topology.apex(topology.twin(s)), topology.target(s), topology.apex(s));
+        if [before, here, after].contains(&GHOST) {
+            return false;
+        }
+        let [u, w, x] = [before, here, after].map(|v| self.point(v));
+        self.in_sight(|sight| {
+            sight.orient(u, w, x) == Orientation::CounterClockwise
+                && (!inside || sight.orient(u, x, self.point(v)) != Orientation::Clockwise)
+        })
+    }
+
+    /// Flips sides that are not locally Delaunay, from those on the stack on. With exact signs each flip lowers the
+    /// lifted surface, so that no side comes twice (Lawson 1977).
+    fn make_delaunay(&mut self, stack: &mut Vec<Side>) {
+        while let Some(s) = stack.pop() {
+            if !self.is_locally_delaunay(s) {
+                let (t, u) = (s.triangle(), self.topology.twin(s).triangle());
+                self.topology.flip(s);
+                let outer = |t: TriangleId| [t.side_of(0), t.side_of(1)];
+                stack.extend(outer(t).into_iter().chain(outer(u)));
+            }
+        }
+    }
+
+    fn is_locally_delaunay(&self, s: Side) -> bool {
+        let topology = &self.topology;
+        let (corners, across) = (topology.corners(s.triangle()), topology.apex(topology.twin(s)));
+        if corners.contains(&GHOST) || across == GHOST {
+            return true;
+        }
+        let [a, b, c] = corners.map(|v| self.point(v));
+        self.in_sight(|sight| sight.in_circle(a, b, c, self.point(across))) != CircleSide::Inside
+    }
+}

@@ -1,0 +1,324 @@
+//! The report: one JSON object a run, schema 1. Fields come in this order and change only by addition.
+//!
+//! All but `seconds` and `peak_memory_bytes` is the same, byte for byte, for the same input.
+
+use crate::domain::{Domain, Drawing, Repair, Skipped};
+use crate::geometry::Point;
+use crate::mesh::Mesh;
+use crate::mesh::quality::{BoundaryMeasure, Quality, RegionMeasure, boundary_measures, region_measures};
+use crate::mesh::verify::{Check, Excuse, Verdict};
+use crate::pipeline::Plan;
+use crate::refine::{Counters, Stop, StopReason};
+use crate::request::Request;
+use serde::Serialize;
+use std::collections::BTreeMap;
+
+/// Version of the report's schema.
+pub const SCHEMA: u32 = 1;
+
+/// The report of one run. What the run did not come to is `null`.
+#[derive(Clone, Debug, Serialize)]
+pub struct Report {
+    pub schema: u32,
+    pub version: &'static str,
+    pub input: InputReport,
+    pub request: RequestReport,
+    pub mesh: Option<MeshReport>,
+    pub quality: Option<Quality>,
+    pub promise: Option<PromiseReport>,
+    pub stop: Option<StopReport>,
+    /// Why there is no mesh, or why it must not be used; absent of a run that came to its end.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub failure: Option<FailureReport>,
+    pub counters: Counters,
+    pub seconds: Seconds,
+    /// Largest resident memory of the process, where the system tells it.
+    pub peak_memory_bytes: Option<u64>,
+}
+
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct InputReport {
+    /// As given on the command line.
+    pub path: String,
+    pub format: Option<String>,
+    pub title: Option<String>,
+    pub unit: Option<String>,
+    pub unit_from: Option<String>,
+    /// How many of each kind.
+    pub curves: BTreeMap<&'static str, usize>,
+    pub skipped: Vec<Skipped>,
+    pub notes: Vec<String>,
+    pub repairs: Vec<Repair>,
+}
+
+impl InputReport {
+    /// Notes what was read.
+    pub fn describe(&mut self, drawing: &Drawing) {
+        self.format = Some(drawing.format.clone());
+        self.title = Some(drawing.title.clone());
+        (self.unit, self.unit_from) = drawing.unit.clone().unzip();
+        self.curves = kinds(drawing);
+        self.skipped.clone_from(&drawing.skipped);
+        self.notes.clone_from(&drawing.notes);
+    }
+}
+
+/// How many curves of each kind a drawing holds.
+pub fn kinds(drawing: &Drawing) -> BTreeMap<&'static str, usize> {
+    let mut kinds = BTreeMap::new();
+    for drawn in &drawing.curves {
+        *kinds.entry(drawn.curve.kind()).or_default() += 1;
+    }
+    kinds
+}
+
+/// Every option as used. Lengths in `length_unit` (`null`: the file's own, which is not known), areas in its square.
+#[derive(Clone, Debug, Serialize)]
+pub struct RequestReport {
+    pub length_unit: Option<String>,
+    pub engine: String,
+    pub angle_min_deg: f64,
+    /// As used, also where `auto` was asked for; `null` where the run did not come so far.
+    pub tau_rad: Option<f64>,
+    pub max_turning: String,
+    pub beta: f64,
+    pub ball_shrinking: String,
+    pub midpoint: String,
+    pub corner_arcs: bool,
+    pub max_area: Option<f64>,
+    pub max_edge: Option<f64>,
+    pub min_edge: Option<f64>,
+    /// As a length, also where a share of the diagonal was asked for.
+    pub chord_error: Option<f64>,
+    pub edge_turning_deg: Option<f64>,
+    pub grade: Option<f64>,
+    pub size_of: BTreeMap<String, f64>,
+    pub order: u64,
+    /// Welding distance as used; `null` where the run did not come so far.
+    pub tolerance: Option<f64>,
+    pub fill_rule: String,
+    pub keep: String,
+    pub unit: Option<String>,
+    pub scale: f64,
+    pub max_vertices: usize,
+    pub timeout_s: Option<f64>,
+    pub trailing_edge: String,
+    pub far_field_chords: f64,
+    pub incidence_deg: f64,
+}
+
+impl RequestReport {
+    pub fn new(request: &Request) -> Self {
+        Self {
+            length_unit: None,
+            engine: word(&request.engine),
+            angle_min_deg: request.min_angle,
+            tau_rad: None,
+            max_turning: request.max_turning.to_string(),
+            beta: request.beta,
+            ball_shrinking: word(&request.ball_shrinking),
+            midpoint: word(&request.midpoint),
+            corner_arcs: request.corner_arcs.is_on(),
+            max_area: request.max_area,
+            max_edge: request.max_edge,
+            min_edge: request.min_edge,
+            chord_error: None,
+            edge_turning_deg: request.edge_turning.deg(),
+            grade: request.grade,
+            size_of: request.size_of.iter().map(|s| (s.name.clone(), s.edge)).collect(),
+            order: request.order.into(),
+            tolerance: None,
+            fill_rule: word(&request.fill_rule),
+            keep: word(&request.keep),
+            unit: request.unit.clone(),
+            scale: request.scale.unwrap_or(1.0),
+            max_vertices: request.max_vertices,
+            timeout_s: request.timeout,
+            trailing_edge: word(&request.trailing_edge),
+            far_field_chords: request.far_field,
+            incidence_deg: request.incidence,
+        }
+    }
+}
+
+impl RequestReport {
+    /// What the options came to for a drawing and its domain.
+    pub fn note_use(&mut self, drawing: &Drawing, domain: &Domain, plan: &Plan) {
+        self.length_unit = drawing.unit.as_ref().map(|(unit, _)| unit.clone());
+        self.tolerance = Some(domain.tolerance());
+        self.tau_rad = Some(plan.tau_rad);
+        self.chord_error = plan.sizing().chord_error;
+    }
+}
+
+/// The word by which a choice is asked for.
+fn word(choice: &impl Serialize) -> String {
+    match serde_json::to_value(choice) {
+        Ok(serde_json::Value::String(word)) => word,
+        other => unreachable!("a choice is written as a word, not {other:?}"),
+    }
+}
+
+#[derive(Clone, Debug, Serialize)]
+pub struct MeshReport {
+    pub vertices: usize,
+    pub triangles: usize,
+    pub tetrahedra: usize,
+    pub boundary_edges: usize,
+    pub regions: Vec<RegionMeasure>,
+    pub boundaries: Vec<BoundaryMeasure>,
+}
+
+impl MeshReport {
+    pub fn new(mesh: &Mesh) -> Self {
+        Self {
+            vertices: mesh.nodes.len(),
+            triangles: mesh.triangles.len(),
+            tetrahedra: 0,
+            boundary_edges: mesh.edges.len(),
+            regions: region_measures(mesh),
+            boundaries: boundary_measures(mesh),
+        }
+    }
+}
+
+#[derive(Clone, Debug, Serialize)]
+pub struct PromiseReport {
+    pub kept: bool,
+    pub checks: Vec<Check>,
+    pub excused: ExcusedReport,
+}
+
+#[derive(Clone, Debug, Serialize)]
+pub struct ExcusedReport {
+    pub count: usize,
+    pub by_corner: Vec<Excuse>,
+}
+
+impl PromiseReport {
+    pub fn new(verdict: &Verdict) -> Self {
+        let count = verdict.excused.iter().map(|e| e.cells.len()).sum();
+        let excused = ExcusedReport { count, by_corner: verdict.excused.clone() };
+        Self { kept: verdict.kept(), checks: verdict.checks.clone(), excused }
+    }
+}
+
+#[derive(Clone, Debug, Serialize)]
+pub struct StopReport {
+    pub reason: StopReason,
+    pub owed: usize,
+    pub places: Vec<[f64; 2]>,
+}
+
+impl StopReport {
+    pub fn new(stop: &Stop) -> Self {
+        Self { reason: stop.reason, owed: stop.owed, places: stop.places.iter().map(|p| [p.x, p.y]).collect() }
+    }
+}
+
+/// What stood in the way, where, and the way out.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct FailureReport {
+    pub kind: FailureKind,
+    pub what: String,
+    pub at: Option<[f64; 2]>,
+    pub line: Option<usize>,
+    pub column: Option<usize>,
+    pub help: String,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum FailureKind {
+    /// The request does not fit the drawing.
+    Request,
+    Unreadable,
+    Geometry,
+    /// The budget or the time ended before there was a valid mesh.
+    NoMesh,
+    /// Our own fault.
+    Bug,
+}
+
+impl FailureReport {
+    pub fn new(kind: FailureKind, what: impl Into<String>, help: impl Into<String>) -> Self {
+        Self { kind, what: what.into(), at: None, line: None, column: None, help: help.into() }
+    }
+
+    pub fn at(self, place: Point) -> Self {
+        Self { at: Some([place.x, place.y]), ..self }
+    }
+}
+
+/// Wall-clock seconds of each stage.
+#[derive(Clone, Copy, Debug, Default, Serialize)]
+pub struct Seconds {
+    pub read: f64,
+    pub arrange: f64,
+    pub mesh: f64,
+    pub verify: f64,
+    pub write: f64,
+    pub total: f64,
+}
+
+impl Report {
+    /// The report of a run that has not begun.
+    pub fn new(path: &str, request: &Request) -> Self {
+        Self {
+            schema: SCHEMA,
+            version: env!("CARGO_PKG_VERSION"),
+            input: InputReport { path: path.into(), ..InputReport::default() },
+            request: RequestReport::new(request),
+            mesh: None,
+            quality: None,
+            promise: None,
+            stop: None,
+            failure: None,
+            counters: Counters::default(),
+            seconds: Seconds::default(),
+            peak_memory_bytes: None,
+        }
+    }
+
+    /// The JSON text, indented, with a line end. Numbers that are not finite become `null`.
+    pub fn to_json(&self) -> String {
+        let mut text =
+            serde_json::to_string_pretty(self).expect("a report holds only strings, numbers and lists of them");
+        text.push('\n');
+        text
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_fields_come_in_the_contracts_order() {
+        let report = Report::new("wing.dat", &Request::default());
+        let value: serde_json::Value = serde_json::from_str(&report.to_json()).unwrap();
+        let keys = |value: &serde_json::Value| value.as_object().unwrap().keys().cloned().collect::<Vec<_>>();
+        assert_eq!(
+            keys(&value),
+            [
+                "schema",
+                "version",
+                "input",
+                "request",
+                "mesh",
+                "quality",
+                "promise",
+                "stop",
+                "counters",
+                "seconds",
+                "peak_memory_bytes"
+            ]
+        );
+        assert_eq!(keys(&value["seconds"]), ["read", "arrange", "mesh", "verify", "write", "total"]);
+        assert_eq!(value["schema"], 1);
+        assert_eq!(value["input"]["path"], "wing.dat");
+        assert_eq!(value["request"]["engine"], "lop");
+        assert_eq!(value["request"]["edge_turning_deg"], 15.0);
+        assert_eq!(value["request"]["fill_rule"], "auto");
+    }
+}

@@ -1,0 +1,88 @@
+//! One run from a drawing to a verdict, with the seconds of each stage.
+
+use squinch::domain::{ArrangeOptions, Domain, Drawing};
+use squinch::import::{self, Format};
+use squinch::mesh::verify::{self, Promise, Status, Verdict};
+use squinch::mesh::{Mesh, quality};
+use squinch::plane::Midpoint;
+use squinch::plane::lopping::{self, Options};
+use squinch::refine::{Counters, Stop};
+use squinch::size::Sizing;
+use std::time::Instant;
+
+/// What a run made.
+pub struct Run {
+    pub domain: Domain,
+    pub mesh: Mesh,
+    pub stop: Stop,
+    pub counters: Counters,
+    pub verdict: Verdict,
+    pub quality: quality::Quality,
+    pub seconds: Seconds,
+}
+
+/// Seconds by stage.
+#[derive(Default, Clone, Copy)]
+pub struct Seconds {
+    pub arrange: f64,
+    pub refine: f64,
+    pub verify: f64,
+}
+
+/// Reads a drawing of a known format.
+pub fn read(path: &str) -> Result<Drawing, String> {
+    let bytes = std::fs::read(path).map_err(|e| format!("{path}: {e}"))?;
+    let format = import::format_of(path.as_ref()).unwrap_or(Format::Outline);
+    import::read(&bytes, format, path, &import::Options::default()).map_err(|e| format!("{path}: {e}"))
+}
+
+/// Meshes and judges a drawing.
+pub fn run(drawing: &Drawing, tau_rad: f64, options: &Options) -> Result<Run, String> {
+    let mut seconds = Seconds::default();
+    let start = Instant::now();
+    let domain = drawing.arrange(&ArrangeOptions::default()).map_err(|e| e.to_string())?.split_to_turning(tau_rad);
+    seconds.arrange = start.elapsed().as_secs_f64();
+    let start = Instant::now();
+    let refined = lopping::refine(&domain, options, &mut |_| true).map_err(|e| e.to_string())?;
+    seconds.refine = start.elapsed().as_secs_f64();
+    let mesh = refined.mesh.ok_or_else(|| format!("no mesh: {:?}", refined.stop.reason))?;
+    let start = Instant::now();
+    let verdict = verify::verify(Some(&domain), &mesh, &promise(options, tau_rad));
+    seconds.verify = start.elapsed().as_secs_f64();
+    let quality = quality::Quality::of(&mesh, Some(&domain), &verdict);
+    Ok(Run { domain, mesh, stop: refined.stop, counters: refined.counters, verdict, quality, seconds })
+}
+
+fn promise(options: &Options, tau_rad: f64) -> Promise {
+    Promise {
+        angle_min_rad: Some(options.angle_min_rad),
+        tau_rad,
+        beta: options.beta,
+        corner_arcs: options.corner_arcs.is_some(),
+        arc_turning_rad: options.corner_arcs.unwrap_or(0.0),
+        midpoint_bisector: options.midpoint == Midpoint::Bisector,
+        sizing: options.sizing.clone(),
+        foreign: false,
+    }
+}
+
+impl Run {
+    /// The status of one check.
+    pub fn status(&self, name: &str) -> Status {
+        self.verdict.checks.iter().find(|c| c.name == name).map_or(Status::NotAsked, |c| c.status)
+    }
+
+    /// Names of the broken checks.
+    pub fn broken(&self) -> Vec<&'static str> {
+        self.verdict.checks.iter().filter(|c| c.status == Status::Broken).map(|c| c.name).collect()
+    }
+
+    pub fn excused(&self) -> usize {
+        self.verdict.excused.iter().map(|e| e.cells.len()).sum()
+    }
+}
+
+/// Options with no size asked for.
+pub fn unsized_options(angle_min_rad: f64) -> Options {
+    Options { angle_min_rad, sizing: Sizing::default(), max_vertices: 1_000_000, ..Options::default() }
+}
