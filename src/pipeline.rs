@@ -17,9 +17,6 @@ use std::collections::BTreeSet;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-/// Corner arcs turn at most this: π/3 keeps every arc triangle's angle at the ball above 60° (Pav & Walkington 2005, section 6).
-const ARC_TURNING_RAD: f64 = std::f64::consts::FRAC_PI_3;
-
 /// What is read: the bytes of a file, and how to read them.
 #[derive(Clone, Debug)]
 pub struct Source<'a> {
@@ -122,6 +119,7 @@ impl Outcome {
         self.report.input.repairs = arranged.repairs().to_vec();
         let plan = Plan::new(drawing, &arranged, request)?;
         let domain = arranged.split_to_turning(plan.tau_rad);
+        let plan = plan.with_arcs_for(&domain);
         self.report.request.note_use(drawing, &arranged, &plan);
         self.report.seconds.arrange = clock.lap();
 
@@ -354,6 +352,14 @@ impl Plan {
         Self { tau_rad: request.tau_rad([]), options: engine_options(request, sizing) }
     }
 
+    /// The plan with corner arcs as fine as the guarantee of this τ-split domain asks for.
+    pub fn with_arcs_for(mut self, domain: &Domain) -> Self {
+        let lens = domain.curves().iter().map(|c| c.curve.lens_angle(0.0, 1.0)).fold(0.0, f64::max);
+        let turning = lopping::arc_turning(self.options.angle_min_rad, lens);
+        self.options.corner_arcs = self.options.corner_arcs.map(|_| turning);
+        self
+    }
+
     pub fn sizing(&self) -> &Sizing {
         &self.options.sizing
     }
@@ -392,7 +398,7 @@ impl Plan {
             tau_rad: self.tau_rad,
             beta: self.options.beta,
             corner_arcs: self.options.corner_arcs.is_some(),
-            arc_turning_rad: ARC_TURNING_RAD,
+            arc_turning_rad: self.options.corner_arcs.unwrap_or(0.0),
             midpoint_bisector: self.options.midpoint == plane::Midpoint::Bisector,
             sizing: self.options.sizing.clone(),
             foreign: mesh.edges.iter().any(|edge| edge.link.is_none()),
@@ -413,7 +419,7 @@ fn engine_options(request: &Request, sizing: Sizing) -> lopping::Options {
             Midpoint::Bisector => plane::Midpoint::Bisector,
             Midpoint::Angle => plane::Midpoint::Angle,
         },
-        corner_arcs: request.corner_arcs.is_on().then_some(ARC_TURNING_RAD),
+        corner_arcs: request.corner_arcs.is_on().then_some(std::f64::consts::FRAC_PI_3),
         sizing,
         max_vertices: request.max_vertices,
     }

@@ -96,5 +96,7 @@ fn against(input: &Input, request: &Request, report: &mut Report) -> Result<(Dom
     report.input.describe(&drawing);
     report.input.repairs = arranged.repairs().to_vec();
     report.request.note_use(&drawing, &arranged, &plan);
-    Ok((arranged.split_to_turning(plan.tau_rad), plan))
+    let domain = arranged.split_to_turning(plan.tau_rad);
+    let plan = plan.with_arcs_for(&domain);
+    Ok((domain, plan))
 }

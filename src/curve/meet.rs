@@ -73,8 +73,7 @@ pub struct MeetingBudget {
     pub at: Point,
 }
 
-/// Pairs of pieces that are compared at most: some 0.1 s of work. A pair of cubics takes about fifty, a tangential touch a few hundred,
-/// and curves that run 1e-9 of their size beside each other some ten thousand.
+/// Pairs of pieces that are compared at most: some 0.1 s of work. Curves that run beside each other at 1e-13 of their size exceed it.
 const PAIRS: usize = 1 << 18;
 
 /// Every meeting of two curves with a gap of at most `tolerance` (a length; at least a few units in the last place of the
@@ -84,8 +83,7 @@ const PAIRS: usize = 1 << 18;
 /// # Errors
 /// [`MeetingBudget`] where the curves run along each other just outside the tolerance for too long.
 pub fn meetings(a: &Curve, b: &Curve, tolerance: f64) -> Result<Meetings, MeetingBudget> {
-    let hulls = [Hulls::of(a), Hulls::of(b)];
-    let mut search = Search::new(a, b, hulls, tolerance, false);
+    let mut search = Search::new(a, b, vec![Hulls::of(a), Hulls::of(b)], tolerance, false);
     match circles::guesses(&search.contacts) {
         Some(guesses) => guesses.into_iter().try_for_each(|guess| search.follow(guess))?,
         None => search.run()?,
@@ -102,9 +100,7 @@ pub fn self_meetings(a: &Curve, tolerance: f64) -> Result<Vec<Meeting>, MeetingB
     if matches!(a, Curve::Line(_) | Curve::Arc(_) | Curve::Ellipse(_)) {
         return Ok(Vec::new());
     }
-    // The second tree stays unused: both pieces of a pair come from the first.
-    let hulls = [Hulls::of(a), Hulls::of(a)];
-    let mut search = Search::new(a, a, hulls, tolerance, true);
+    let mut search = Search::new(a, a, vec![Hulls::of(a)], tolerance, true);
     search.run()?;
     let Meetings { mut points, overlaps } = search.finish();
     for Overlap { t, u } in overlaps {
@@ -116,23 +112,25 @@ pub fn self_meetings(a: &Curve, tolerance: f64) -> Result<Vec<Meeting>, MeetingB
 }
 
 struct Search<'c> {
-    /// Of a and of b.
-    hulls: [Hulls; 2],
+    /// Of a and of b; only one where they are the same.
+    hulls: Vec<Hulls>,
     contacts: Contacts<'c>,
 }
 
 impl<'c> Search<'c> {
-    fn new(a: &'c Curve, b: &'c Curve, hulls: [Hulls; 2], tolerance: f64, same: bool) -> Self {
-        // Sixteen units of rounding: evaluating a curve takes a few, and a gap is between two of them.
-        let least = 16.0 * f64::EPSILON * hulls[0].magnitude.max(hulls[1].magnitude);
+    fn new(a: &'c Curve, b: &'c Curve, hulls: Vec<Hulls>, tolerance: f64, same: bool) -> Self {
+        // De Casteljau's algorithm errs by up to 2n units of rounding at degree n, and so does cutting a part out of a curve;
+        // a gap is between two such points. A unit of rounding is half of EPSILON: twice 4(n + 1) of them is safe.
+        let most = |value: fn(&Hulls) -> f64| hulls.iter().map(value).fold(0.0, f64::max);
+        let least = 8.0 * (most(|h| h.degree as f64) + 1.0) * f64::EPSILON * most(|h| h.magnitude);
         let track = |curve, hulls: &Hulls| Track::new(curve, hulls.degree, hulls[hulls.root()].size);
-        let (on_a, on_b) = (track(a, &hulls[0]), track(b, &hulls[1]));
+        let (on_a, on_b) = (track(a, &hulls[0]), track(b, &hulls[hulls.len() - 1]));
         Self { contacts: Contacts::new(on_a, on_b, tolerance.max(least), same), hulls }
     }
 
     /// Where the pieces of b are kept.
     fn second(&self) -> usize {
-        if self.contacts.same { 0 } else { 1 }
+        self.hulls.len() - 1
     }
 
     fn run(&mut self) -> Result<(), MeetingBudget> {
@@ -153,7 +151,7 @@ impl<'c> Search<'c> {
                 continue;
             }
             if let Some(halve) = self.compare(i, j)? {
-                let halves = self.hulls[if halve == 0 { 0 } else { second }].halves([i, j][halve]);
+                let halves = self.hulls[halve * second].halves([i, j][halve]);
                 for half in halves {
                     stack.push(if halve == 0 { [half, j] } else { [i, half] });
                 }

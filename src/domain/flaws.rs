@@ -275,7 +275,7 @@ impl Domain {
             };
             // Another irrational spread than the arranging has: √2 − 1.
             let mut levels = (1..=LINES).map(|k| low + (high - low) * (k as f64 * (2f64.sqrt() - 1.0)).fract());
-            let hits = levels.find_map(|level| locator.hits(axis, level, f64::INFINITY, rounding));
+            let hits = levels.find_map(|level| locator.hits(axis, level, [f64::NEG_INFINITY, f64::INFINITY], rounding));
             if let Some(hits) = hits {
                 self.check_level(&hits, flaws);
             }

@@ -102,12 +102,12 @@ impl<'a> Locator<'a> {
         (id, side_of(&near.curve, t, foot, p))
     }
 
-    /// The crossings of a line with all curves at coordinates up to `until`, ascending; `None` where the line passes within `margin`
-    /// of an end of a curve, or nearly along a curve, so that another line is to be tried.
-    pub(super) fn hits(&self, axis: Axis, level: f64, until: f64, margin: f64) -> Option<Vec<Hit>> {
+    /// The crossings of a line with all curves at the coordinates of `range`, ascending; `None` where the line passes there within
+    /// `margin` of an end of a curve, or nearly along a curve, so that another line is to be tried.
+    pub(super) fn hits(&self, axis: Axis, level: f64, range: [f64; 2], margin: f64) -> Option<Vec<Hit>> {
         let strip = match axis {
-            Axis::Horizontal => Rect::new(f64::NEG_INFINITY, level, until, level),
-            Axis::Vertical => Rect::new(level, f64::NEG_INFINITY, level, until),
+            Axis::Horizontal => Rect::new(range[0], level, range[1], level),
+            Axis::Vertical => Rect::new(level, range[0], level, range[1]),
         };
         let (mut hits, mut clear) = (Vec::new(), true);
         self.boxes.meeting(strip, |i| {
@@ -117,6 +117,7 @@ impl<'a> Locator<'a> {
             clear = clear && crossings(curve, axis, level, |along, before| hits.push(Hit { along, curve: id, before }));
             clear
         });
+        hits.retain(|hit| range[0] <= hit.along && hit.along <= range[1]);
         hits.sort_by(|a, b| a.along.total_cmp(&b.along).then(a.curve.cmp(&b.curve)));
         clear.then_some(hits)
     }

@@ -15,6 +15,10 @@
 //!   applies, and only then are the arcs looked at. Every piece is an edge at that moment, so what an arc's vertex would encroach is read
 //!   off its cavity. The conditions are those of the corrected section 6: a pseudo midpoint with a vertex nearer than d/2, or that
 //!   encroaches a piece shorter than d, shrinks the ball; a longer piece is split.
+//! - *Neighbouring arcs.* A vertex on the arc of another ball does not crowd a pseudo midpoint, and an arc piece that it encroaches is
+//!   split, however short. Were they to shrink the ball, lfs(p) ≤ C₀·d(p) would fail: with |pq| = lfs₀(p) and both balls at birth, the
+//!   two arcs come within (√2−1)·d(p) < d(p)/2 of each other. Nothing is lost: d(p) + d(q) ≤ 2(√2−1)|pq| keeps them at least
+//!   (3−2√2)·|pq| apart at all times, and arc pieces shorter than twice that are not encroached.
 //! - *Batched shrinking.* d(p) ← β·d(p) is repeated until the ball is clear, and the curves are cut once. The literal rule cuts at every
 //!   step, which leaves a shell of vertices a step ([`Shrinking::Literal`]).
 //! - *Incident vertices.* Ball points are rounded. Lemma 3 says that only vertices of curves that do not end at p come into B(p); so only
@@ -22,7 +26,7 @@
 //! - *Rounded circumcenters.* Each decision (ball, encroachment, cavity) is made on the rounded point. A circumcenter outside its own
 //!   cavity would not remove its triangle: it is not inserted, and the triangle is owed.
 //!
-//! Termination is Corollary 3's for κ below [`crate::mesh::verify::guaranteed_angle`]; beyond it the vertex budget ends what does not end by itself. The
+//! Termination is Corollary 3's for κ below [`guaranteed_angle`]; beyond it the vertex budget ends what does not end by itself. The
 //! result says which it was. A piece that coordinates cannot split any more ends the run with its place.
 
 use super::balls::Balls;
@@ -35,6 +39,7 @@ use crate::domain::Domain;
 use crate::geometry::exact::{CircleSide, in_circle, in_diametral};
 use crate::geometry::{self, Point, Vec2};
 use crate::ids::{BallId, CurveId, Id, IdVec, PieceId, PointId, TriangleId, VertexId};
+use crate::mesh::verify::guaranteed_angle;
 use crate::mesh::{self, BallReason, CurveEdge, CurveLink, Mesh};
 use crate::refine::{Counters, Progress, Stop, StopReason, WorstFirst};
 use crate::size::{SizeField, Sizing};
@@ -121,8 +126,8 @@ pub fn refine(
 enum Origin {
     Input(PointId),
     OnCurve(CurveId),
-    /// On a corner arc, now or once.
-    OnArc,
+    /// On a corner arc of a ball, now or once.
+    OnArc(BallId),
     Free,
 }
 
@@ -230,7 +235,7 @@ impl Lopping {
     }
 
     fn first_rule(&mut self) -> Rule {
-        if self.reason == StopReason::Arithmetic || self.origins.len() > 2 * self.options.max_vertices {
+        if self.reason == StopReason::Arithmetic || self.origins.len() > self.most_vertices() {
             return Rule::Rest;
         }
         if let Some(ball) = self.intruded.pop_front() {
@@ -252,6 +257,11 @@ impl Lopping {
             Some(suspect) => Rule::Split(suspect),
             None => Rule::Rest,
         }
+    }
+
+    /// The budget; once there was a valid mesh, twice as much, so that what is begun can be made valid again.
+    fn most_vertices(&self) -> usize {
+        self.options.max_vertices.saturating_mul(if self.carved { 2 } else { 1 })
     }
 
     /// Whether every piece is an edge that nothing encroaches, and every triangle has its region.
@@ -298,10 +308,13 @@ impl Lopping {
         }
     }
 
-    /// Triangles that still miss a bound, and the first of their places.
+    /// Pieces and triangles that still miss a bound, and some of their places, the most crowded pieces first.
     fn owed(&mut self) -> (usize, Vec<Point>) {
         const PLACES: usize = 16;
-        let (mut owed, mut places) = (self.too_near.len(), Vec::new());
+        let mut pieces: Vec<(f64, Point)> = self.suspects.iter().map(|&id| self.length_and_place(id)).collect();
+        pieces.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+        let mut owed = self.too_near.len() + pieces.len();
+        let mut places: Vec<Point> = pieces.into_iter().map(|(_, at)| at).take(PLACES).collect();
         while let Some(suspect) = self.skinny.pop().or_else(|| self.oversized.pop()) {
             if self.is_stale(&suspect) {
                 continue;
@@ -314,6 +327,11 @@ impl Lopping {
         (owed, places)
     }
 
+    fn length_and_place(&self, id: PieceId) -> (f64, Point) {
+        let [x, y] = self.subcurves.get(id).ends.map(|v| self.delaunay.point(v));
+        (x.distance(y), x.midpoint(y))
+    }
+
     fn count_kernel(&mut self) {
         let kernel = self.delaunay.counters();
         self.counters.add("predicates", kernel.orient + kernel.in_circle);
@@ -321,6 +339,29 @@ impl Lopping {
         self.counters.add("walk_steps", kernel.walk_steps);
         self.counters.add("cavity_triangles", kernel.cavity_triangles);
     }
+}
+
+/// The largest turning of corner arcs for which κ is proven, where that is the domain's to prove: `lambda_rad` is the largest lens angle
+/// of its curves. Elsewhere π/3, the largest that keeps the angles at the rim of a ball at 60° and more (section 6).
+///
+/// Arcs are curves: of turning T they have λ = T/2, so arcs of π/3 prove κ only up to 8.594°. Finer ones than a tenth of a radian would
+/// crowd the ball with vertices for the sake of the proof; then the angle is reached, not proven.
+pub fn arc_turning(kappa_rad: f64, lambda_rad: f64) -> f64 {
+    const FINEST: f64 = 0.1;
+    if kappa_rad >= guaranteed_angle(lambda_rad) || kappa_rad < guaranteed_angle(FRAC_PI_3 / 2.0) {
+        return FRAC_PI_3;
+    }
+    // The guarantee falls as λ grows: 50 halvings reach the spacing of f64.
+    let (mut covered, mut missed) = (0.0, FRAC_PI_3 / 2.0);
+    for _ in 0..50 {
+        let middle = 0.5 * (covered + missed);
+        if kappa_rad < guaranteed_angle(middle) {
+            covered = middle;
+        } else {
+            missed = middle;
+        }
+    }
+    if 2.0 * covered >= FINEST { 2.0 * covered } else { FRAC_PI_3 }
 }
 
 // ---- the beginning: P and ball points ----
@@ -437,7 +478,7 @@ impl<'a> Beginning<'a> {
         let describe = |i: usize| match self.origins[VertexId::from_index(i)] {
             Origin::Input(p) => format!("input point {}", p.0),
             Origin::OnCurve(c) => format!("a point of curve {} on the border of its corner's ball", c.0),
-            Origin::OnArc | Origin::Free => format!("vertex {i}"),
+            Origin::OnArc(_) | Origin::Free => format!("vertex {i}"),
         };
         RefineError {
             what: format!("{} and {} coincide", describe(first), describe(second)),
@@ -695,7 +736,7 @@ impl Lopping {
         }
         let origin = match piece.carrier {
             Carrier::Curve(curve) => Origin::OnCurve(curve),
-            Carrier::Arc(..) => Origin::OnArc,
+            Carrier::Arc(ball, _) => Origin::OnArc(ball),
         };
         let near = self.side_of(id).map_or_else(|| self.triangle_at(piece.ends[0]), Side::triangle);
         self.look_at_cavity(at, near, x)?;
@@ -932,30 +973,39 @@ impl Lopping {
                 return Room::Tight;
             }
             self.delaunay.cavity(at, location, &mut self.cavity);
-            let topology = self.delaunay.topology();
-            let crowded = self
-                .cavity
-                .triangles
-                .iter()
-                .flat_map(|&t| topology.corners(t))
-                .any(|v| v != GHOST && self.delaunay.point(v).distance(at) < radius / 2.0);
-            if crowded {
+            if self.is_crowded(id, radius, at) {
                 return Room::Tight;
             }
             for (_, piece) in self.cavity_pieces() {
-                let [x, y] = self.subcurves.get(piece).ends.map(|v| self.delaunay.point(v));
-                let own = match self.subcurves.get(piece).standing {
-                    Standing::Spoke(ball) => ball == id,
-                    _ => false,
-                };
-                if own || !self.encroaches(at, piece) {
-                    continue;
+                match self.room_beside(id, radius, at, piece) {
+                    Room::Clear => {}
+                    room => return room,
                 }
-                let spoke = self.subcurves.get(piece).is_spoke();
-                return if spoke || x.distance(y) < radius { Room::Tight } else { Room::Blocked(piece) };
             }
         }
         Room::Clear
+    }
+
+    /// Whether a vertex lies nearer to a pseudo midpoint than half the radius. A vertex on another ball's arc does not count: the balls
+    /// keep apart by themselves.
+    fn is_crowded(&self, id: BallId, radius: f64, at: Point) -> bool {
+        let topology = self.delaunay.topology();
+        let mut neighbours = self.cavity.triangles.iter().flat_map(|&t| topology.corners(t)).filter(|&v| v != GHOST);
+        neighbours.any(|v| {
+            let apart = matches!(self.origins[v], Origin::OnArc(other) if other != id);
+            !apart && self.delaunay.point(v).distance(at) < radius / 2.0
+        })
+    }
+
+    /// Whether a pseudo midpoint leaves a piece alone.
+    fn room_beside(&self, id: BallId, radius: f64, at: Point, piece: PieceId) -> Room {
+        let entry = self.subcurves.get(piece);
+        if entry.standing == Standing::Spoke(id) || !self.encroaches(at, piece) {
+            return Room::Clear;
+        }
+        let [x, y] = entry.ends.map(|v| self.delaunay.point(v));
+        let short = x.distance(y) < radius && matches!(entry.carrier, Carrier::Curve(_));
+        if entry.is_spoke() || short { Room::Tight } else { Room::Blocked(piece) }
     }
 
     fn insert_arcs(&mut self, id: BallId, sectors: Vec<Sector>) {
@@ -972,7 +1022,7 @@ impl Lopping {
                         return;
                     }
                     self.disturb(at, None);
-                    self.act(at, Origin::OnArc, "vertices_arc")
+                    self.act(at, Origin::OnArc(id), "vertices_arc")
                 };
                 let ends = [from, to].map(|v| self.delaunay.point(v));
                 let start = sector.start + sector.sweep * i as f64 / f64::from(sector.count);
@@ -1079,10 +1129,7 @@ impl Lopping {
 
     /// The longest piece, spokes apart, that a point encroaches.
     fn longest_encroached(&self, at: Point, pieces: &[(Side, PieceId)]) -> Option<PieceId> {
-        let length = |piece: PieceId| {
-            let [x, y] = self.subcurves.get(piece).ends.map(|v| self.delaunay.point(v));
-            x.distance_squared(y)
-        };
+        let length = |piece: PieceId| self.length_and_place(piece).0;
         pieces
             .iter()
             .map(|&(_, piece)| piece)

@@ -46,8 +46,9 @@ def main():
     options = args[args.index("--") + 1:] if "--" in args else []
     args = args[:args.index("--")] if "--" in args else args
     tally = {}
-    for path in files(args[1:]):
-        kind, facts, seconds, message = run(args[0], path, options)
+    binary = os.path.abspath(args[0])
+    for path in map(os.path.abspath, files(args[1:])):
+        kind, facts, seconds, message = run(binary, path, options)
         mesh, quality, promise = (facts.get(k) or {} for k in ("mesh", "quality", "promise"))
         broken = [c["name"] for c in promise.get("checks", []) if c["status"] == "broken"]
         print("%-44s %-12s %8s triangles %6s deg %6s excused %6.2f s %s %s" % (

@@ -196,8 +196,10 @@ impl<'c> Contacts<'c> {
                 }
                 return Ok((passed, Stop::End));
             }
-            // The border of the contact is wanted to a small part of its length only: it serves to know the contact again.
-            if step <= first_step.max((t - from[0]).abs() / 256.0) {
+            // The border of the contact is wanted to a small part of its length only: it serves to know the contact again. But a
+            // gap far beyond the tolerance may be a foot gone astray in a sharp bend.
+            let is_border = gap <= 2.0 * self.tolerance && !jumps && step <= (t - from[0]).abs() / 256.0;
+            if is_border || step <= first_step {
                 return Ok((passed, Stop::Away([next, foot])));
             }
             step *= 0.25;

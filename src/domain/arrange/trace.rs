@@ -1,6 +1,6 @@
 //! Faces: cycles of curve sides, which face holds which component, winding numbers, and the kept regions with their names.
 
-use super::cut::Network;
+use super::cut::{Network, extent};
 use super::{ArrangeError, Drawing, FillRule, Repair, RepairKind};
 use crate::curve::End;
 use crate::domain::locate::{Axis, Hit, Locator, Side, Sight, left_of};
@@ -11,6 +11,9 @@ use crate::ids::{CurveId, Id, IdVec, NameId, PointId, RegionId};
 /// Axis-parallel lines tried through a component before its place counts as undecided; each fails only by passing within rounding of
 /// a vertex or along a curve.
 const LINES: usize = 64;
+
+/// More than the unit frame is wide, the box of `keep all` included: coordinates of at most 1 and 2√2 on either side.
+const FRAME: f64 = 16.0;
 
 /// A curve side: the curve travelled forward has its face on the left, travelled backward the one on its right.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -121,13 +124,21 @@ impl Faces {
         let bounds = boxes.reduce(|a, b| a.union(b)).unwrap_or_default();
         // A level line cannot pass a height of a few margins clear of its ends.
         let axis = if bounds.height() > 4.0 * margin { Axis::Horizontal } else { Axis::Vertical };
+        let is_mine = |hit: &Hit| self.cycles[self.cycle_of[side_index(hit)]].component == component;
         for level in levels(bounds, axis) {
-            let until = if axis == Axis::Horizontal { bounds.x1 } else { bounds.y1 };
-            let Some(hits) = locator.hits(axis, level, until, margin) else { continue };
-            let is_mine = |hit: &Hit| self.cycles[self.cycle_of[side_index(hit)]].component == component;
-            if let Some(first) = hits.iter().position(is_mine) {
-                let behind = first.checked_sub(1).map(|i| hits[i]);
-                return Ok(behind.map(|h| self.cycle_of[Half { curve: h.curve, side: h.before.other() }.index()]));
+            let (low, high) = if axis == Axis::Horizontal { (bounds.x0, bounds.x1) } else { (bounds.y0, bounds.y1) };
+            let mut reach = extent(bounds);
+            // Looks ever further back: most components have a neighbour nearby. The unit frame ends within a few units.
+            while let Some(hits) = locator.hits(axis, level, [low - reach, high], margin) {
+                match hits.iter().position(is_mine) {
+                    None => break,
+                    Some(0) if reach > FRAME => return Ok(None),
+                    Some(0) => reach *= 4.0,
+                    Some(first) => {
+                        let Hit { curve, before, .. } = hits[first - 1];
+                        return Ok(Some(self.cycle_of[Half { curve, side: before.other() }.index()]));
+                    }
+                }
             }
         }
         Err(ArrangeError {

@@ -49,7 +49,7 @@ pub fn run(drawing: &Drawing, tau_rad: f64, options: &Options) -> Result<Run, St
     let start = Instant::now();
     let verdict = verify::verify(Some(&domain), &mesh, &promise(options, tau_rad));
     seconds.verify = start.elapsed().as_secs_f64();
-    let quality = quality::Quality::of(&mesh, Some(&domain), &verdict);
+    let quality = quality::Quality::of(Some(&domain), &mesh, &verdict);
     Ok(Run { domain, mesh, stop: refined.stop, counters: refined.counters, verdict, quality, seconds })
 }
 
