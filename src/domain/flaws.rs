@@ -71,7 +71,7 @@ impl Domain {
             }
             match self_meetings(&curve.curve, rounding) {
                 Ok(found) if found.is_empty() => {}
-                Ok(_) => flaws.push(format!("{id:?} meets itself")),
+                Ok(found) => flaws.push(format!("{id:?} meets itself at {:?}", found[0])),
                 Err(_) => flaws.push(format!("{id:?}: its meetings with itself cannot be told")),
             }
         }
@@ -264,25 +264,30 @@ impl Domain {
         }
     }
 
-    /// Along a level line through every component, each crossing agrees with the next on the region between, and both ends see none.
+    /// Along a level line through every component, each crossing agrees with the next on the region between. Lines through large
+    /// components go right through the drawing and end in the unbounded face; of small ones, the surroundings tell enough.
     fn check_levels(&self, flaws: &mut Vec<String>) {
         let (locator, rounding) = (Locator::new(self), self.rounding());
+        let whole = self.bounds();
         for id in self.first_curves() {
             let bounds = self.curves[id].curve.bounds();
-            let (axis, low, high) = match bounds.height() > bounds.width() {
-                true => (Axis::Horizontal, bounds.y0, bounds.y1),
-                false => (Axis::Vertical, bounds.x0, bounds.x1),
+            let upright = bounds.height() > bounds.width();
+            let (axis, [low, high], [from, to]) = match upright {
+                true => (Axis::Horizontal, [bounds.y0, bounds.y1], [bounds.x0, bounds.x1]),
+                false => (Axis::Vertical, [bounds.x0, bounds.x1], [bounds.y0, bounds.y1]),
             };
+            let is_small = 64.0 * (high - low) < whole.width().max(whole.height());
+            let reach = if is_small { 8.0 * (high - low) } else { f64::INFINITY };
             // Another irrational spread than the arranging has: √2 − 1.
             let mut levels = (1..=LINES).map(|k| low + (high - low) * (k as f64 * (2f64.sqrt() - 1.0)).fract());
-            let hits = levels.find_map(|level| locator.hits(axis, level, [f64::NEG_INFINITY, f64::INFINITY], rounding));
+            let hits = levels.find_map(|level| locator.hits(axis, level, [from - reach, to + reach], rounding));
             if let Some(hits) = hits {
-                self.check_level(&hits, flaws);
+                self.check_level(&hits, !is_small, flaws);
             }
         }
     }
 
-    fn check_level(&self, hits: &[Hit], flaws: &mut Vec<String>) {
+    fn check_level(&self, hits: &[Hit], right_through: bool, flaws: &mut Vec<String>) {
         let before = |hit: &Hit| self.curves[hit.curve].sides[hit.before.index()];
         let after = |hit: &Hit| self.curves[hit.curve].sides[hit.before.other().index()];
         for pair in hits.windows(2).filter(|pair| after(&pair[0]) != before(&pair[1])) {
@@ -291,10 +296,12 @@ impl Domain {
                 pair[0].curve, pair[1].curve
             ));
         }
-        for outermost in
-            [hits.first().map(|h| (h, before(h))), hits.last().map(|h| (h, after(h)))].into_iter().flatten()
-        {
-            if let (hit, Some(region)) = outermost {
+        if !right_through {
+            return;
+        }
+        let outermost = [hits.first().map(|h| (h, before(h))), hits.last().map(|h| (h, after(h)))];
+        for (hit, region) in outermost.into_iter().flatten() {
+            if let Some(region) = region {
                 flaws.push(format!("{:?} has the unbounded face on the side of {region:?}", hit.curve));
             }
         }
