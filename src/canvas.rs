@@ -11,8 +11,8 @@ use base64::Engine;
 use std::fmt::Write;
 use std::io;
 
-/// Points of a layer beyond which SVG embeds it as an image: about 10 bytes a point, so 4 MB.
-const SVG_POINTS_MAX: usize = 400_000;
+/// Points of a layer beyond which SVG embeds it as an image: about 10 bytes a point, so 2 MB.
+const SVG_POINTS_MAX: usize = 200_000;
 /// Hundredths of a pixel: finer than anything visible at a zoom of ten.
 const STEPS: f64 = 100.0;
 /// Largest side of a picture in pixels: 8192² pixels of four bytes are 268 MB.
