@@ -1,5 +1,5 @@
-//! Pictures as text: golden SVG files under `tests/pictures/`. `UPDATE_PICTURES=1 cargo test --test pictures` writes them anew, with a PNG
-//! of each under the target directory: look at it before committing.
+//! Pictures as text: golden SVG files under `tests/pictures/`. `UPDATE_PICTURES=1 cargo test --test pictures` writes
+//! them anew, with a PNG of each under the target directory: look at it before committing.
 
 use squinch::canvas::Canvas;
 use squinch::curve::Curve;
@@ -87,7 +87,8 @@ fn mesh_by_size() {
     keep("mesh-size", &picture_of_mesh(&ring(36, 10, 1e7, 0.0), None, MeshColour::Size, &options));
 }
 
-/// A rectangle with a round bore, a curve across and a spike: two regions, one of them with a hole, and an acute corner.
+/// A rectangle with a round bore, a curve across and a spike: two regions, one of them with a hole, and an acute
+/// corner.
 fn drawing(scale: f64) -> Drawing {
     let at = |x: f64, y: f64| Point::new(x * scale, y * scale);
     let mut drawing = Drawing::default();

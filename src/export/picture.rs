@@ -46,12 +46,14 @@ const FAINT: Colour = Colour::hex(0x7b8794);
 const ALARM: Colour = Colour::hex(0xd6002a);
 const BALL: Colour = Colour::hex(0x7a1fa2);
 
-/// Boundary names: Okabe & Ito's colours, told apart by every kind of colour vision (their yellow darkened to be seen on white).
+/// Boundary names: Okabe & Ito's colours, told apart by every kind of colour vision (their yellow darkened to be seen
+/// on white).
 const LINES: [u32; 8] = [0x0072b2, 0xd55e00, 0x009e73, 0xcc79a7, 0x8c6d00, 0x56b4e9, 0xe69f00, 0x444444];
 /// Regions: the same hues, light enough to lie under lines.
 const AREAS: [u32; 8] = [0xcfe3f1, 0xf8ddc9, 0xcdebdf, 0xf2dde9, 0xebe4c4, 0xdcf0fb, 0xfbe9c6, 0xdddddd];
-/// Smallest angle of a triangle: brown (bad) over orange and cream to blue (good), a pair that colour-blind eyes keep apart.
-/// It turns pale just above 20.7°, the angle that corner lopping reaches: what stands out is what a corner excuses.
+/// Smallest angle of a triangle: brown (bad) over orange and cream to blue (good), a pair that colour-blind eyes keep
+/// apart. It turns pale just above 20.7°, the angle that corner lopping reaches: what stands out is what a corner
+/// excuses.
 const QUALITY: [(f64, u32); 7] = [
     (0.0, 0x6b1f00),
     (10.0, 0xc8500a),
@@ -149,7 +151,8 @@ pub fn picture_of_domain(domain: &Domain, options: &PictureOptions) -> Canvas {
     sheet.finish(options, &legend)
 }
 
-/// A mesh: cells by `colour`, edges thin, boundary edges thick by name (along the exact curves where the domain is given), balls dashed.
+/// A mesh: cells by `colour`, edges thin, boundary edges thick by name (along the exact curves where the domain is
+/// given), balls dashed.
 pub fn picture_of_mesh(mesh: &Mesh, domain: Option<&Domain>, colour: MeshColour, options: &PictureOptions) -> Canvas {
     let used = distinct(mesh.edges.iter().map(|e| e.name));
     let regions = distinct(mesh.regions.iter().copied());
@@ -513,7 +516,8 @@ impl Sheet {
         self.boundary_paths(paths);
     }
 
-    /// Whether an edge is long enough to show its curve, and in sight (a curved edge may bulge by less than its length).
+    /// Whether an edge is long enough to show its curve, and in sight (a curved edge may bulge by less than its
+    /// length).
     fn near(&self, [a, b]: [Pixel; 2]) -> bool {
         let l = libm::hypot(a.x - b.x, a.y - b.y);
         l > 1.0 && self.canvas.frame().sees(&[a, b, px(a.x - l, a.y - l), px(a.x + l, a.y + l)])
@@ -552,8 +556,8 @@ impl Sheet {
         }
     }
 
-    /// A label beside a place, at the first of four sides where it hides no other label and stays in the picture; if there is none,
-    /// it is left away, unless it is `owed`.
+    /// A label beside a place, at the first of four sides where it hides no other label and stays in the picture; if
+    /// there is none, it is left away, unless it is `owed`.
     fn label(&mut self, p: Point, text: &str, colour: Colour, owed: bool) {
         let at = self.pixel(p);
         if !self.canvas.frame().sees(&[at]) {

@@ -986,14 +986,17 @@ impl Lopping {
         Room::Clear
     }
 
-    /// Whether a vertex lies nearer to a pseudo midpoint than half the radius. A vertex on another ball's arc does not count: the balls
-    /// keep apart by themselves.
+    /// Whether a vertex lies nearer to a pseudo midpoint than half the radius, for arcs of π/3; finer arcs have their vertices nearer to
+    /// each other and to the spokes, and crowd in proportion (equal arcs turn at least half of what they may, and 2·sin(T/4) > 3T/2π).
+    /// A vertex on another ball's arc does not count: the balls keep apart by themselves.
     fn is_crowded(&self, id: BallId, radius: f64, at: Point) -> bool {
+        let arc_turning = self.options.corner_arcs.unwrap_or(FRAC_PI_3);
+        let nearest = 0.5 * radius * (arc_turning / FRAC_PI_3);
         let topology = self.delaunay.topology();
         let mut neighbours = self.cavity.triangles.iter().flat_map(|&t| topology.corners(t)).filter(|&v| v != GHOST);
         neighbours.any(|v| {
             let apart = matches!(self.origins[v], Origin::OnArc(other) if other != id);
-            !apart && self.delaunay.point(v).distance(at) < radius / 2.0
+            !apart && self.delaunay.point(v).distance(at) < nearest
         })
     }
 
