@@ -117,9 +117,7 @@ impl Outcome {
         let mut clock = Clock::start();
         let arranged = arrange(drawing, request)?;
         self.report.input.repairs = arranged.repairs().to_vec();
-        let plan = Plan::new(drawing, &arranged, request)?;
-        let domain = arranged.split_to_turning(plan.tau_rad);
-        let plan = plan.with_arcs_for(&domain);
+        let (domain, plan) = Plan::new(drawing, &arranged, request)?;
         self.report.request.note_use(drawing, &arranged, &plan);
         self.report.seconds.arrange = clock.lap();
 
@@ -335,11 +333,18 @@ pub struct Plan {
 }
 
 impl Plan {
+    /// The domain, its curves cut to τ, and what is asked of it: corner arcs as fine as its guarantee needs.
+    ///
     /// # Errors
     /// A `--size-of` whose name the domain does not know.
-    pub fn new(drawing: &Drawing, domain: &Domain, request: &Request) -> Result<Self, FailureReport> {
+    pub fn new(drawing: &Drawing, domain: &Domain, request: &Request) -> Result<(Domain, Self), FailureReport> {
+        let mut options = engine_options(request, sizing(drawing, domain, request)?);
         let tau_rad = request.tau_rad(domain.curves().iter().map(|c| &c.curve));
-        Ok(Self { tau_rad, options: engine_options(request, sizing(drawing, domain, request)?) })
+        let domain = domain.split_to_turning(tau_rad);
+        let lens = domain.curves().iter().map(|c| c.curve.lens_angle(0.0, 1.0)).fold(0.0, f64::max);
+        let arc_turning = lopping::arc_turning(options.angle_min_rad, lens);
+        options.corner_arcs = request.corner_arcs.is_on().then_some(arc_turning);
+        Ok((domain, Self { tau_rad, options }))
     }
 
     /// Of a mesh whose drawing is not known: a share of its diagonal cannot be told, and any name may be of a boundary or a region.
@@ -350,14 +355,6 @@ impl Plan {
             sizing.sources.push(SizeSource::Region { name: name.clone(), edge: *edge });
         }
         Self { tau_rad: request.tau_rad([]), options: engine_options(request, sizing) }
-    }
-
-    /// The plan with corner arcs as fine as the guarantee of this τ-split domain asks for.
-    pub fn with_arcs_for(mut self, domain: &Domain) -> Self {
-        let lens = domain.curves().iter().map(|c| c.curve.lens_angle(0.0, 1.0)).fold(0.0, f64::max);
-        let turning = lopping::arc_turning(self.options.angle_min_rad, lens);
-        self.options.corner_arcs = self.options.corner_arcs.map(|_| turning);
-        self
     }
 
     pub fn sizing(&self) -> &Sizing {
