@@ -156,12 +156,17 @@ impl Spline {
         let mut knots = vec![t0];
         let mut spans = Vec::new();
         let pieces: Vec<_> = self.spans_in(t0, t1).collect();
+        // A cut meant for a joint may miss it by rounding. The sliver that it leaves has no direction of its own: its neighbour takes
+        // its place. Searches for cuts end within some tens of units in the last place.
+        let is_sliver = |&(_, from, to): &(usize, f64, f64)| to - from <= 64.0 * f64::EPSILON;
+        let first = usize::from(pieces.len() > 1 && is_sliver(&pieces[0]));
         let last = pieces.len() - 1;
-        for (k, (i, from, to)) in pieces.into_iter().enumerate() {
+        let last = if last > first && is_sliver(&pieces[last]) { last - 1 } else { last };
+        for (k, &(i, from, to)) in pieces.iter().enumerate().take(last + 1).skip(first) {
             let span = &self.spans[i];
-            let start = if k == 0 { ends[0] } else { span.points[0] };
+            let start = if k == first { ends[0] } else { span.points[0] };
             let end = if k == last { ends[1] } else { span.points[span.degree()] };
-            let whole = from == 0.0 && to == 1.0;
+            let whole = [from, to] == [0.0, 1.0] && [start, end] == [span.points[0], span.points[span.degree()]];
             spans.push(if whole { span.clone() } else { span.part(from, to, [start, end]) });
             knots.push(if k == last { t1 } else { self.knots[i + 1] });
         }
