@@ -7,7 +7,7 @@
 //! use squinch::curve::Curve;
 //! use squinch::domain::{ArrangeOptions, Drawing};
 //! use squinch::geometry::Point;
-//! use squinch::mesh::verify::{Promise, verify};
+//! use squinch::mesh::verify::verify;
 //! use squinch::plane::lopping::{Options, refine};
 //!
 //! // A disk with a smaller one that touches it from inside: an angle of zero.
@@ -21,17 +21,7 @@
 //! let refined = refine(&domain, &options, &mut |_progress| true)?;
 //! let mesh = refined.mesh.expect("the budget is large");
 //!
-//! let promise = Promise {
-//!     angle_min_rad: Some(options.angle_min_rad),
-//!     tau_rad,
-//!     beta: options.beta,
-//!     corner_arcs: options.corner_arcs.is_some(),
-//!     arc_turning_rad: options.corner_arcs.unwrap_or(0.0),
-//!     midpoint_bisector: true,
-//!     sizing: options.sizing,
-//!     foreign: false,
-//! };
-//! let verdict = verify(Some(&domain), &mesh, &promise);
+//! let verdict = verify(Some(&domain), &mesh, &options.promise(tau_rad, false));
 //! assert!(verdict.kept());
 //! assert_eq!(verdict.excused.len(), 1); // the corner where the circles touch excuses the sharp triangles there
 //! # Ok::<(), Box<dyn std::error::Error>>(())

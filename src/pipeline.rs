@@ -5,7 +5,7 @@ use crate::geometry::Point;
 use crate::import::{self, AirfoilOptions, Format, ImportError};
 use crate::mesh::Mesh;
 use crate::mesh::quality::Quality;
-use crate::mesh::verify::{Promise, Status, Verdict, verify};
+use crate::mesh::verify::{Status, Verdict, verify};
 use crate::plane;
 use crate::plane::lopping::{self, Lopping, RefineError, Refined, Shrinking};
 use crate::refine::{Progress, Stop, StopReason};
@@ -389,18 +389,8 @@ impl Plan {
 
     /// Holds a mesh to what was asked: ours by its links to the domain's curves, any other by its coordinates.
     pub fn judge(&self, domain: Option<&Domain>, mesh: &Mesh) -> Verdict {
-        let angle = self.options.angle_min_rad;
-        let promise = Promise {
-            angle_min_rad: (angle > 0.0).then_some(angle),
-            tau_rad: self.tau_rad,
-            beta: self.options.beta,
-            corner_arcs: self.options.corner_arcs.is_some(),
-            arc_turning_rad: self.options.corner_arcs.unwrap_or(0.0),
-            midpoint_bisector: self.options.midpoint == plane::Midpoint::Bisector,
-            sizing: self.options.sizing.clone(),
-            foreign: mesh.edges.iter().any(|edge| edge.link.is_none()),
-        };
-        verify(domain, mesh, &promise)
+        let foreign = mesh.edges.iter().any(|edge| edge.link.is_none());
+        verify(domain, mesh, &self.options.promise(self.tau_rad, foreign))
     }
 }
 

@@ -5,7 +5,7 @@ use squinch::domain::{ArrangeOptions, Domain, Drawing, FillRule};
 use squinch::generate::curved_complex;
 use squinch::geometry::Point;
 use squinch::ids::PointId;
-use squinch::mesh::verify::{Promise, Status, Verdict, guaranteed_angle, verify};
+use squinch::mesh::verify::{Status, Verdict, guaranteed_angle, verify};
 use squinch::mesh::{BallReason, Mesh, quality};
 use squinch::plane::Midpoint;
 use squinch::plane::lopping::{self, Options, Refined, Shrinking, arc_turning};
@@ -40,19 +40,6 @@ fn wedge(angle_deg: f64) -> Drawing {
     drawing_of(&curves)
 }
 
-fn promise(options: &Options, tau_rad: f64) -> Promise {
-    Promise {
-        angle_min_rad: Some(options.angle_min_rad),
-        tau_rad,
-        beta: options.beta,
-        corner_arcs: options.corner_arcs.is_some(),
-        arc_turning_rad: options.corner_arcs.unwrap_or(0.0),
-        midpoint_bisector: options.midpoint == Midpoint::Bisector,
-        sizing: options.sizing.clone(),
-        foreign: false,
-    }
-}
-
 fn refine(domain: &Domain, options: &Options) -> Refined {
     lopping::refine(domain, options, &mut |_| true).expect("a domain that coordinates can hold")
 }
@@ -63,7 +50,7 @@ fn kept(drawing: &Drawing, tau_rad: f64, options: &Options) -> (Mesh, Verdict) {
     let refined = refine(&domain, options);
     assert_eq!(refined.stop.reason, StopReason::Done);
     let mesh = refined.mesh.expect("a run that is done has a mesh");
-    let verdict = verify(Some(&domain), &mesh, &promise(options, tau_rad));
+    let verdict = verify(Some(&domain), &mesh, &options.promise(tau_rad, false));
     let broken: Vec<_> = verdict.checks.iter().filter(|c| c.status == Status::Broken).collect();
     assert!(broken.is_empty(), "{broken:#?}");
     (mesh, verdict)
@@ -227,7 +214,7 @@ fn a_budget_ends_with_a_valid_mesh_and_says_what_is_owed() {
     let refined = refine(&domain, &options);
     assert_eq!(refined.stop.reason, StopReason::VertexBudget);
     assert!(refined.stop.owed > 0 && !refined.stop.places.is_empty());
-    let verdict = verify(Some(&domain), &refined.mesh.expect("it was valid before"), &promise(&options, 0.5));
+    let verdict = verify(Some(&domain), &refined.mesh.expect("it was valid before"), &options.promise(0.5, false));
     let broken: Vec<_> = verdict.checks.iter().filter(|c| c.status == Status::Broken).map(|c| c.name).collect();
     assert!(broken.iter().all(|name| ["size", "min_angle", "max_angle"].contains(name)), "{broken:?}");
 }
