@@ -43,8 +43,10 @@ fn cubic_b_spline() -> (Result<Curve, CurveError>, f64) {
     (Curve::nurbs(3, &knots, &control, None), area)
 }
 
-/// Name, curves and area of each domain.
-fn domains() -> Vec<(&'static str, Vec<Result<Curve, CurveError>>, f64)> {
+/// Name, curves and area of a domain.
+type Known = (&'static str, Vec<Result<Curve, CurveError>>, f64);
+
+fn domains() -> Vec<Known> {
     let origin = Point::ZERO;
     let (b_spline, under_b_spline) = cubic_b_spline();
     let square = vec![

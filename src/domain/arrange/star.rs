@@ -53,11 +53,7 @@ fn order(at: Point, star: &mut Vec<Incident>, curves: &IdVec<CurveId, DomainCurv
 
 /// Sorts a star by where its curves first leave a circle around the point. Curves that meet nowhere inside leave it in the order in
 /// which they lie around the point, whatever its radius: the largest circle that all of them reach tells them apart best.
-fn order_on_circle(
-    at: Point,
-    star: &mut Vec<Incident>,
-    curves: &IdVec<CurveId, DomainCurve>,
-) -> Result<(), ArrangeError> {
+fn order_on_circle(at: Point, star: &mut [Incident], curves: &IdVec<CurveId, DomainCurve>) -> Result<(), ArrangeError> {
     let reach = |i: &Incident| {
         let curve = &curves[i.curve].curve;
         (1..=8)
