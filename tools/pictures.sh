@@ -18,6 +18,6 @@ draw tangent_curves.json tangent_curves_domain --stage domain --width 600
 draw tangent_curves.json tangent_curves --width 900
 draw tangent_curves.json tangent_curves_corner --view=-0.3,-0.3,0.3,0.3 --width 600
 draw plate.json plate --width 900
-for angle in 0.1 0.2 0.5 1 2 5 10 20; do
+for angle in 0.1 1 5 20; do
   draw "wedges/wedge_$angle.poly" "wedge_$angle" --width 480
 done
