@@ -174,7 +174,7 @@ pub fn broken(verdict: &Verdict) -> Vec<&'static str> {
 }
 
 /// Checks of bounds that were asked for; the rest holds of every mesh that we make.
-const REQUESTED: &[&str] = &["min_angle", "max_angle", "chord_error", "edge_turning", "size", "area"];
+const REQUESTED: &[&str] = &["min_angle", "max_angle", "chord_error", "edge_turning", "size"];
 /// What refinement brings about last: owed where a budget ended it.
 const REFINED: &[&str] = &["empty_diametral", "ball_radius", "lfs_ratio"];
 
@@ -389,7 +389,7 @@ impl Plan {
 
     /// Holds a mesh to what was asked: ours by its links to the domain's curves, any other by its coordinates.
     pub fn judge(&self, domain: Option<&Domain>, mesh: &Mesh) -> Verdict {
-        let foreign = mesh.edges.iter().any(|edge| edge.link.is_none());
+        let foreign = mesh.edges.is_empty() || mesh.edges.iter().any(|edge| edge.link.is_none());
         verify(domain, mesh, &self.options.promise(self.tau_rad, foreign))
     }
 }

@@ -681,7 +681,7 @@ fn size_holds_each_limit_where_it_was_asked() {
     scene.promise.sizing.sources = vec![
         Source::Boundary { name: "wall".into(), edge: 1.0 },
         Source::Region { name: "cap".into(), edge: 0.5 + 1e-9 },
-        near(0.7),
+        near(1.0),
     ];
     let verdict = scene.judged();
     assert_eq!(told(&verdict), [""; 0]);

@@ -144,7 +144,11 @@ fn crossings(curve: &Curve, axis: Axis, level: f64, mut each: impl FnMut(f64, Si
     if let Curve::Line(line) = curve {
         let (a, b) = (across(axis, line.start), across(axis, line.end));
         let t = (level - a) / (b - a);
-        return ((a < level) == (b < level)) || report(line.start.lerp(line.end, t), line.end - line.start);
+        // Both ends lie clear of the level: a line crosses it for certain, however flat.
+        if (a < level) != (b < level) {
+            report(line.start.lerp(line.end, t), line.end - line.start);
+        }
+        return true;
     }
     let (through, direction) = match axis {
         Axis::Horizontal => (Point::new(curve.start().x, level), Vec2::new(1.0, 0.0)),

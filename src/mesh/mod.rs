@@ -50,6 +50,10 @@ pub struct Ball {
     pub why: BallReason,
 }
 
+/// How far a vertex on the border of a ball may lie from it by rounding, in units of the largest coordinate: it is a point of a curve,
+/// evaluated at a parameter that was itself found by iteration. 64 units in the last place.
+pub const RIM_ROUNDING: f64 = 64.0 * f64::EPSILON;
+
 /// What set a ball's radius.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "snake_case")]

@@ -3,8 +3,8 @@
 //! At birth d(p) = (√2−1)·lfs₀(p), capped so that what lies inside, which is never refined, meets the size limits. A ball then only
 //! shrinks, by β, when a vertex of a curve that does not end at p comes in. The closed balls never meet.
 
-use crate::curve::{Curve, End};
-use crate::domain::{Domain, Incident};
+use crate::curve::Curve;
+use crate::domain::Domain;
 use crate::geometry::{Point, Rect, boxes::BoxHierarchy};
 use crate::ids::{BallId, IdVec, PieceId, PointId, TriangleId, VertexId};
 use crate::mesh::BallReason;
@@ -46,7 +46,9 @@ impl Balls {
         for (p, &center) in domain.points().enumerate() {
             let acute = domain.is_acute(p);
             let ball = acute.then(|| {
-                let (radius, why) = radius_at_birth(domain, field, p, lfs0[p]);
+                let by_features = (std::f64::consts::SQRT_2 - 1.0) * lfs0[p];
+                let radius = field.largest_ball(domain, p, by_features);
+                let why = if radius < by_features { BallReason::Size } else { BallReason::LocalFeatureSize };
                 balls.push(Ball {
                     corner: p,
                     center,
@@ -116,50 +118,6 @@ fn box_of(ball: &Ball) -> Rect {
     let r = ball.radius * (1.0 + 1e-9);
     let c = ball.center;
     Rect::new(c.x - r, c.y - r, c.x + r, c.y + r)
-}
-
-/// d(p) at birth, and what decided it.
-fn radius_at_birth(domain: &Domain, field: &SizeField, p: PointId, lfs0: f64) -> (f64, BallReason) {
-    let by_features = (std::f64::consts::SQRT_2 - 1.0) * lfs0;
-    let mut radius = by_features.min(radius_by_size(domain, field, p));
-    // Spokes are mesh edges: shorten them until each turns little enough and lies near enough to its curve. A curve that is smooth at
-    // its end straightens as it shortens, so this ends; 200 steps are a factor of 1e-19.
-    for _ in 0..200 {
-        let bent = domain.star(p).iter().any(|&at| spoke_too_bent(domain, field, at, radius));
-        if !bent {
-            break;
-        }
-        radius *= 0.8;
-    }
-    (radius, if radius < by_features { BallReason::Size } else { BallReason::LocalFeatureSize })
-}
-
-/// The largest radius whose triangles meet the size limits. A triangle with its circumcenter in B(p) has a circumradius below d(p),
-/// for p lies not inside its circumcircle: edges below 2d, area below (3√3/4)·d² < 1.3·d², corners within 2d of p.
-fn radius_by_size(domain: &Domain, field: &SizeField, p: PointId) -> f64 {
-    let at = domain.points()[p];
-    let mut radius = f64::INFINITY;
-    for &Incident { curve, .. } in domain.star(p) {
-        let curve_id = curve;
-        radius = radius.min(field.edge_on(curve_id, at) / (1.0 + field.steepest()));
-        for region in domain.curves()[curve_id].sides.into_iter().flatten() {
-            radius = radius.min(field.edge_in(region, at) / (2.0 * (1.0 + field.steepest())));
-            radius = radius.min((field.area_in(region) / 1.3).sqrt());
-        }
-    }
-    radius
-}
-
-fn spoke_too_bent(domain: &Domain, field: &SizeField, at: Incident, radius: f64) -> bool {
-    let curve = &domain.curves()[at.curve].curve;
-    if curve.is_straight() {
-        return false;
-    }
-    match (at.end, curve.leaves_ball(at.end, radius, 0.0, 1.0)) {
-        (End::Start, Some(t)) => field.edge_too_bent(curve, 0.0, t),
-        (End::Finish, Some(t)) => field.edge_too_bent(curve, t, 1.0),
-        (_, None) => true,
-    }
 }
 
 impl Ball {

@@ -293,7 +293,7 @@ impl Delaunay {
         if points.len() < 3 {
             return Err(Degenerate::TooFew);
         }
-        if let Some(index) = points.iter().position(|p| !(in_range(p.x) && in_range(p.y))) {
+        if let Some(index) = points.iter().position(|&p| !in_range(p)) {
             return Err(Degenerate::OutOfRange { index });
         }
         // Vertices are numbered along the curve while inserting, so that neighbours in the plane are neighbours in
@@ -355,7 +355,7 @@ impl Delaunay {
     /// The coordinates of `p` must be numbers within 2^±180, as those of all vertices.
     pub fn cavity(&self, p: Point, at: Location, cavity: &mut Cavity) {
         // Beyond that range signs contradict each other, and the walk around the cavity need not end.
-        assert!(in_range(p.x) && in_range(p.y), "{p:?} is beyond exact signs");
+        assert!(in_range(p), "{p:?} is beyond exact signs");
         let start = match at {
             Location::Vertex(_) => {
                 cavity.triangles.clear();
@@ -438,11 +438,11 @@ impl Delaunay {
     }
 }
 
-/// Whether exact signs can take a coordinate: degree 4 in numbers whose bits lie within 2^±232 stays within 2^±1022.
-fn in_range(v: f64) -> bool {
+/// Whether exact signs can take a point: degree 4 in numbers whose bits lie within 2^±232 stays within 2^±1022.
+pub fn in_range(p: Point) -> bool {
     const LEAST: f64 = f64::from_bits((1023 - 180) << 52); // 2^-180
     const MOST: f64 = f64::from_bits((1023 + 180) << 52); // 2^180
-    v == 0.0 || (LEAST..=MOST).contains(&v.abs())
+    [p.x, p.y].iter().all(|v| *v == 0.0 || (LEAST..=MOST).contains(&v.abs()))
 }
 
 /// The Delaunay triangulation of points that are numbered along a Hilbert curve.

@@ -3,10 +3,10 @@
 //! A [`Sizing`] is what is asked; [`SizeField`] is the same, resolved against a domain, and answers at a place. Engine and judge ask
 //! the same field, so that what was asked is what is checked.
 
-use crate::curve::Curve;
-use crate::domain::{Domain, SizeRequest};
+use crate::curve::{Curve, End};
+use crate::domain::{Domain, Incident, SizeRequest};
 use crate::geometry::{self, Point, boxes::BoxHierarchy};
-use crate::ids::{CurveId, IdVec, RegionId};
+use crate::ids::{CurveId, IdVec, PointId, RegionId};
 
 /// What is asked of cell sizes, in the drawing's units. `None` and empty: no limit.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -90,6 +90,7 @@ pub struct SizeField {
     /// Named boundaries whose limit grows into the domain, with their boxes.
     graded: Vec<(Curve, f64)>,
     boxes: BoxHierarchy,
+    /// Largest growth of the limit a unit of distance.
     steepest: f64,
 }
 
@@ -149,11 +150,6 @@ impl SizeField {
         &self.sizing
     }
 
-    /// Largest growth of the limit a unit of distance.
-    pub fn steepest(&self) -> f64 {
-        self.steepest
-    }
-
     /// Whether the limit depends on the place.
     pub fn limits_by_place(&self) -> bool {
         !self.near.is_empty() || !self.graded.is_empty()
@@ -171,9 +167,11 @@ impl SizeField {
             let (curve, edge) = &self.graded[i];
             edge + grade * curve.nearest(at, 0.0, 1.0).1
         };
-        // An item's limit is at least `grade` times its distance: a search by limit prunes boxes by distance · grade.
-        let reach = if grade > 0.0 { from_segments / grade } else { f64::INFINITY };
-        let nearest = self.boxes.nearest(at, reach, |i, _| if grade > 0.0 { limit_of(i) / grade } else { limit_of(i) });
+        if grade <= 0.0 {
+            return self.graded.iter().map(|&(_, edge)| edge).fold(from_segments, f64::min);
+        }
+        // An item's limit over the grade is at least its distance, by which the search leaves boxes out.
+        let nearest = self.boxes.nearest(at, from_segments / grade, |i, _| limit_of(i) / grade);
         nearest.map_or(from_segments, |(i, _)| limit_of(i).min(from_segments))
     }
 
@@ -200,6 +198,48 @@ impl SizeField {
         let centroid = a + ((b - a) + (c - a)) / 3.0;
         let by_edge = longest / self.edge_in(region, centroid);
         by_edge.max((area / self.area_in(region)).sqrt())
+    }
+
+    /// The largest ball at a corner, up to `most`, in which cells meet the limits though nothing inside it is ever refined.
+    ///
+    /// Its spokes are mesh edges: each must turn little enough and lie near enough to its curve. A curve that is smooth at its end
+    /// straightens as it shortens, so the search ends; 200 steps are a factor of 1e-19.
+    pub fn largest_ball(&self, domain: &Domain, corner: PointId, most: f64) -> f64 {
+        let mut radius = most.min(self.largest_fan(domain, corner));
+        for _ in 0..200 {
+            if !domain.star(corner).iter().any(|&at| self.spoke_too_bent(domain, at, radius)) {
+                break;
+            }
+            radius *= 0.8;
+        }
+        radius
+    }
+
+    /// The largest radius whose triangles meet the limits. A triangle with its circumcenter in B(p) has a circumradius below d(p), for p
+    /// lies not inside its circumcircle: edges below 2d, area below (3√3/4)·d² < 1.3·d², corners within 2d of p.
+    fn largest_fan(&self, domain: &Domain, corner: PointId) -> f64 {
+        let at = domain.points()[corner];
+        let mut radius = f64::INFINITY;
+        for incident in domain.star(corner) {
+            radius = radius.min(self.edge_on(incident.curve, at) / (1.0 + self.steepest));
+            for region in domain.curves()[incident.curve].sides.into_iter().flatten() {
+                radius = radius.min(self.edge_in(region, at) / (2.0 * (1.0 + self.steepest)));
+                radius = radius.min((self.area_in(region) / 1.3).sqrt());
+            }
+        }
+        radius
+    }
+
+    fn spoke_too_bent(&self, domain: &Domain, at: Incident, radius: f64) -> bool {
+        let curve = &domain.curves()[at.curve].curve;
+        if curve.is_straight() {
+            return false;
+        }
+        match (at.end, curve.leaves_ball(at.end, radius, 0.0, 1.0)) {
+            (End::Start, Some(t)) => self.edge_too_bent(curve, 0.0, t),
+            (End::Finish, Some(t)) => self.edge_too_bent(curve, t, 1.0),
+            (_, None) => true,
+        }
     }
 
     /// Whether a part of a curve is longer, turns more, or strays farther from its chord than a mesh edge may.

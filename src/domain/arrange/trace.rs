@@ -96,18 +96,25 @@ impl Faces {
         for component in 0..self.outer.len() {
             seen.push(self.seen_from(component, domain, &locator, margin)?);
         }
-        let resolve = |component: usize| {
-            // A component seen from outside lies where that one lies, which is further left (of flat ones: further down).
-            let mut cycle: Face = seen[component];
-            for _ in 0..self.outer.len() {
-                match cycle {
-                    Some(c) if self.outer[self.cycles[c].component] == c => cycle = seen[self.cycles[c].component],
-                    _ => return cycle,
+        // A component seen from outside lies where that one lies, which is further left (of flat ones: further down). Each is followed
+        // once: what lies behind it is remembered.
+        let mut behind: Vec<Option<Face>> = vec![None; seen.len()];
+        for component in 0..seen.len() {
+            let mut way = Vec::new();
+            let mut here = component;
+            let face = loop {
+                match (behind[here], seen[here]) {
+                    (Some(face), _) => break face,
+                    (None, Some(c)) if self.outer[self.cycles[c].component] == c && way.len() < seen.len() => {
+                        way.push(here);
+                        here = self.cycles[c].component;
+                    }
+                    (None, face) => break face,
                 }
-            }
-            cycle
-        };
-        Ok((0..self.outer.len()).map(resolve).collect())
+            };
+            way.into_iter().chain([here, component]).for_each(|passed| behind[passed] = Some(face));
+        }
+        Ok(behind.into_iter().map(Option::flatten).collect())
     }
 
     /// The first cycle that is seen from a component's leftmost crossing with a level line, looking left; of a component without

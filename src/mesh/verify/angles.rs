@@ -184,7 +184,7 @@ const CENTER: f64 = 1e-9;
 impl<'a> Corners<'a> {
     fn new(ev: &'a Evidence<'a>, balls: &'a [SoundBall]) -> Self {
         let boxes = balls.iter().map(|b| {
-            let side = 2.0 * (b.radius * (1.0 + CENTER) + ev.rounding);
+            let side = 2.0 * (b.radius * (1.0 + CENTER) + ev.rim);
             Rect::from_center_size(b.center, (side, side))
         });
         Self { ev, balls, hierarchy: BoxHierarchy::new(boxes) }
@@ -199,7 +199,7 @@ impl<'a> Corners<'a> {
     /// The ball in which all corners lie, up to the rounding of nodes that were placed on its rim.
     fn holding(&self, corners: &[Point; 3]) -> Option<usize> {
         // 1e-12 as for the radius itself; the rim's points are rounded where they lie.
-        let reach = |ball: &SoundBall| ball.radius * (1.0 + 1e-12) + self.ev.rounding;
+        let reach = |ball: &SoundBall| ball.radius * (1.0 + 1e-12) + self.ev.rim;
         self.find(Rect::from_points(corners[0], corners[0]), |ball| {
             corners.iter().all(|c| c.distance(ball.center) <= reach(ball))
         })

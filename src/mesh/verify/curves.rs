@@ -117,16 +117,18 @@ fn gap_in(ev: &Evidence, chain: &[Piece], ends: [Option<VertexId>; 2]) -> Option
 }
 
 /// No node lies inside the diametral circle of a curve's edge (Lemma 6): the apexes beside each edge first, then every
-/// node of the mesh by a hierarchy over the circles' boxes. Checked: edges. Worst: the smallest distance of a node from
+/// node of the mesh by a hierarchy over the circles' boxes. A spoke's circle lies in its ball and touches the rim, on which nodes are
+/// rounded: where curves leave a corner close to each other, a neighbour on the rim does not count. Checked: edges. Worst: the smallest distance of a node from
 /// the circle's centre, in radii.
 pub fn empty_diametral(ev: &Evidence, domain: &Domain) -> Check {
     let mut tally = Tally::lowest("empty_diametral");
     let mut intruder: Vec<Option<VertexId>> = vec![None; ev.pieces.len()];
+    let balls = ball_at_nodes(ev, domain);
     for (piece, intruder) in ev.pieces.iter().zip(&mut intruder) {
         tally.count();
         for apex in apexes(ev, piece) {
             tally.measure(radii_away(ev, piece, apex), ev.middle(piece.nodes));
-            if encroaches(ev, piece, apex) {
+            if encroaches(ev, piece, apex) && !is_on_rim(ev, &balls, piece, apex) {
                 *intruder = Some(apex);
             }
         }
@@ -135,7 +137,7 @@ pub fn empty_diametral(ev: &Evidence, domain: &Domain) -> Check {
     for (v, &at) in ev.mesh.nodes.enumerate() {
         circles.meeting(Rect::from_points(at, at), |i| {
             let piece = &ev.pieces[i];
-            if intruder[i].is_none() && encroaches(ev, piece, v) {
+            if intruder[i].is_none() && encroaches(ev, piece, v) && !is_on_rim(ev, &balls, piece, v) {
                 tally.measure(radii_away(ev, piece, v), ev.middle(piece.nodes));
                 intruder[i] = Some(v);
             }
@@ -162,6 +164,27 @@ fn apexes(ev: &Evidence, piece: &Piece) -> impl Iterator<Item = VertexId> {
 fn encroaches(ev: &Evidence, piece: &Piece, v: VertexId) -> bool {
     let [x, y] = piece.nodes.map(|v| ev.signs[v]);
     in_diametral(x, y, ev.signs[v]) == CircleSide::Inside
+}
+
+/// Nodes at corners with a ball, ascending, and the radius.
+fn ball_at_nodes(ev: &Evidence, domain: &Domain) -> Vec<(VertexId, f64)> {
+    let nodes = nodes_of_points(ev, domain);
+    let mut balls: Vec<(VertexId, f64)> =
+        ev.mesh.balls.iter().filter_map(|ball| Some((nodes[ball.corner]?, ball.radius))).collect();
+    balls.sort_unstable_by_key(|&(v, _)| v);
+    balls
+}
+
+/// Whether a piece is a spoke, from a corner to the rim of its ball, and a node lies on that rim too, or outside.
+fn is_on_rim(ev: &Evidence, balls: &[(VertexId, f64)], piece: &Piece, v: VertexId) -> bool {
+    let [x, y] = piece.nodes;
+    [(x, y), (y, x)].into_iter().any(|(corner, end)| {
+        let Ok(i) = balls.binary_search_by_key(&corner, |&(v, _)| v) else { return false };
+        let (center, inner) = (ev.node(corner), balls[i].1 - ev.rim);
+        ev.node(end).distance(center) >= inner
+            && ev.node(end).distance(center) <= balls[i].1 + ev.rim
+            && ev.node(v).distance(center) >= inner
+    })
 }
 
 fn radii_away(ev: &Evidence, piece: &Piece, v: VertexId) -> f64 {

@@ -6,7 +6,7 @@ use crate::domain::Domain;
 use crate::geometry::boxes::BoxHierarchy;
 use crate::geometry::{self, Point, Rect};
 use crate::ids::{CurveId, Id, IdVec, NameId, PointId, RegionId, TriangleId, VertexId};
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, RIM_ROUNDING};
 
 /// A stretch of a curve that a mesh edge stands for.
 #[derive(Clone, Copy, Debug)]
@@ -42,12 +42,15 @@ pub struct Evidence<'a> {
     pub classes: Classes,
     /// Four units in the last place of the largest coordinate: what rounding a point to `f64` a few times can move it.
     pub rounding: f64,
+    /// What rounding can move a node off the rim of a ball.
+    pub rim: f64,
 }
 
 impl<'a> Evidence<'a> {
     /// Looks at a mesh without `unreadable` flaws.
     pub fn gather(domain: Option<&'a Domain>, mesh: &'a Mesh, promise: &'a Promise) -> Self {
-        let magnitude = geometry::bounds_of(mesh.nodes.iter().copied()).map_or(0.0, geometry::magnitude);
+        let of_domain = domain.filter(|d| !d.points().is_empty()).map_or(0.0, |d| geometry::magnitude(d.bounds()));
+        let magnitude = geometry::bounds_of(mesh.nodes.iter().copied()).map_or(0.0, geometry::magnitude).max(of_domain);
         let factor = geometry::unit_scale(magnitude);
         let edges = EdgeTable::new(mesh.nodes.len(), &mesh.triangles);
         // An ulp of a number in [2^e, 2^(e+1)) is ε·2^e; ε times the magnitude is one to two of them.
@@ -70,6 +73,7 @@ impl<'a> Evidence<'a> {
             unlinked,
             classes: Classes::of(domain, mesh, promise.foreign),
             rounding,
+            rim: RIM_ROUNDING * magnitude,
         }
     }
 

@@ -64,9 +64,13 @@ impl<'a> Beginning<'a> {
         for id in self.balls.ids() {
             let ball = self.balls.get(id);
             let star = self.domain.star(ball.corner);
-            let spoke_of = |curve: CurveId| {
-                ball.spokes.iter().copied().find(|&s| self.subcurves.get(s).carrier == Carrier::Curve(curve))
+            // Spokes come in ascending order of their curves, of which none ends twice at one point.
+            let curve_of = |&s: &PieceId| match self.subcurves.get(s).carrier {
+                Carrier::Curve(curve) => curve,
+                Carrier::Arc(..) => unreachable!("no arc is a spoke"),
             };
+            let spoke_of =
+                |curve: CurveId| ball.spokes.binary_search_by_key(&curve, curve_of).ok().map(|i| ball.spokes[i]);
             let spokes = star.iter().filter_map(|at| spoke_of(at.curve)).collect();
             self.balls.get_mut(id).spokes = spokes;
         }

@@ -4,7 +4,7 @@ use super::{Lopping, Origin};
 use crate::curve::{Curve, End};
 use crate::geometry::{self, Point, Vec2};
 use crate::ids::{BallId, PieceId, VertexId};
-use crate::plane::insert::Location;
+use crate::plane::insert::{self, Location};
 use crate::plane::subcurves::{Carrier, Standing};
 use crate::plane::triangulation::GHOST;
 use std::f64::consts::{FRAC_PI_3, TAU};
@@ -87,6 +87,9 @@ impl Lopping {
         let center = self.balls.get(id).center;
         let near = self.triangle_at(VertexId(self.balls.get(id).corner.0));
         for at in sectors.iter().flat_map(|s| s.inner_points(center, radius)) {
+            if !insert::in_range(at) {
+                return Room::Tight;
+            }
             let location = self.delaunay.locate(at, near);
             if matches!(location, Location::Vertex(_)) {
                 return Room::Tight;
@@ -125,8 +128,11 @@ impl Lopping {
         if entry.standing == Standing::Spoke(id) || !self.encroaches(at, piece) {
             return Room::Clear;
         }
+        // The curve strays up to half its chord times tan(λ/2) from it: with that, lfs(p) ≤ 1.5·d(p) of a piece that is short.
         let [x, y] = entry.ends.map(|v| self.delaunay.point(v));
-        let short = x.distance(y) < radius && matches!(entry.carrier, Carrier::Curve(_));
+        let lens = self.shape(entry.carrier).lens_angle(entry.t[0], entry.t[1]);
+        let reach = x.distance(y) * (1.0 + libm::tan(0.5 * lens));
+        let short = reach < radius && matches!(entry.carrier, Carrier::Curve(_));
         if entry.is_spoke() || short { Room::Tight } else { Room::Blocked(piece) }
     }
 

@@ -42,8 +42,8 @@ use super::subcurves::{Midpoint, Subcurves};
 use crate::domain::Domain;
 use crate::geometry::{self, Point};
 use crate::ids::{BallId, CurveId, IdVec, PieceId, PointId, TriangleId, VertexId};
-use crate::mesh::Mesh;
 use crate::mesh::verify::{Promise, guaranteed_angle};
+use crate::mesh::{Mesh, RIM_ROUNDING};
 use crate::refine::{Counters, Progress, Stop, StopReason, WorstFirst};
 use crate::size::{SizeField, Sizing};
 use begin::Beginning;
@@ -184,7 +184,7 @@ pub struct Lopping {
     too_near: Vec<Point>,
     /// sin² κ.
     sin2_min: f64,
-    /// No edge shorter than this is made on purpose: 64 units in the last place of the largest coordinate.
+    /// No edge shorter than this is made on purpose: as far as rounding moves a point of a curve, twice over.
     resolution: f64,
 }
 
@@ -224,7 +224,7 @@ impl Lopping {
             reason: StopReason::Done,
             too_near: Vec::new(),
             sin2_min: sin_min * sin_min,
-            resolution: 64.0 * f64::EPSILON * magnitude * scale,
+            resolution: RIM_ROUNDING * magnitude * scale,
             options: options.clone(),
             domain,
             scale,
@@ -254,7 +254,9 @@ impl Lopping {
     }
 
     fn first_rule(&mut self) -> Rule {
-        if self.reason == StopReason::Arithmetic || self.origins.len() > self.most_vertices() {
+        // A run that is stopped before there was a valid mesh has nothing to make valid again.
+        let hopeless = self.reason == StopReason::Arithmetic || self.reason == StopReason::Cancelled && !self.carved;
+        if hopeless || self.origins.len() > self.most_vertices() {
             return Rule::Rest;
         }
         if let Some(ball) = self.intruded.pop_front() {

@@ -5,7 +5,7 @@ use crate::curve::Curve;
 use crate::geometry::Point;
 use crate::geometry::exact::{CircleSide, Orientation, in_circle, in_diametral, orient};
 use crate::ids::{PieceId, TriangleId, VertexId};
-use crate::plane::insert::Location;
+use crate::plane::insert::{self, Location};
 use crate::plane::subcurves::{Carrier, Standing, split_parameter};
 use crate::plane::triangulation::{GHOST, Side};
 use crate::refine::StopReason;
@@ -19,7 +19,12 @@ impl Lopping {
     }
 
     pub(super) fn side_of(&self, piece: PieceId) -> Option<Side> {
-        let [x, y] = self.subcurves.get(piece).ends;
+        // The rim of a spoke has a handful of neighbours, its corner as many as there are curves.
+        let piece = self.subcurves.get(piece);
+        let [x, y] = piece.ends;
+        if piece.is_spoke() && matches!(self.origins[x], Origin::Input(_)) {
+            return self.delaunay.topology().side_between(y, x).map(|s| self.delaunay.topology().twin(s));
+        }
         self.delaunay.topology().side_between(x, y)
     }
 
@@ -76,7 +81,7 @@ impl Lopping {
         let (px, py) = (self.delaunay.point(x), self.delaunay.point(y));
         // Each flip gives x one more neighbour on the same circle, so the degree bounds the flips; the rest is a guard.
         for _ in 0..self.origins.len() {
-            let Some(side) = self.delaunay.topology().side_between(x, y) else {
+            let Some(side) = self.side_of(id) else {
                 match self.crossing_side(x, py) {
                     Some(crossing) => {
                         if let Some(z) = self.inside_diametral_of(px, py, crossing, piece.is_spoke()) {
@@ -178,8 +183,12 @@ impl Lopping {
             Carrier::Curve(curve) => Origin::OnCurve(curve),
             Carrier::Arc(ball, _) => Origin::OnArc(ball),
         };
-        let near = self.side_of(id).map_or_else(|| self.triangle_at(piece.ends[0]), Side::triangle);
+        let side = self.side_of(id);
+        let near = side.map_or_else(|| self.triangle_at(piece.ends[0]), Side::triangle);
         self.look_at_cavity(at, near, x)?;
+        if let Some(side) = side {
+            self.delaunay.topology_mut().set_piece(side, None);
+        }
         self.subcurves.retire(id);
         self.disturb(at, Some(id));
         let v = self.act(at, origin, why);
@@ -202,6 +211,10 @@ impl Lopping {
 
     /// Looks: fills `cavity` for a point; `None`, and the run is over, where the point is a vertex already.
     pub(super) fn look_at_cavity(&mut self, at: Point, near: TriangleId, place: Point) -> Option<()> {
+        if !insert::in_range(at) {
+            self.stop_too_near(place);
+            return None;
+        }
         let location = self.delaunay.locate(at, near);
         if matches!(location, Location::Vertex(_)) {
             self.stop_too_near(place);
@@ -215,7 +228,7 @@ impl Lopping {
     pub(super) fn disturb(&mut self, at: Point, split: Option<PieceId>) {
         for (side, piece) in self.cavity_pieces() {
             let inner = !self.cavity.border.contains(&side);
-            if inner || Some(piece) == split {
+            if inner {
                 self.delaunay.topology_mut().set_piece(side, None);
             }
             if Some(piece) != split && (inner || self.encroaches(at, piece)) {

@@ -4,7 +4,7 @@ use super::{Lopping, Origin, Suspect};
 use crate::geometry::{Point, Vec2};
 use crate::ids::{PieceId, TriangleId};
 use crate::plane::carve;
-use crate::plane::insert::Location;
+use crate::plane::insert::{self, Location};
 use crate::plane::triangulation::Side;
 use crate::refine::StopReason;
 
@@ -80,10 +80,18 @@ impl Lopping {
             return;
         }
         match self.balls.holding(center) {
-            Some((ball, _)) if self.options.corner_arcs.is_none() => {
-                self.balls.get_mut(ball).excused.push(suspect);
+            // A ball excuses angles, not sizes: those it was capped for.
+            Some(_) if self.options.corner_arcs.is_none() && self.field.excess(region, corners) <= 1.0 => {
+                self.excuse(suspect, center);
             }
             _ => self.kill(suspect, center),
+        }
+    }
+
+    /// Remembers a triangle whose circumcenter lies in a ball, for when the ball shrinks.
+    fn excuse(&mut self, suspect: Suspect, center: Point) {
+        if let Some((ball, _)) = self.balls.holding(center) {
+            self.balls.get_mut(ball).excused.push(suspect);
         }
     }
 
@@ -91,6 +99,9 @@ impl Lopping {
     fn kill(&mut self, suspect: Suspect, center: Point) {
         let (t, corners) = suspect;
         let place = self.delaunay.point(corners[0]);
+        if !insert::in_range(center) {
+            return self.too_near.push(place);
+        }
         let location = self.delaunay.locate(center, t);
         let vertex = matches!(location, Location::Vertex(_));
         if !vertex {
@@ -111,7 +122,11 @@ impl Lopping {
         }
         // What is hidden now and was not encroached is a spoke, by rounding; so is a center in a ball whose arcs it does not encroach.
         let hides_spoke = pieces.iter().any(|(side, _)| !self.cavity.border.contains(side));
-        if hides_spoke || self.balls.holding(center).is_some() {
+        let in_ball = self.balls.holding(center).is_some();
+        if in_ball && self.options.corner_arcs.is_none() {
+            return self.excuse(suspect, center);
+        }
+        if hides_spoke || in_ball {
             return self.too_near.push(place);
         }
         let v = self.delaunay.fill(center, &self.cavity);
