@@ -1,8 +1,9 @@
 //! Pictures: one scene in pixels, written as SVG text or painted as PNG.
 //!
-//! A [`Frame`] maps the drawing to pixels (y upward becomes y downward); everything after that is in pixels, rounded to hundredths, so that the
-//! text is short and the same on every machine. A layer of a very large mesh would make an SVG of hundreds of megabytes: beyond
-//! [`SVG_POINTS_MAX`] points it is painted once, pixel for pixel, and embedded as an image.
+//! A [`Frame`] maps the drawing to pixels (y upward becomes y downward); everything after that is in pixels, rounded
+//! to hundredths, so that the text is short and the same on every machine. A layer of a very large mesh would make an
+//! SVG of hundreds of megabytes: beyond `SVG_POINTS_MAX` points it is painted once, pixel for pixel, and embedded as
+//! an image.
 
 mod glyphs;
 
@@ -11,8 +12,8 @@ use base64::Engine;
 use std::fmt::Write;
 use std::io;
 
-/// Points of a layer beyond which SVG embeds it as an image: about 10 bytes a point, so 4 MB.
-const SVG_POINTS_MAX: usize = 400_000;
+/// Points of a layer beyond which SVG embeds it as an image: about 10 bytes a point, so 2 MB.
+const SVG_POINTS_MAX: usize = 200_000;
 /// Hundredths of a pixel: finer than anything visible at a zoom of ten.
 const STEPS: f64 = 100.0;
 /// Largest side of a picture in pixels: 8192² pixels of four bytes are 268 MB.
@@ -253,7 +254,8 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// Lays `view` into a box of `width` pixels and at most `height_max`, its upper left corner at `corner`; centred where it is narrower.
+    /// Lays `view` into a box of `width` pixels and at most `height_max`, its upper left corner at `corner`; centred
+    /// where it is narrower.
     pub fn new(view: Rect, corner: Pixel, width: f64, height_max: f64) -> Self {
         let (w, h) = (view.width().abs(), view.height().abs());
         let side = w.max(h);
@@ -264,7 +266,8 @@ impl Frame {
         let centre = view.center();
         let scale = (width / w).min(height_max / h);
         let plot = Rect::new(corner.x, corner.y, corner.x + width, corner.y + h * scale);
-        // The view is what the plot shows: where the picture is narrower than the box, more of the plane is seen left and right.
+        // The view is what the plot shows: where the picture is narrower than the box, more of the plane is seen on
+        // both sides.
         let half = (width / scale / 2.0, h / 2.0);
         let view = Rect::new(centre.x - half.0, centre.y - half.1, centre.x + half.0, centre.y + half.1);
         Self { view, scale, plot, rim: 0.0 }
@@ -413,7 +416,7 @@ impl Canvas {
         self.layers.push(Layer { id, clip, crisp: false, items: Vec::new() });
     }
 
-    /// Begins a layer of cells that adjoin, cut off at the frame: not smoothed, so that no hairlines shine through between them.
+    /// Begins a layer of cells that adjoin, cut off at the frame: not smoothed, so that no hairlines shine through.
     pub fn layer_of_cells(&mut self, id: &'static str) {
         self.layers.push(Layer { id, clip: true, crisp: true, items: Vec::new() });
     }
@@ -457,7 +460,8 @@ impl Canvas {
         let (w, h) = (number(self.width), number(self.height));
         let mut text = format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w}\" height=\"{h}\" viewBox=\"0 0 {w} {h}\" \
-             font-family=\"Helvetica, Arial, sans-serif\" fill-rule=\"evenodd\" stroke-linejoin=\"round\" stroke-linecap=\"round\">\n"
+             font-family=\"Helvetica, Arial, sans-serif\" fill-rule=\"evenodd\" stroke-linejoin=\"round\" \
+             stroke-linecap=\"round\">\n"
         );
         let r = self.frame.plot.inflate(self.frame.rim, self.frame.rim);
         let [x, y, rw, rh] = [r.x0, r.y0, r.width(), r.height()].map(number);
@@ -652,11 +656,16 @@ impl Label {
             Anchor::Middle => " text-anchor=\"middle\"",
             Anchor::End => " text-anchor=\"end\"",
         };
-        let rim = if self.rim { " stroke=\"#fff\" stroke-width=\"3\" paint-order=\"stroke\"" } else { "" };
-        let colour = self.colour.text();
-        text.push_str(&format!("<text x=\"{x}\" y=\"{y}\" font-size=\"{size}\" fill=\"{colour}\"{anchor}{rim}>"));
-        push_escaped(text, &self.text);
-        text.push_str("</text>\n");
+        let mut line = |paint: &str| {
+            text.push_str(&format!("<text x=\"{x}\" y=\"{y}\" font-size=\"{size}\"{anchor}{paint}>"));
+            push_escaped(text, &self.text);
+            text.push_str("</text>\n");
+        };
+        if self.rim {
+            // A text of its own below the other: not every viewer knows `paint-order`.
+            line(" fill=\"none\" stroke=\"#fff\" stroke-width=\"3\"");
+        }
+        line(&format!(" fill=\"{}\"", self.colour.text()));
     }
 
     /// The text as strokes of a pen, for painting without fonts.

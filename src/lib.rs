@@ -1,4 +1,33 @@
-//! squinch: provably good meshes of domains with curved boundaries.
+//! squinch: provably good triangle meshes of domains with curved boundaries.
+//!
+//! Curves stay curves: lines, arcs, Béziers and splines are split to a bounded turning and meshed by corner-lopping Delaunay refinement
+//! (Pav & Walkington 2005), which ends whatever angles they meet at. An independent judge then checks the mesh against the curves.
+//!
+//! ```
+//! use squinch::curve::Curve;
+//! use squinch::domain::{ArrangeOptions, Drawing};
+//! use squinch::geometry::Point;
+//! use squinch::mesh::verify::verify;
+//! use squinch::plane::lopping::{Options, refine};
+//!
+//! // A disk with a smaller one that touches it from inside: an angle of zero.
+//! let mut drawing = Drawing::default();
+//! drawing.add(Curve::circle(Point::new(0.0, 0.0), 1.0)?, "rim", "circle 1");
+//! drawing.add(Curve::circle(Point::new(0.5, 0.0), 0.5)?, "bore", "circle 2");
+//!
+//! let tau_rad = 0.5;
+//! let domain = drawing.arrange(&ArrangeOptions::default())?.split_to_turning(tau_rad);
+//! let options = Options::default();
+//! let refined = refine(&domain, &options, &mut |_progress| true)?;
+//! let mesh = refined.mesh.expect("the budget is large");
+//!
+//! let verdict = verify(Some(&domain), &mesh, &options.promise(tau_rad, false));
+//! assert!(verdict.kept());
+//! assert_eq!(verdict.excused.len(), 1); // the corner where the circles touch excuses the sharp triangles there
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! [`pipeline::run`] does all of this from the bytes of a file, as the command line does.
 #![forbid(unsafe_code)]
 
 pub mod canvas;

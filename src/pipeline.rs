@@ -5,7 +5,7 @@ use crate::geometry::Point;
 use crate::import::{self, AirfoilOptions, Format, ImportError};
 use crate::mesh::Mesh;
 use crate::mesh::quality::Quality;
-use crate::mesh::verify::{Promise, Status, Verdict, verify};
+use crate::mesh::verify::{Status, Verdict, verify};
 use crate::plane;
 use crate::plane::lopping::{self, Lopping, RefineError, Refined, Shrinking};
 use crate::refine::{Progress, Stop, StopReason};
@@ -16,9 +16,6 @@ use kurbo::Affine;
 use std::collections::BTreeSet;
 use std::path::Path;
 use std::time::{Duration, Instant};
-
-/// Corner arcs turn at most this: π/3 keeps every arc triangle's angle at the ball above 60° (Pav & Walkington 2005, section 6).
-const ARC_TURNING_RAD: f64 = std::f64::consts::FRAC_PI_3;
 
 /// What is read: the bytes of a file, and how to read them.
 #[derive(Clone, Debug)]
@@ -120,8 +117,7 @@ impl Outcome {
         let mut clock = Clock::start();
         let arranged = arrange(drawing, request)?;
         self.report.input.repairs = arranged.repairs().to_vec();
-        let plan = Plan::new(drawing, &arranged, request)?;
-        let domain = arranged.split_to_turning(plan.tau_rad);
+        let (domain, plan) = Plan::new(drawing, &arranged, request)?;
         self.report.request.note_use(drawing, &arranged, &plan);
         self.report.seconds.arrange = clock.lap();
 
@@ -337,11 +333,18 @@ pub struct Plan {
 }
 
 impl Plan {
+    /// The domain, its curves cut to τ, and what is asked of it: corner arcs as fine as its guarantee needs.
+    ///
     /// # Errors
     /// A `--size-of` whose name the domain does not know.
-    pub fn new(drawing: &Drawing, domain: &Domain, request: &Request) -> Result<Self, FailureReport> {
+    pub fn new(drawing: &Drawing, domain: &Domain, request: &Request) -> Result<(Domain, Self), FailureReport> {
+        let mut options = engine_options(request, sizing(drawing, domain, request)?);
         let tau_rad = request.tau_rad(domain.curves().iter().map(|c| &c.curve));
-        Ok(Self { tau_rad, options: engine_options(request, sizing(drawing, domain, request)?) })
+        let domain = domain.split_to_turning(tau_rad);
+        let lens = domain.curves().iter().map(|c| c.curve.lens_angle(0.0, 1.0)).fold(0.0, f64::max);
+        let arc_turning = lopping::arc_turning(options.angle_min_rad, lens);
+        options.corner_arcs = request.corner_arcs.is_on().then_some(arc_turning);
+        Ok((domain, Self { tau_rad, options }))
     }
 
     /// Of a mesh whose drawing is not known: a share of its diagonal cannot be told, and any name may be of a boundary or a region.
@@ -386,18 +389,8 @@ impl Plan {
 
     /// Holds a mesh to what was asked: ours by its links to the domain's curves, any other by its coordinates.
     pub fn judge(&self, domain: Option<&Domain>, mesh: &Mesh) -> Verdict {
-        let angle = self.options.angle_min_rad;
-        let promise = Promise {
-            angle_min_rad: (angle > 0.0).then_some(angle),
-            tau_rad: self.tau_rad,
-            beta: self.options.beta,
-            corner_arcs: self.options.corner_arcs.is_some(),
-            arc_turning_rad: ARC_TURNING_RAD,
-            midpoint_bisector: self.options.midpoint == plane::Midpoint::Bisector,
-            sizing: self.options.sizing.clone(),
-            foreign: mesh.edges.iter().any(|edge| edge.link.is_none()),
-        };
-        verify(domain, mesh, &promise)
+        let foreign = mesh.edges.iter().any(|edge| edge.link.is_none());
+        verify(domain, mesh, &self.options.promise(self.tau_rad, foreign))
     }
 }
 
@@ -413,7 +406,7 @@ fn engine_options(request: &Request, sizing: Sizing) -> lopping::Options {
             Midpoint::Bisector => plane::Midpoint::Bisector,
             Midpoint::Angle => plane::Midpoint::Angle,
         },
-        corner_arcs: request.corner_arcs.is_on().then_some(ARC_TURNING_RAD),
+        corner_arcs: request.corner_arcs.is_on().then_some(std::f64::consts::FRAC_PI_3),
         sizing,
         max_vertices: request.max_vertices,
     }

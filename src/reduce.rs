@@ -1,11 +1,12 @@
 //! Shrinks a drawing while a run of it ends the same way: what is left shows the fault and little else.
 
 use crate::case::{Panic, caught};
-use crate::domain::Drawing;
+use crate::curve::Curve;
+use crate::domain::{Drawing, DrawnCurve};
 use crate::pipeline::{Extent, Outcome, ending, run_drawing};
 use crate::request::Request;
 
-/// A drawing from which nothing more could be dropped, or not within the budget.
+/// A drawing from which nothing more could be taken, or not within the budget.
 #[derive(Clone, Debug)]
 pub struct Reduced {
     pub drawing: Drawing,
@@ -14,26 +15,29 @@ pub struct Reduced {
     pub runs: usize,
 }
 
-/// One thing that can be dropped from a drawing.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-enum Part {
-    Curve(usize),
-    Point(usize),
-    Seed(usize),
-    Size(usize),
-}
-
-/// Drops curves, points, seeds and size requests while the run ends the same way, in at most `runs_max` runs.
-/// `tell` hears how many runs there were and how many parts are left.
+/// Takes whole chains, stretches of chains, then single curves, points, seeds and size requests away while the run ends the same way, in
+/// at most `runs_max` runs. `tell` hears how many runs there were and how many curves were left in the last.
 pub fn reduce(drawing: &Drawing, request: &Request, runs_max: usize, tell: &mut dyn FnMut(usize, usize)) -> Reduced {
     let ending = ending_of(drawing, request);
     let mut runs = 1;
-    let kept = shrink(parts(drawing), runs_max, &mut |parts| {
+    let mut same = |trial: &Drawing| {
+        if runs >= runs_max {
+            return false;
+        }
         runs += 1;
-        tell(runs, parts.len());
-        ending_of(&only(drawing, parts), request) == ending
-    });
-    Reduced { drawing: only(drawing, &kept), ending, runs }
+        tell(runs, trial.curves.len());
+        ending_of(trial, request) == ending
+    };
+    let mut drawing = drawing.clone();
+    loop {
+        let before = weight(&drawing);
+        drop_parts(&mut drawing, chains, &mut same);
+        shorten_chains(&mut drawing, &mut same);
+        drop_parts(&mut drawing, singles, &mut same);
+        if weight(&drawing) == before {
+            return Reduced { drawing, ending, runs };
+        }
+    }
 }
 
 /// How the run of a drawing ends, panics included.
@@ -49,12 +53,53 @@ pub fn ending_or_panic(run: &Result<Outcome, Panic>) -> String {
     }
 }
 
-fn parts(drawing: &Drawing) -> Vec<Part> {
-    let curves = (0..drawing.curves.len()).map(Part::Curve);
+fn weight(drawing: &Drawing) -> usize {
+    drawing.curves.len() + drawing.points.len() + drawing.seeds.len() + drawing.sizes.len()
+}
+
+/// What can be dropped from a drawing at once.
+#[derive(Clone, Debug, PartialEq, Eq)]
+enum Part {
+    /// Curves from the first to before the last.
+    Curves(usize, usize),
+    Point(usize),
+    Seed(usize),
+    Size(usize),
+}
+
+fn singles(drawing: &Drawing) -> Vec<Part> {
+    let curves = (0..drawing.curves.len()).map(|i| Part::Curves(i, i + 1));
     let points = (0..drawing.points.len()).map(Part::Point);
     let seeds = (0..drawing.seeds.len()).map(Part::Seed);
     let sizes = (0..drawing.sizes.len()).map(Part::Size);
     curves.chain(points).chain(seeds).chain(sizes).collect()
+}
+
+/// As [`singles`], but curves that follow each other end to end are one part.
+fn chains(drawing: &Drawing) -> Vec<Part> {
+    let mut parts: Vec<Part> = Vec::new();
+    for part in singles(drawing) {
+        match (parts.last_mut(), &part) {
+            (Some(Part::Curves(_, end)), Part::Curves(from, to)) if follows(drawing, *from) => {
+                debug_assert_eq!(end, from);
+                *end = *to;
+            }
+            _ => parts.push(part),
+        }
+    }
+    parts
+}
+
+/// Whether curve `i` starts where the one before ends.
+fn follows(drawing: &Drawing, i: usize) -> bool {
+    i > 0 && drawing.curves[i - 1].curve.end() == drawing.curves[i].curve.start()
+}
+
+/// Drops what can be dropped of the parts that `parts_of` names.
+fn drop_parts(drawing: &mut Drawing, parts_of: fn(&Drawing) -> Vec<Part>, same: &mut dyn FnMut(&Drawing) -> bool) {
+    let whole = &*drawing;
+    let kept = shrink(parts_of(whole), &mut |parts| same(&only(whole, parts)));
+    *drawing = only(whole, &kept);
 }
 
 /// The drawing with these parts (ascending) and no other.
@@ -63,7 +108,7 @@ fn only(drawing: &Drawing, parts: &[Part]) -> Drawing {
         Drawing { curves: Vec::new(), points: Vec::new(), seeds: Vec::new(), sizes: Vec::new(), ..drawing.clone() };
     for part in parts {
         match *part {
-            Part::Curve(i) => rest.curves.push(drawing.curves[i].clone()),
+            Part::Curves(from, to) => rest.curves.extend_from_slice(&drawing.curves[from..to]),
             Part::Point(i) => rest.points.push(drawing.points[i].clone()),
             Part::Seed(i) => rest.seeds.push(drawing.seeds[i].clone()),
             Part::Size(i) => rest.sizes.push(drawing.sizes[i].clone()),
@@ -72,16 +117,41 @@ fn only(drawing: &Drawing, parts: &[Part]) -> Drawing {
     rest
 }
 
-/// A part of `items` that still `fails` and from which no single item can be dropped, unless `tries` end first
+/// Replaces stretches of chains by straight lines, from long stretches to pairs of curves: an outline stays closed.
+fn shorten_chains(drawing: &mut Drawing, same: &mut dyn FnMut(&Drawing) -> bool) {
+    let mut length = drawing.curves.len() / 2;
+    while length >= 2 {
+        let mut from = 0;
+        while from + length <= drawing.curves.len() {
+            match shortened(drawing, from, from + length) {
+                Some(trial) if same(&trial) => *drawing = trial,
+                _ => from += length.div_ceil(2),
+            }
+        }
+        length = if length > 2 { length.div_ceil(2) } else { 1 };
+    }
+}
+
+/// The drawing with a line for the curves from `from` to before `to`; `None` where they are no chain, or the line had no length.
+fn shortened(drawing: &Drawing, from: usize, to: usize) -> Option<Drawing> {
+    let (first, last) = (&drawing.curves[from], &drawing.curves[to - 1]);
+    if (from + 1..to).any(|i| !follows(drawing, i)) || first.curve.start() == last.curve.end() {
+        return None;
+    }
+    let curve = Curve::line(first.curve.start(), last.curve.end()).ok()?;
+    let mut trial = drawing.clone();
+    trial.curves.splice(from..to, [DrawnCurve { curve, ..first.clone() }]);
+    Some(trial)
+}
+
+/// What is left of `items` that still `fails` and from which no single item can be dropped
 /// (delta debugging, Zeller & Hildebrandt 2002, by complements only).
-fn shrink<T: Copy>(mut items: Vec<T>, mut tries: usize, fails: &mut dyn FnMut(&[T]) -> bool) -> Vec<T> {
+fn shrink<T: Clone>(mut items: Vec<T>, fails: &mut dyn FnMut(&[T]) -> bool) -> Vec<T> {
     let mut chunk = items.len().div_ceil(2).max(1);
     loop {
         let mut dropped = false;
         let mut from = 0;
         while from < items.len() {
-            let Some(left) = tries.checked_sub(1) else { return items };
-            tries = left;
             let to = (from + chunk).min(items.len());
             let rest = [&items[..from], &items[to..]].concat();
             if fails(&rest) {
@@ -102,12 +172,29 @@ fn shrink<T: Copy>(mut items: Vec<T>, mut tries: usize, fails: &mut dyn FnMut(&[
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::Point;
+
+    /// A closed polygon of unit steps around a circle of this radius, so many times over beside each other.
+    fn rings(n: usize, corners: usize) -> Drawing {
+        let mut drawing = Drawing::default();
+        for ring in 0..n {
+            let corner = |i: usize| {
+                let angle = std::f64::consts::TAU * (i % corners) as f64 / corners as f64;
+                Point::new(3.0 * ring as f64 + libm::cos(angle), libm::sin(angle))
+            };
+            for i in 0..corners {
+                let line = Curve::line(corner(i), corner(i + 1)).expect("corners differ");
+                drawing.add(line, "rim", format!("ring {ring}, segment {i}"));
+            }
+        }
+        drawing
+    }
 
     #[test]
     fn only_what_the_fault_needs_is_left() {
         for culprits in [vec![], vec![0], vec![63], vec![3, 40], vec![10, 11, 12, 50]] {
             let mut tries = 0;
-            let left = shrink((0..64).collect(), 10_000, &mut |items| {
+            let left = shrink((0..64).collect(), &mut |items| {
                 tries += 1;
                 culprits.iter().all(|c| items.contains(c))
             });
@@ -120,15 +207,42 @@ mod tests {
     fn every_pair_is_found_whatever_its_place() {
         for a in 0..12 {
             for b in a + 1..12 {
-                let left = shrink((0..12).collect(), 10_000, &mut |items| items.contains(&a) && items.contains(&b));
+                let left = shrink((0..12).collect(), &mut |items| items.contains(&a) && items.contains(&b));
                 assert_eq!(left, [a, b]);
             }
         }
     }
 
     #[test]
-    fn the_budget_ends_it_with_what_still_fails() {
-        let left = shrink((0..1000).collect(), 5, &mut |items| items.contains(&700));
-        assert!(left.contains(&700) && left.len() < 1000);
+    fn chains_are_found_and_shortened() {
+        let drawing = rings(3, 40);
+        assert_eq!(chains(&drawing), [Part::Curves(0, 40), Part::Curves(40, 80), Part::Curves(80, 120)]);
+        let mut short = drawing.clone();
+        let closed = |d: &Drawing| {
+            chains(d).iter().all(|part| match *part {
+                Part::Curves(from, to) => to > from + 2 && d.curves[to - 1].curve.end() == d.curves[from].curve.start(),
+                _ => false,
+            })
+        };
+        shorten_chains(&mut short, &mut |trial| closed(trial));
+        assert_eq!(short.curves.len(), 9, "three triangles");
+        assert!(closed(&short));
+    }
+
+    #[test]
+    fn a_run_is_reduced_to_the_part_that_ends_it() {
+        // Two rings that hold a mesh, and a size for a name that nothing bears: any one triangle is enough to say so.
+        let request = Request { size_of: vec!["nothing=1".parse().expect("a size")], ..Request::default() };
+        let reduced = reduce(&rings(2, 12), &request, 500, &mut |_, _| {});
+        assert!(reduced.ending.starts_with("request: "), "{}", reduced.ending);
+        assert_eq!(reduced.drawing.curves.len(), 3, "{:?}", reduced.drawing.curves);
+    }
+
+    #[test]
+    fn the_budget_ends_it_with_what_still_ends_alike() {
+        let request = Request { size_of: vec!["nothing=1".parse().expect("a size")], ..Request::default() };
+        let reduced = reduce(&rings(2, 12), &request, 3, &mut |_, _| {});
+        assert_eq!(reduced.runs, 3);
+        assert_eq!(ending_of(&reduced.drawing, &request), reduced.ending);
     }
 }

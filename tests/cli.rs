@@ -350,13 +350,17 @@ fn a_closed_pipe_is_no_panic() {
 #[test]
 fn the_command_line_wins_over_the_config_file() {
     let bench = Bench::new("config");
-    fs::write(bench.0.join("c.toml"), "min-angle = 12\nmax-turning = 'auto'\nbeta = 0.5\nsize-of = ['below=0.2']\n")
-        .unwrap();
+    fs::write(
+        bench.0.join("c.toml"),
+        "min-angle = 12\nmax-turning = 'auto'\nbeta = 0.5\ncorner-arcs = 'off'\nsize-of = ['below=0.2']\n",
+    )
+    .unwrap();
     bench.ends(0, &["mesh", "lens.json", "-o", "a.vtu", "--config", "c.toml", "--beta", "0.8", "--report", "r.json"]);
     let request = &bench.report("r.json")["request"];
     assert_eq!(request["angle_min_deg"], 12.0);
     assert_eq!(request["beta"], 0.8);
     assert_eq!(request["max_turning"], "auto");
+    assert_eq!(request["corner_arcs"], false);
     assert_eq!(request["size_of"]["below"], 0.2);
     assert!(request["tau_rad"].as_f64() > Some(0.5), "12° is proven on arcs beyond τ = 0.5: {request}");
 }

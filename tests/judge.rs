@@ -177,8 +177,8 @@ fn crossing(points: &[Point], t: [usize; 3], u: [usize; 3]) -> bool {
     })
 }
 
-/// The region on this side of a chord where the triangle has one (three rounded nodes of one line span a sliver that no winding number
-/// can place), else the one that winds around it.
+/// The region on this side of a chord where the triangle has one (three rounded nodes of one line span a sliver that no
+/// winding number can place), else the one that winds around it.
 fn region_of(domain: &Domain, mesh: &Mesh, triangle: [VertexId; 3]) -> Option<RegionId> {
     for edge in &mesh.edges {
         let sides = domain.curves()[edge.link.unwrap().curve].sides;
@@ -597,7 +597,8 @@ fn small_triangles_that_the_user_wants_left_alone_are_told_apart() {
 
 #[test]
 fn max_angle_finds_an_obtuse_triangle_even_in_a_ball() {
-    // A node near the rim of the ball: excused, but flat. It is in the circles of the spokes and has a node beyond the rim in its own.
+    // A node near the rim of the ball: excused, but flat. It is in the circles of the spokes and has a node beyond the
+    // rim in its own.
     breaks(wedge(HERE), &["max_angle", "delaunay", "empty_diametral"], "has an angle of 17", |s| {
         let t = triangle_at(s, 1.0, 0.1);
         let [a, b, c] = s.mesh.triangles[t];

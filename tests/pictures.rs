@@ -1,8 +1,10 @@
-//! Pictures as text: golden SVG files under `tests/pictures/`. `UPDATE_PICTURES=1 cargo test --test pictures` writes them anew, with a PNG
-//! of each under the target directory: look at it before committing.
+//! Pictures as text: golden SVG files under `tests/pictures/`. `UPDATE_PICTURES=1 cargo test --test pictures` writes
+//! them anew, with a PNG of each under the target directory: look at it before committing.
 
 use squinch::canvas::Canvas;
-use squinch::export::picture::{MeshColour, PictureOptions, picture_of_mesh};
+use squinch::curve::Curve;
+use squinch::domain::{ArrangeOptions, Drawing, Seed, SeedKind};
+use squinch::export::picture::{MeshColour, PictureOptions, picture_of_domain, picture_of_drawing, picture_of_mesh};
 use squinch::geometry::{Point, Rect};
 use squinch::ids::{CurveId, PointId, RegionId, VertexId};
 use squinch::mesh::{Ball, BallReason, CurveEdge, CurveLink, Mesh};
@@ -83,4 +85,73 @@ fn mesh_by_region_zoomed_far_from_the_origin() {
 fn mesh_by_size() {
     let options = PictureOptions { balls: false, ..PictureOptions::default() };
     keep("mesh-size", &picture_of_mesh(&ring(36, 10, 1e7, 0.0), None, MeshColour::Size, &options));
+}
+
+/// A rectangle with a round bore, a curve across and a spike: two regions, one of them with a hole, and an acute
+/// corner.
+fn drawing(scale: f64) -> Drawing {
+    let at = |x: f64, y: f64| Point::new(x * scale, y * scale);
+    let mut drawing = Drawing::default();
+    let corners = [at(0.0, 0.0), at(6.0, 0.0), at(6.0, 3.0), at(0.0, 3.0)];
+    for (i, name) in ["floor", "outlet", "lid", "inlet"].into_iter().enumerate() {
+        drawing.add(Curve::line(corners[i], corners[(i + 1) % 4]).expect("a line"), name, "outline");
+    }
+    drawing.add(Curve::circle(at(4.5, 1.4), 0.8 * scale).expect("a circle"), "bore", "bore");
+    let across = vec![at(2.5, 0.0), at(4.5, 1.2), at(0.5, 1.8), at(2.0, 3.0)];
+    drawing.add(Curve::bezier(across).expect("a cubic"), "a & <b>", "across");
+    let closed = [at(0.5, 0.6), at(1.3, 0.5), at(1.4, 1.2), at(0.7, 1.3)];
+    drawing.add(Curve::periodic_spline(&closed).expect("a closed spline"), "pocket", "pocket");
+    drawing.add(Curve::line(at(6.0, 3.0), at(5.2, 2.6)).expect("a line"), "spike", "spike");
+    let hole = Seed { at: at(4.5, 1.4), kind: SeedKind::Hole, entity: "bore".into() };
+    drawing.seeds.push(hole);
+    for (x, name) in [(0.2, "water"), (5.8, "oil")] {
+        let name = drawing.names.intern(name);
+        let kind = SeedKind::Region { name, max_area: None };
+        drawing.seeds.push(Seed { at: at(x, 0.2), kind, entity: "seed".into() });
+    }
+    drawing.fill = squinch::domain::FillRule::Regions;
+    drawing
+}
+
+#[test]
+fn drawing_as_found() {
+    let options = PictureOptions { width_px: 800, title: "as found".into(), ..PictureOptions::default() };
+    keep("drawing", &picture_of_drawing(&drawing(1.0), &options));
+}
+
+#[test]
+fn domain_with_regions_and_acute_corners_looks_the_same_at_every_scale() {
+    let options = PictureOptions { width_px: 800, ..PictureOptions::default() };
+    for scale in [1.0, libm::ldexp(1.0, -20), libm::ldexp(1.0, 24)] {
+        let domain = drawing(scale).arrange(&ArrangeOptions::default()).expect("a domain");
+        keep("domain", &picture_of_domain(&domain, &options));
+    }
+}
+
+#[test]
+fn empty_and_hostile_input_make_pictures() {
+    let picture = picture_of_drawing(&Drawing::default(), &PictureOptions::default());
+    assert!(picture.svg().expect("text").starts_with("<svg"));
+    let mut mesh = ring(5, 2, 1.0, 0.0);
+    mesh.nodes[VertexId(3)] = Point::new(f64::NAN, 1.0);
+    mesh.nodes[VertexId(4)] = Point::new(1e300, -1e300);
+    mesh.triangles[squinch::ids::TriangleId(0)][1] = VertexId(999);
+    mesh.balls[0].radius = f64::INFINITY;
+    let views = [None, Some(Rect::new(0.0, 0.0, 0.0, 0.0)), Some(Rect::new(0.0, 0.0, 1e-300, 1e300))];
+    for (view, width_px) in views.into_iter().zip([0, 300, 1_000_000]) {
+        let options = PictureOptions { width_px, view, ..PictureOptions::default() };
+        for colour in [MeshColour::Quality, MeshColour::Region, MeshColour::Size] {
+            let canvas = picture_of_mesh(&mesh, None, colour, &options);
+            assert!(!canvas.svg().expect("text").contains("NaN"));
+            assert!(canvas.png(0.1).expect("painted").len() > 100);
+        }
+    }
+}
+
+#[test]
+fn a_layer_too_large_for_text_becomes_an_image() {
+    let mesh = ring(300, 250, 1.0, 0.0);
+    let options = PictureOptions { width_px: 200, ..PictureOptions::default() };
+    let svg = picture_of_mesh(&mesh, None, MeshColour::Quality, &options).svg().expect("text");
+    assert!(svg.contains("data:image/png;base64,") && svg.len() < 1_000_000, "{} bytes", svg.len());
 }

@@ -287,6 +287,16 @@ fn what_cannot_be_read_is_said() {
 }
 
 #[test]
+fn links_and_balls_out_of_range_are_refused() {
+    let mut mesh = grid(2, PLAIN);
+    mesh.balls[1].radius = f64::INFINITY;
+    assert_eq!(read(&written(&mesh, &[])).expect_err("no radius").what, "a ball has the radius inf");
+    mesh.edges[1].link = Some(CurveLink { curve: CurveId(0), t: [0.5, 1.5] });
+    let error = read(&written(&mesh, &[])).expect_err("no parameter");
+    assert_eq!(error.what, "array 't' holds 1.5, which is no parameter of a curve (0 to 1)");
+}
+
+#[test]
 fn a_small_file_that_unpacks_to_gigabytes_is_refused() {
     use std::io::Write;
     let mut encoder = flate2::write::ZlibEncoder::new(Vec::new(), flate2::Compression::best());
@@ -340,6 +350,9 @@ proptest! {
             prop_assert_eq!(mesh.triangles.len(), mesh.triangle_regions.len());
             prop_assert!(mesh.triangle_regions.iter().all(|&r| mesh.regions.get(r).is_some()));
             prop_assert!(mesh.nodes.iter().all(|p| p.x.is_finite() && p.y.is_finite()));
+            prop_assert!(mesh.balls.iter().all(|b| b.radius.is_finite()));
+            let links = mesh.edges.iter().filter_map(|e| e.link);
+            prop_assert!(links.flat_map(|link| link.t).all(|t| (0.0..=1.0).contains(&t)));
         }
     }
 }

@@ -85,16 +85,14 @@ impl Check {
 /// The domain that a mesh is to be of, and what is asked of it.
 fn against(input: &Input, request: &Request, report: &mut Report) -> Result<(Domain, Plan), Halt> {
     remember(input, request);
-    let stages = || {
+    let mut stages = || {
         let drawing = pipeline::read(&input.source(), request)?;
         let arranged = pipeline::arrange(&drawing, request)?;
-        let plan = Plan::new(&drawing, &arranged, request)?;
-        Ok((drawing, arranged, plan))
+        let (domain, plan) = Plan::new(&drawing, &arranged, request)?;
+        report.input.describe(&drawing);
+        report.input.repairs = arranged.repairs().to_vec();
+        report.request.note_use(&drawing, &arranged, &plan);
+        Ok((domain, plan))
     };
-    let (drawing, arranged, plan) =
-        stages().map_err(|failure| Halt::Failure(Box::new(failure), Some(Box::new(input.clone()))))?;
-    report.input.describe(&drawing);
-    report.input.repairs = arranged.repairs().to_vec();
-    report.request.note_use(&drawing, &arranged, &plan);
-    Ok((arranged.split_to_turning(plan.tau_rad), plan))
+    stages().map_err(|failure| Halt::Failure(Box::new(failure), Some(Box::new(input.clone()))))
 }

@@ -117,8 +117,7 @@ impl Draw {
         if self.stage == Stage::Domain {
             return Ok(picture_of_domain(arranged, picture));
         }
-        let plan = Plan::new(drawing, arranged, request)?;
-        let domain = arranged.split_to_turning(plan.tau_rad);
+        let (domain, plan) = Plan::new(drawing, arranged, request)?;
         if self.stage == Stage::Subcurves {
             return Ok(picture_of_domain(&domain, picture));
         }

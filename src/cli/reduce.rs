@@ -34,10 +34,10 @@ impl Reduce {
         // Unit and scale are in the drawing now.
         let request = Request { unit: None, scale: None, ..case.request.clone() };
         let mut told = 0;
-        let reduced = reduce(&drawing, &request, self.runs, &mut |runs, parts| {
+        let reduced = reduce(&drawing, &request, self.runs, &mut |runs, curves| {
             if volume == Volume::Verbose && runs >= 2 * told {
                 told = runs;
-                say::line(&format!("{runs} runs, {parts} parts"));
+                say::line(&format!("{runs} runs, {curves} curves"));
             }
         });
         self.write(&reduced, &request)?;

@@ -46,18 +46,34 @@ const FAINT: Colour = Colour::hex(0x7b8794);
 const ALARM: Colour = Colour::hex(0xd6002a);
 const BALL: Colour = Colour::hex(0x7a1fa2);
 
-/// Boundary names: Okabe & Ito's colours, told apart by every kind of colour vision (their yellow darkened to be seen on white).
+/// Boundary names: Okabe & Ito's colours, told apart by every kind of colour vision (their yellow darkened to be seen
+/// on white).
 const LINES: [u32; 8] = [0x0072b2, 0xd55e00, 0x009e73, 0xcc79a7, 0x8c6d00, 0x56b4e9, 0xe69f00, 0x444444];
 /// Regions: the same hues, light enough to lie under lines.
 const AREAS: [u32; 8] = [0xcfe3f1, 0xf8ddc9, 0xcdebdf, 0xf2dde9, 0xebe4c4, 0xdcf0fb, 0xfbe9c6, 0xdddddd];
-/// Smallest angle of a triangle: brown (bad) over orange and cream to blue (good), a pair that colour-blind eyes keep apart.
-const QUALITY: [(f64, u32); 6] =
-    [(0.0, 0x6b1f00), (12.0, 0xc8500a), (21.0, 0xf6a54a), (30.0, 0xfdebc8), (42.0, 0xb7d9ee), (60.0, 0x4f9ccb)];
+/// Smallest angle of a triangle: brown (bad) over orange and cream to blue (good), a pair that colour-blind eyes keep
+/// apart. It turns pale just above 20.7°, the angle that corner lopping reaches: what stands out is what a corner
+/// excuses.
+const QUALITY: [(f64, u32); 7] = [
+    (0.0, 0x6b1f00),
+    (10.0, 0xc8500a),
+    (20.0, 0xf6a54a),
+    (23.0, 0xfbdcae),
+    (32.0, 0xf0efe3),
+    (44.0, 0xb7d9ee),
+    (60.0, 0x4f9ccb),
+];
 /// Size: dark where fine, light where coarse; lightness alone tells.
 const SIZE: [(f64, u32); 5] = [(0.0, 0x1f2a5a), (0.25, 0x22668d), (0.5, 0x37a08f), (0.75, 0x9ad07a), (1.0, 0xf6f3b0)];
 
-fn line_colour(index: usize) -> Colour {
-    Colour::hex(LINES[index % LINES.len()])
+/// The look of a boundary: eight colours, then the same colours dashed.
+fn line_stroke(index: usize, width: f64) -> Stroke {
+    let stroke = Stroke::new(Colour::hex(LINES[index % LINES.len()]), width);
+    match index / LINES.len() % 3 {
+        0 => stroke,
+        1 => stroke.dashed(4.0 * width, 2.4 * width),
+        _ => stroke.dashed(0.5 * width, 2.0 * width),
+    }
 }
 
 fn area_colour(index: usize) -> Colour {
@@ -95,7 +111,7 @@ pub fn picture_of_drawing(drawing: &Drawing, options: &PictureOptions) -> Canvas
             SeedKind::Hole => "hole",
             SeedKind::Region { name, .. } => drawing.names.text(*name),
         };
-        sheet.label(seed.at, what, FAINT);
+        sheet.label(seed.at, what, FAINT, false);
     }
     sheet.finish(options, &legend)
 }
@@ -128,15 +144,15 @@ pub fn picture_of_domain(domain: &Domain, options: &PictureOptions) -> Canvas {
     for &p in &acute {
         let at = domain.points()[p];
         sheet.ring(at, 6.5, ALARM);
-        // Beyond some tens the labels would only hide the drawing.
-        if let (Some(corner), true) = (domain.corner(p), acute.len() <= 40) {
-            sheet.label(at, &format!("{}°", short(corner.angle_rad.to_degrees())), ALARM);
+        if let Some(corner) = domain.corner(p) {
+            sheet.label(at, &format!("{}°", short(corner.angle_rad.to_degrees())), ALARM, false);
         }
     }
     sheet.finish(options, &legend)
 }
 
-/// A mesh: cells by `colour`, edges thin, boundary edges thick by name (along the exact curves where the domain is given), balls dashed.
+/// A mesh: cells by `colour`, edges thin, boundary edges thick by name (along the exact curves where the domain is
+/// given), balls dashed.
 pub fn picture_of_mesh(mesh: &Mesh, domain: Option<&Domain>, colour: MeshColour, options: &PictureOptions) -> Canvas {
     let used = distinct(mesh.edges.iter().map(|e| e.name));
     let regions = distinct(mesh.regions.iter().copied());
@@ -262,7 +278,7 @@ fn counted(n: usize, what: &str) -> String {
     let digits = n.to_string();
     let mut number = String::new();
     for (i, c) in digits.chars().enumerate() {
-        if i > 0 && (digits.len() - i) % 3 == 0 {
+        if i > 0 && (digits.len() - i).is_multiple_of(3) {
             number.push('\u{202f}');
         }
         number.push(c);
@@ -319,7 +335,7 @@ struct Chip {
 }
 
 enum Swatch {
-    Line(Colour),
+    Line(usize),
     Area(Colour),
     None,
 }
@@ -331,6 +347,8 @@ struct Sheet {
     type_px: f64,
     width: f64,
     margin: f64,
+    /// Where labels stand already.
+    labels: Vec<Rect>,
 }
 
 impl Sheet {
@@ -343,7 +361,8 @@ impl Sheet {
         let frame = if options.view.is_none() { frame.with_rim(margin * 0.9) } else { frame };
         let caption =
             if options.title.is_empty() { caption.to_owned() } else { format!("{}: {caption}", options.title) };
-        let mut sheet = Self { canvas: Canvas::new(width, width, frame), caption, type_px, width, margin };
+        let mut sheet =
+            Self { canvas: Canvas::new(width, width, frame), caption, type_px, width, margin, labels: Vec::new() };
         let height = sheet.legend_top() + sheet.legend_height(legend) + margin * 0.8;
         sheet.canvas = Canvas::new(width, height, frame);
         sheet
@@ -373,14 +392,14 @@ impl Sheet {
         self.canvas.layer("boundary", true);
         let width = self.pen(2.4);
         for (class, path) in paths.into_iter().enumerate() {
-            self.canvas.path(path, Paint::stroke(Stroke::new(line_colour(class), width)));
+            self.canvas.path(path, Paint::stroke(line_stroke(class, width)));
         }
     }
 
     /// The part of a curve as a polyline within about a tenth of a pixel, by halving; at most 4097 places.
     fn flatten(&self, curve: &Curve, t0: f64, t1: f64) -> Vec<Pixel> {
         let at = |t: f64| self.pixel(curve.point(t));
-        if curve.is_straight() {
+        if matches!(curve, Curve::Line(_)) {
             return vec![at(t0), at(t1)];
         }
         // Eight parts to begin with, so that a wave whose middle lies on the chord is not taken for flat.
@@ -497,7 +516,8 @@ impl Sheet {
         self.boundary_paths(paths);
     }
 
-    /// Whether an edge is long enough to show its curve, and in sight (a curved edge may bulge by less than its length).
+    /// Whether an edge is long enough to show its curve, and in sight (a curved edge may bulge by less than its
+    /// length).
     fn near(&self, [a, b]: [Pixel; 2]) -> bool {
         let l = libm::hypot(a.x - b.x, a.y - b.y);
         l > 1.0 && self.canvas.frame().sees(&[a, b, px(a.x - l, a.y - l), px(a.x + l, a.y + l)])
@@ -536,16 +556,23 @@ impl Sheet {
         }
     }
 
-    /// A label beside a place: on the side that has more room.
-    fn label(&mut self, p: Point, text: &str, colour: Colour) {
+    /// A label beside a place, at the first of four sides where it hides no other label and stays in the picture; if
+    /// there is none, it is left away, unless it is `owed`.
+    fn label(&mut self, p: Point, text: &str, colour: Colour, owed: bool) {
         let at = self.pixel(p);
         if !self.canvas.frame().sees(&[at]) {
             return;
         }
         let size = self.type_px * 0.85;
-        let (off, anchor) = if at.x < self.width * 0.6 { (9.0, Anchor::Start) } else { (-9.0, Anchor::End) };
-        let place = px(at.x + self.pen(off), (at.y - self.pen(7.0)).max(size));
-        self.canvas.text(Label::new(place, text, size).anchor(anchor).colour(colour).rim());
+        let (dx, up, down, width) = (self.pen(9.0), self.pen(7.0), self.pen(7.0) + 0.7 * size, text_width(text, size));
+        let sheet = Rect::new(0.0, 0.0, self.width, self.legend_top());
+        let boxes = [(dx, -up), (-dx - width, -up), (dx, down), (-dx - width, down)]
+            .map(|(x, y)| Rect::new(at.x + x, at.y + y - 0.75 * size, at.x + x + width, at.y + y + 0.25 * size));
+        let free =
+            |b: &&Rect| b.union(sheet) == sheet && self.labels.iter().all(|other| other.intersect(**b).area() == 0.0);
+        let Some(&room) = boxes.iter().find(free).or(owed.then_some(&boxes[0])) else { return };
+        self.labels.push(room);
+        self.canvas.text(Label::new(px(room.x0, room.y1 - 0.25 * size), text, size).colour(colour).rim());
     }
 
     fn marks(&mut self, marks: &[(Point, String)]) {
@@ -561,7 +588,7 @@ impl Sheet {
                 let (rim, pen) = (Stroke::new(Colour::hex(0xffffff), self.pen(5.0)), Stroke::new(ALARM, self.pen(2.4)));
                 self.canvas.path(cross.clone(), Paint::stroke(rim));
                 self.canvas.path(cross, Paint::stroke(pen));
-                self.label(*p, text, ALARM);
+                self.label(*p, text, ALARM, true);
             }
         }
     }
@@ -581,7 +608,7 @@ impl Sheet {
     /// Caption, then areas, then lines, each row filled from the left.
     fn chips(&self, legend: &Legend) -> Vec<Chip> {
         let swatches = (0..).zip(&legend.areas).map(|(i, name)| (Swatch::Area(area_colour(i)), name));
-        let lines = (0..).zip(&legend.lines).map(|(i, name)| (Swatch::Line(line_colour(i)), name));
+        let lines = (0..).zip(&legend.lines).map(|(i, name)| (Swatch::Line(i), name));
         let all = legend.areas.len() + legend.lines.len();
         let mut wanted: Vec<(Swatch, String)> = vec![(Swatch::None, self.caption.clone())];
         wanted.extend(swatches.chain(lines).take(LEGEND_NAMES_MAX).map(|(s, name)| (s, clipped(name))));
@@ -611,10 +638,10 @@ impl Sheet {
             let (w, mid) = (self.type_px * 1.5, at.y - self.type_px * 0.36);
             let room = match swatch {
                 Swatch::None => 0.0,
-                Swatch::Line(colour) => {
+                Swatch::Line(class) => {
                     let mut path = Path::default();
                     path.add([px(at.x, mid), px(at.x + w, mid)], false);
-                    self.canvas.path(path, Paint::stroke(Stroke::new(colour, self.pen(3.2))));
+                    self.canvas.path(path, Paint::stroke(line_stroke(class, self.pen(3.0))));
                     self.type_px * 2.0
                 }
                 Swatch::Area(colour) => {

@@ -1,20 +1,23 @@
-//! VTK XML unstructured grids (`.vtu`): triangles, then boundary lines, with regions, boundaries and links back to the curves.
+//! VTK XML unstructured grids (`.vtu`): triangles, then boundary lines, with regions, boundaries and links back to
+//! the curves.
 //!
 //! | place | array | holds |
 //! |---|---|---|
 //! | cells | `region` Int32 | region number of a triangle (from 1), 0 of a line |
 //! | cells | `boundary` Int32 | boundary number of a line (from 1), 0 of a triangle |
-//! | cells | `curve` Int32, `t` 2 × Float64 | the line's curve and the parameters of its ends; −1 and 0 where there are none |
+//! | cells | `curve` Int32, `t` 2 × Float64 | a line's curve and the parameters of its ends; −1 and 0 elsewhere |
 //! | field | `region:NAME`, `boundary:NAME` Int32 | the numbers that carry the name |
 //! | field | `point_id`, `point_node` Int32 | the points of P and their nodes |
-//! | field | `ball_corner_point` Int32, `ball_radius` Float64, `ball_why` UInt8 | protecting balls; 0 lfs₀, 1 encroached, 2 size |
+//! | field | `ball_corner_point`, `ball_radius`, `ball_why` | protecting balls; why: 0 lfs₀, 1 encroached, 2 size |
 //! | field | `squinch:KEY` | a stamp: Float64 where the text is a number's, else its UTF-8 bytes as UInt8 |
 //!
-//! Names are names of arrays, not VTK string arrays: meshio 5.3 refuses a whole file that has an array of type `String` ("Illegal data
-//! type"), while both it and VTK list the names of field arrays as they are. For meshio, too, no empty array is compressed.
+//! Names are names of arrays, not VTK string arrays: meshio 5.3 refuses a whole file that has an array of type
+//! `String` ("Illegal data type"), while both it and VTK list the names of field arrays as they are. For meshio, too,
+//! no empty array is compressed.
 //!
-//! Written here and not by the vtkio crate (0.7.0-rc2), which keeps a second model of the whole file in memory and compresses one
-//! block after the other; here each array is made, compressed in parallel blocks and written before the next.
+//! Written here and not by the vtkio crate (0.7.0-rc2), which keeps a second model of the whole file in memory and
+//! compresses one block after the other; here each array is made, compressed in parallel blocks and written before
+//! the next.
 
 use crate::ids::{Id, NameId};
 use crate::mesh::{BallReason, CurveEdge, Mesh};
@@ -23,14 +26,16 @@ use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::{self, Write};
 
-/// Bytes of a compressed block: a multiple of every word, large enough to compress well, small enough to share among threads.
+/// Bytes of a compressed block: a multiple of every word, large enough to compress well, small enough to share among
+/// threads.
 const BLOCK: usize = 1 << 17;
 
 /// Writes a mesh, with stamps (key and value) that say how it was made. The same mesh gives the same bytes.
 ///
 /// # Errors
-/// Those of `out`; `InvalidInput` where the mesh has more than 2³¹−1 nodes or corners (numbers are Int32), or lists of different length.
-/// Characters that XML cannot hold (control characters but tab and line ends) become U+FFFD in names.
+/// Those of `out`; `InvalidInput` where the mesh has more than 2³¹−1 nodes or corners (numbers are Int32), or lists
+/// of different length. Characters that XML cannot hold (control characters but tab and line ends) become U+FFFD in
+/// names.
 pub fn write(mesh: &Mesh, stamps: &[(String, String)], out: &mut impl Write) -> io::Result<()> {
     check(mesh)?;
     let boundaries = boundary_numbers(mesh);
@@ -162,7 +167,8 @@ impl<'a> Array<'a> {
         Self { name, kind: "UInt8", components: 1, values: bytes.len(), bytes }
     }
 
-    /// A field array also says how many tuples it has: VTK cannot know otherwise. An empty list is left out; an empty text is kept.
+    /// A field array also says how many tuples it has: VTK cannot know otherwise. An empty list is left out; an empty
+    /// text is kept.
     fn write_field(&self, out: &mut impl Write) -> io::Result<()> {
         if self.values == 0 && !self.name.starts_with("squinch:") {
             return Ok(());

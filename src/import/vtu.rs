@@ -1,11 +1,13 @@
-//! VTK XML unstructured grids (`.vtu`) → Mesh, whoever wrote them: ASCII, inline or appended (base64 or raw), with zlib or without.
+//! VTK XML unstructured grids (`.vtu`) → Mesh, whoever wrote them: ASCII, inline or appended (base64 or raw), with
+//! zlib or without.
 //!
-//! Read are triangles (type 5) and lines (type 3) in the plane; vertices (types 1 and 2) are left out and counted, any other cell is an
-//! error. What [`write`](../../export/vtu/fn.write.html) adds is read back bit for bit. In a foreign file, regions and boundaries are
-//! the values of the first of the cell arrays [`FOREIGN`] that it has, named by their numbers.
+//! Read are triangles (type 5) and lines (type 3) in the plane; vertices (types 1 and 2) are left out and counted,
+//! any other cell is an error. What our writer adds is read back bit for bit. In a
+//! foreign file, regions and boundaries are the values of the first of the cell arrays [`FOREIGN`] that it has, named
+//! by their numbers.
 //!
-//! Nothing is believed: every count is held against the bytes at hand, and all arrays together may grow to no more than [`GROWTH`]
-//! times the file plus [`ALLOWANCE`].
+//! Nothing is believed: every count is held against the bytes at hand, and all arrays together may grow to no more
+//! than `GROWTH` times the file plus `ALLOWANCE`.
 
 use crate::geometry::Point;
 use crate::ids::{CurveId, PointId, RegionId, VertexId};
@@ -337,7 +339,8 @@ impl Source<'_> {
         }
     }
 
-    /// At least `n` bytes from whole groups of four characters, and how many characters they took, white space included.
+    /// At least `n` bytes from whole groups of four characters, and how many characters they took, white space
+    /// included.
     fn decode(&self, n: usize) -> Option<(Vec<u8>, usize)> {
         let wanted = n.div_ceil(3).checked_mul(4).filter(|&w| w <= self.rest.len())?;
         let mut characters = Vec::with_capacity(wanted);
@@ -363,7 +366,8 @@ const ANY_PADDING: base64::engine::GeneralPurpose = base64::engine::GeneralPurpo
 );
 
 impl Unpacker<'_, '_> {
-    /// The values of an array as numbers (integers up to 2⁵³ exactly, and nothing here counts further); at most `most` of them.
+    /// The values of an array as numbers (integers up to 2⁵³ exactly, and nothing here counts further); at most
+    /// `most` of them.
     fn numbers(&mut self, array: &Array, most: u64) -> Result<Vec<f64>> {
         let size = array.kind.size().ok_or_else(|| broken(format!("array '{}' does not hold numbers", array.name)))?;
         if let Place::Ascii(text) = array.place {
@@ -429,7 +433,8 @@ impl Unpacker<'_, '_> {
         Some(bytes)
     }
 
-    /// Number of blocks, their size, that of a last partial one, compressed sizes; then, a segment of its own, the blocks.
+    /// Number of blocks, their size, that of a last partial one, compressed sizes; then, a segment of its own, the
+    /// blocks.
     fn inflated(&self, source: &mut Source, most: usize) -> Option<Vec<u8>> {
         let word = self.file.header_bytes;
         let blocks = self.word(&source.peek(word)?.0)?;
@@ -530,6 +535,9 @@ impl CellData {
             Some(array) if curve.is_some() => Some(unpacker.numbers(array, unpacker.file.cells.saturating_mul(2))?),
             _ => None,
         };
+        if let Some(t) = t.iter().flatten().find(|t| !(0.0..=1.0).contains(*t)) {
+            return Err(broken(format!("array 't' holds {t}, which is no parameter of a curve (0 to 1)")));
+        }
         Ok(Self { region, boundary, curve, t })
     }
 
@@ -633,7 +641,8 @@ impl Builder {
         Ok(())
     }
 
-    /// A region for every number that is named or that a triangle has, ascending; names of regions come before those of boundaries.
+    /// A region for every number that is named or that a triangle has, ascending; names of regions come before those
+    /// of boundaries.
     fn regions(&mut self, types: &[i32], data: &CellData, groups: &Groups) -> BTreeMap<Option<i32>, RegionId> {
         let used = types.iter().enumerate().filter(|&(_, &kind)| kind == 5).map(|(cell, _)| at(&data.region, cell));
         let numbers: BTreeSet<Option<i32>> = used.chain(groups.names.keys().map(|&n| Some(n))).collect();
@@ -659,6 +668,9 @@ impl Builder {
             let radius = unpacker.numbers(radius, nodes)?;
             if corner.len() != radius.len() || why.len() != radius.len() {
                 return Err(broken("the ball arrays differ in length"));
+            }
+            if let Some(radius) = radius.iter().find(|r| !r.is_finite()) {
+                return Err(broken(format!("a ball has the radius {radius}")));
             }
             for ((&corner, &radius), &why) in corner.iter().zip(&radius).zip(&why) {
                 let corner = PointId(corner as u32);

@@ -78,11 +78,6 @@ impl Sizing {
             sources: self.sources.iter().map(source).collect(),
         }
     }
-
-    /// Whether anything is asked that limits cells from above.
-    pub fn limits_size(&self) -> bool {
-        self.max_area.is_some() || self.max_edge.is_some() || !self.sources.is_empty()
-    }
 }
 
 /// Sizes resolved against a domain: the limits at a place.
@@ -159,8 +154,13 @@ impl SizeField {
         self.steepest
     }
 
+    /// Whether the limit depends on the place.
+    pub fn limits_by_place(&self) -> bool {
+        !self.near.is_empty() || !self.graded.is_empty()
+    }
+
     /// Longest edge allowed at a place because of sources nearby; infinite where nothing is asked.
-    fn near_limit(&self, at: Point) -> f64 {
+    pub fn limit_at(&self, at: Point) -> f64 {
         let from_segments = self
             .near
             .iter()
@@ -179,12 +179,12 @@ impl SizeField {
 
     /// Longest edge allowed on a curve at a place.
     pub fn edge_on(&self, curve: CurveId, at: Point) -> f64 {
-        self.curve_edges[curve].min(self.near_limit(at))
+        self.curve_edges[curve].min(self.limit_at(at))
     }
 
     /// Longest edge allowed in a region at a place.
     pub fn edge_in(&self, region: RegionId, at: Point) -> f64 {
-        self.region_edges[region].min(self.near_limit(at))
+        self.region_edges[region].min(self.limit_at(at))
     }
 
     /// Largest area allowed in a region.

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""Reads a .vtu file as meshio and as VTK do, and prints counts and names: `check_vtu.py FILE...` (pip install meshio vtk).
+"""Reads .vtu files as meshio and as VTK do, and prints counts and names.
 
-Exits 1 where a file cannot be read, where the two disagree, or where a triangle has no named region or a line no named boundary.
+`check_vtu.py FILE...` (pip install meshio vtk). Exits 1 where a file cannot be read, where the two disagree, or where a
+triangle has no named region or a line no named boundary.
 """
 
 import sys

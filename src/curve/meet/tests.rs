@@ -117,6 +117,25 @@ fn crossings_agree_with_polylines() {
 }
 
 #[test]
+fn cubics_cross_where_another_library_finds_them() {
+    let cubic = |p: &[Point]| {
+        let [from, ctrl1, ctrl2, to] = [p[0], p[1], p[2], p[3]].map(|p| lyon_geom::point(p.x, p.y));
+        lyon_geom::CubicBezierSegment { from, ctrl1, ctrl2, to }
+    };
+    let mut next = numbers(29);
+    for _ in 0..300 {
+        let (p, q) = (points(&mut next, 4), points(&mut next, 4));
+        let theirs = cubic(&p).cubic_intersections_t(&cubic(&q));
+        let found = checked(&Curve::bezier(p).unwrap(), &Curve::bezier(q).unwrap(), 1e-12);
+        assert_eq!(found.points.len(), theirs.len());
+        // Theirs are not polished: dependent on the angle, good to about 1e-6.
+        for meeting in &found.points {
+            assert!(theirs.iter().any(|&(t, u)| (t - meeting.t).abs() + (u - meeting.u).abs() < 1e-4), "{meeting:?}");
+        }
+    }
+}
+
+#[test]
 fn meetings_are_the_same_at_every_scale_and_place() {
     let mut next = numbers(2);
     let base: Vec<(Curve, Curve)> =

@@ -183,7 +183,7 @@ impl Drawing {
         let rounding = (16.0 * f64::EPSILON * carried).min(1e-9 * diagonal).max(coordinates);
         let (weld, gap) = match options.tolerance {
             None => (1e-9 * diagonal, 1e-6 * diagonal),
-            Some(given) if !(given >= 0.0) => return refuse(format!("a tolerance of {given}")),
+            Some(given) if given.is_nan() || given < 0.0 => return refuse(format!("a tolerance of {given}")),
             Some(given) if given * factor >= diagonal / 4.0 => {
                 return refuse(format!("a tolerance of {given} for a drawing {} across", diagonal / factor));
             }

@@ -4,10 +4,10 @@ use super::evidence::{Evidence, is_kept};
 use super::tally::Tally;
 use super::{Check, Status};
 use crate::domain::Domain;
-use crate::geometry::{Point, Vec2};
+use crate::geometry::Point;
 use crate::ids::{Id, NameId, RegionId};
 use crate::mesh::quality;
-use crate::size::Source;
+use crate::size::{SizeField, Source};
 
 /// A length is measured from rounded coordinates: a few ε, and 1e-12 is thousands of them.
 const MEASURED: f64 = 1.0 + 1e-12;
@@ -48,14 +48,8 @@ struct Limits {
     region: Vec<(f64, f64)>,
     /// Longest edge by name.
     boundary: Vec<f64>,
-    near: Vec<Near>,
-}
-
-struct Near {
-    from: Point,
-    to: Point,
-    edge: f64,
-    grade: f64,
+    /// The sources by place; they come with a domain.
+    near: Option<SizeField>,
 }
 
 impl Limits {
@@ -66,7 +60,7 @@ impl Limits {
         let mut limits = Self {
             region: vec![(edge, area); ev.mesh.regions.len()],
             boundary: vec![f64::INFINITY; names.len()],
-            near: Vec::new(),
+            near: ev.domain.map(|domain| SizeField::new(sizing, domain)).filter(SizeField::limits_by_place),
         };
         for source in &sizing.sources {
             limits.add(ev, source);
@@ -91,7 +85,7 @@ impl Limits {
                     }
                 }
             }
-            &Source::Near { from, to, edge, grade } => self.near.push(Near { from, to, edge, grade }),
+            Source::Near { .. } => {}
         }
     }
 
@@ -108,7 +102,7 @@ impl Limits {
         let asked = |v: f64| v < f64::INFINITY;
         self.region.iter().any(|r| asked(r.0) || asked(r.1))
             || self.boundary.iter().any(|&b| asked(b))
-            || !self.near.is_empty()
+            || self.near.is_some()
     }
 
     /// The triangle's size over its tightest limit.
@@ -116,22 +110,9 @@ impl Limits {
         let [a, b, c] = corners;
         let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
         let (edge, area) = self.region[region.index()];
-        let near = self.near.iter().map(|n| n.limit_over(corners)).fold(edge, f64::min);
+        let centroid = a + ((b - a) + (c - a)) / 3.0;
+        let near = self.near.as_ref().map_or(edge, |field| field.limit_at(centroid).min(edge));
         (longest / near).max(quality::area(corners) / area)
-    }
-}
-
-impl Near {
-    /// The largest limit within a triangle: distance from a segment is convex, so it is met at a corner.
-    fn limit_over(&self, corners: [Point; 3]) -> f64 {
-        let farthest = corners.iter().map(|&p| self.distance(p)).fold(0.0, f64::max);
-        self.edge + self.grade * farthest
-    }
-
-    fn distance(&self, p: Point) -> f64 {
-        let along: Vec2 = self.to - self.from;
-        let t = ((p - self.from).dot(along) / along.hypot2()).clamp(0.0, 1.0);
-        p.distance(if t.is_nan() { self.from } else { self.from + along * t })
     }
 }
 

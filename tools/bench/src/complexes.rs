@@ -3,7 +3,7 @@
 use crate::run::{self, Run};
 use squinch::generate;
 use squinch::mesh::verify::{Status, guaranteed_angle};
-use squinch::plane::lopping::Options;
+use squinch::plane::lopping::{Options, arc_turning};
 use std::f64::consts::FRAC_PI_3;
 
 pub fn print(n: u64) {
@@ -12,7 +12,7 @@ pub fn print(n: u64) {
     for tau in [0.02, 0.1, 0.2, 0.5, FRAC_PI_3] {
         // A hair below the guarantee, which is strict.
         let kappa = guaranteed_angle(tau) * (1.0 - 1e-9);
-        for arcs in [None, Some(FRAC_PI_3)] {
+        for arcs in [None, Some(arc_turning(kappa, tau)), Some(FRAC_PI_3)] {
             row(n, tau, kappa, arcs);
         }
     }
@@ -44,7 +44,7 @@ fn row(n: u64, tau: f64, kappa: f64, corner_arcs: Option<f64>) {
             Err(e) => eprintln!("seed {seed}: {e}"),
         }
     }
-    let arcs = if corner_arcs.is_some() { "on" } else { "off" };
+    let arcs = corner_arcs.map_or("off".into(), |turning| format!("{turning:.3}"));
     println!(
         "| {tau:.4} | {:.3} | {arcs} | {n} | {kept} | {proven} | {reached} | {slowest:.2} | {most} |",
         kappa.to_degrees()

@@ -2,9 +2,8 @@
 
 use squinch::domain::{ArrangeOptions, Domain, Drawing};
 use squinch::import::{self, Format};
-use squinch::mesh::verify::{self, Promise, Status, Verdict};
+use squinch::mesh::verify::{self, Status, Verdict};
 use squinch::mesh::{Mesh, quality};
-use squinch::plane::Midpoint;
 use squinch::plane::lopping::{self, Options};
 use squinch::refine::{Counters, Stop};
 use squinch::size::Sizing;
@@ -47,23 +46,10 @@ pub fn run(drawing: &Drawing, tau_rad: f64, options: &Options) -> Result<Run, St
     seconds.refine = start.elapsed().as_secs_f64();
     let mesh = refined.mesh.ok_or_else(|| format!("no mesh: {:?}", refined.stop.reason))?;
     let start = Instant::now();
-    let verdict = verify::verify(Some(&domain), &mesh, &promise(options, tau_rad));
+    let verdict = verify::verify(Some(&domain), &mesh, &options.promise(tau_rad, false));
     seconds.verify = start.elapsed().as_secs_f64();
-    let quality = quality::Quality::of(&mesh, Some(&domain), &verdict);
+    let quality = quality::Quality::of(Some(&domain), &mesh, &verdict);
     Ok(Run { domain, mesh, stop: refined.stop, counters: refined.counters, verdict, quality, seconds })
-}
-
-fn promise(options: &Options, tau_rad: f64) -> Promise {
-    Promise {
-        angle_min_rad: Some(options.angle_min_rad),
-        tau_rad,
-        beta: options.beta,
-        corner_arcs: options.corner_arcs.is_some(),
-        arc_turning_rad: options.corner_arcs.unwrap_or(0.0),
-        midpoint_bisector: options.midpoint == Midpoint::Bisector,
-        sizing: options.sizing.clone(),
-        foreign: false,
-    }
 }
 
 impl Run {

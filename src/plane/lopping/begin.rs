@@ -1,0 +1,133 @@
+//! The beginning: P, the points where curves leave the balls of their ends (splitball(p, 1)), and D of both.
+
+use super::{Origin, RefineError};
+use crate::curve::End;
+use crate::domain::Domain;
+use crate::geometry::Point;
+use crate::ids::{CurveId, Id, IdVec, PieceId, VertexId};
+use crate::plane::balls::Balls;
+use crate::plane::insert::{Degenerate, Delaunay};
+use crate::plane::subcurves::{Carrier, Midpoint, Standing, Subcurves, split_parameter};
+
+/// What stands before there is a triangulation.
+pub(super) struct Beginning<'a> {
+    pub(super) domain: &'a Domain,
+    pub(super) balls: Balls,
+    points: Vec<Point>,
+    pub(super) origins: IdVec<VertexId, Origin>,
+    pub(super) subcurves: Subcurves,
+}
+
+impl<'a> Beginning<'a> {
+    pub(super) fn new(domain: &'a Domain, balls: Balls) -> Self {
+        Self {
+            domain,
+            balls,
+            points: domain.points().iter().copied().collect(),
+            origins: domain.points().ids().map(Origin::Input).collect(),
+            subcurves: Subcurves::default(),
+        }
+    }
+
+    fn add(&mut self, at: Point, origin: Origin) -> VertexId {
+        self.points.push(at);
+        self.origins.push(origin)
+    }
+
+    /// splitball(p, 1) at every ball: each curve is cut where it leaves the balls of its ends.
+    pub(super) fn cut_curves(&mut self) {
+        for (id, curve) in self.domain.curves().enumerate() {
+            let carrier = Carrier::Curve(id);
+            let [p, q] = curve.ends;
+            let (mut t, mut ends) = ([0.0, 1.0], [VertexId(p.0), VertexId(q.0)]);
+            for (i, end) in [End::Start, End::Finish].into_iter().enumerate() {
+                let Some(ball) = self.balls.of_point(curve.ends[i]) else { continue };
+                let radius = self.balls.get(ball).radius;
+                // d(p) < lfs₀(p)/2 and the far end is farther than lfs₀(p): every curve at p leaves the ball.
+                let Some(leave) = curve.curve.leaves_ball(end, radius, 0.0, 1.0) else { continue };
+                let x = self.add(curve.curve.point(leave), Origin::OnCurve(id));
+                let (spoke_t, spoke_ends) = match end {
+                    End::Start => ([0.0, leave], [ends[0], x]),
+                    End::Finish => ([leave, 1.0], [x, ends[1]]),
+                };
+                let spoke = self.subcurves.add(carrier, spoke_t, spoke_ends, Standing::Spoke(ball));
+                self.balls.get_mut(ball).spokes.push(spoke);
+                (t[i], ends[i]) = (leave, x);
+            }
+            self.subcurves.add(carrier, t, ends, Standing::Ordinary);
+        }
+        self.sort_spokes();
+    }
+
+    /// Spokes in the order of the star of their corner.
+    fn sort_spokes(&mut self) {
+        for id in self.balls.ids() {
+            let ball = self.balls.get(id);
+            let star = self.domain.star(ball.corner);
+            let spoke_of = |curve: CurveId| {
+                ball.spokes.iter().copied().find(|&s| self.subcurves.get(s).carrier == Carrier::Curve(curve))
+            };
+            let spokes = star.iter().filter_map(|at| spoke_of(at.curve)).collect();
+            self.balls.get_mut(id).spokes = spokes;
+        }
+    }
+
+    /// D of what there is. Where all of it lies on one line (a lens, a D), bent pieces are split first.
+    pub(super) fn triangulate(&mut self, midpoint: Midpoint) -> Result<Delaunay, RefineError> {
+        match Delaunay::new(self.points.clone()) {
+            Ok(delaunay) => return Ok(delaunay),
+            Err(Degenerate::Duplicate { first, second }) => return Err(self.coincident(first, second)),
+            Err(Degenerate::TooFew | Degenerate::Collinear) => self.split_bent(midpoint),
+            Err(Degenerate::OutOfRange { index }) => return Err(self.out_of_range(index)),
+        }
+        Delaunay::new(self.points.clone()).map_err(|e| match e {
+            Degenerate::Duplicate { first, second } => self.coincident(first, second),
+            Degenerate::OutOfRange { index } => self.out_of_range(index),
+            Degenerate::TooFew | Degenerate::Collinear => RefineError {
+                what: "nothing to mesh: everything lies on one line".to_owned(),
+                at: self.points.first().copied().unwrap_or_default(),
+                help: "draw at least one closed outline".to_owned(),
+            },
+        })
+    }
+
+    fn out_of_range(&self, index: usize) -> RefineError {
+        RefineError {
+            what: "a coordinate is so small beside the others that exact signs cannot hold it".to_owned(),
+            at: self.points[index],
+            help: "round it to 0".to_owned(),
+        }
+    }
+
+    fn split_bent(&mut self, midpoint: Midpoint) {
+        let pieces: Vec<PieceId> = self.subcurves.ids().collect();
+        for id in pieces {
+            let piece = *self.subcurves.get(id);
+            let Carrier::Curve(curve) = piece.carrier else { continue };
+            let shape = &self.domain.curves()[curve].curve;
+            if shape.is_straight() || piece.is_spoke() {
+                continue;
+            }
+            let m = split_parameter(shape, piece.t, None, midpoint);
+            let v = self.add(shape.point(m), Origin::OnCurve(curve));
+            self.subcurves.retire(id);
+            self.subcurves.add(piece.carrier, [piece.t[0], m], [piece.ends[0], v], Standing::Ordinary);
+            self.subcurves.add(piece.carrier, [m, piece.t[1]], [v, piece.ends[1]], Standing::Ordinary);
+        }
+    }
+
+    fn coincident(&self, first: usize, second: usize) -> RefineError {
+        let at = self.points[first];
+        let describe = |i: usize| match self.origins[VertexId::from_index(i)] {
+            Origin::Input(p) => format!("input point {}", p.0),
+            Origin::OnCurve(c) => format!("a point of curve {} on the border of its corner's ball", c.0),
+            Origin::OnArc(_) | Origin::Free => format!("vertex {i}"),
+        };
+        RefineError {
+            what: format!("{} and {} coincide", describe(first), describe(second)),
+            at,
+            help: "two curves leave a corner nearer to each other than the coordinates can tell apart: merge them, or move the drawing nearer to the origin"
+                .to_owned(),
+        }
+    }
+}

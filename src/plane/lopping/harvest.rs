@@ -1,0 +1,66 @@
+//! The kept triangles as plain data.
+
+use super::Lopping;
+use crate::ids::{CurveId, IdVec, PieceId, TriangleId, VertexId};
+use crate::mesh::{Ball, CurveEdge, CurveLink, Mesh};
+use crate::plane::subcurves::Carrier;
+
+impl Lopping {
+    /// The kept triangles as plain data.
+    pub(super) fn mesh(&self) -> Mesh {
+        let topology = self.delaunay.topology();
+        let kept: Vec<TriangleId> = topology.triangles().filter(|&t| topology.region(t).is_some()).collect();
+        let mut node_of: IdVec<VertexId, Option<VertexId>> = vec![None; self.origins.len()].into();
+        for v in kept.iter().flat_map(|&t| topology.corners(t)) {
+            node_of[v] = Some(v);
+        }
+        let mut mesh = Mesh { names: self.domain.names().clone(), ..Mesh::default() };
+        for v in self.origins.ids() {
+            if node_of[v].is_some() {
+                node_of[v] = Some(mesh.nodes.push(self.delaunay.point(v)));
+            }
+        }
+        for &t in &kept {
+            mesh.triangles.push(topology.corners(t).map(|v| node_of[v].expect("corners are nodes")));
+            mesh.triangle_regions.push(topology.region(t).expect("only kept triangles"));
+        }
+        mesh.regions = self.domain.regions().iter().map(|r| r.name).collect();
+        mesh.edges = self.curve_edges(&node_of);
+        mesh.points = self.domain.points().ids().filter_map(|p| Some((p, node_of[VertexId(p.0)]?))).collect();
+        mesh.balls = self
+            .balls
+            .ids()
+            .map(|id| self.balls.get(id))
+            .map(|b| Ball { corner: b.corner, radius: b.radius, why: b.why })
+            .collect();
+        mesh
+    }
+
+    /// Pieces of curves with a kept region on a side, by curve and along it.
+    fn curve_edges(&self, node_of: &IdVec<VertexId, Option<VertexId>>) -> Vec<CurveEdge> {
+        let mut pieces: Vec<(CurveId, f64, PieceId)> = self
+            .subcurves
+            .ids()
+            .filter_map(|id| match self.subcurves.get(id) {
+                piece if piece.is_gone() => None,
+                piece => match piece.carrier {
+                    Carrier::Curve(curve) => Some((curve, piece.t[0], id)),
+                    Carrier::Arc(..) => None,
+                },
+            })
+            .collect();
+        pieces.sort_unstable_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
+        pieces
+            .into_iter()
+            .filter(|&(curve, ..)| self.domain.curves()[curve].sides.iter().any(Option::is_some))
+            .map(|(curve, _, id)| {
+                let piece = self.subcurves.get(id);
+                CurveEdge {
+                    nodes: piece.ends.map(|v| node_of[v].expect("an edge of a kept triangle")),
+                    name: self.domain.curves()[curve].name,
+                    link: Some(CurveLink { curve, t: piece.t }),
+                }
+            })
+            .collect()
+    }
+}

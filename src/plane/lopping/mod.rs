@@ -1,0 +1,391 @@
+//! Corner lopping (Pav & Walkington 2005, *Delaunay Refinement by Corner Lopping*, Algorithm 1, with the corner arcs of section 6).
+//!
+//! The engine keeps P′ ⊇ P, the subcurves C′ and D(P′), the whole Delaunay triangulation, and applies the first rule that can be:
+//!
+//! 1. *splitball*: a vertex lies in the ball B(p) of an acute corner: d(p) shrinks by β, and each curve at p is cut where it leaves
+//!    the ball.
+//! 2. *splitcurve*: a vertex lies in the open diametral circle of a piece's chord, or the piece is larger than asked.
+//! 3. *corner arcs*: a ball whose arcs are due gets them, once they would neither crowd a vertex nor encroach a piece.
+//! 4. *splittri*: a triangle has an angle below κ, or is larger than asked: its circumcenter goes in, unless it encroaches a piece,
+//!    which is split instead.
+//!
+//! Where this differs from the printed algorithm, and why:
+//!
+//! - *Order.* Section 6 looks for room for the arcs whenever a ball is cut; here the cut is made first, rules 1 and 2 run until neither
+//!   applies, and only then are the arcs looked at. Every piece is an edge at that moment, so what an arc's vertex would encroach is read
+//!   off its cavity. The conditions are those of the corrected section 6: a pseudo midpoint with a vertex nearer than d/2, or that
+//!   encroaches a piece shorter than d, shrinks the ball; a longer piece is split.
+//! - *Neighbouring arcs.* A vertex on the arc of another ball does not crowd a pseudo midpoint, and an arc piece that it encroaches is
+//!   split, however short. Were they to shrink the ball, lfs(p) ≤ C₀·d(p) would fail: with |pq| = lfs₀(p) and both balls at birth, the
+//!   two arcs come within (√2−1)·d(p) < d(p)/2 of each other. Nothing is lost: d(p) + d(q) ≤ 2(√2−1)|pq| keeps them at least
+//!   (3−2√2)·|pq| apart at all times, and arc pieces shorter than twice that are not encroached.
+//! - *Batched shrinking.* d(p) ← β·d(p) is repeated until the ball is clear, and the curves are cut once. The literal rule cuts at every
+//!   step, which leaves a shell of vertices a step ([`Shrinking::Literal`]).
+//! - *Incident vertices.* Ball points are rounded. Lemma 3 says that only vertices of curves that do not end at p come into B(p); so only
+//!   those are looked for.
+//! - *Rounded circumcenters.* Each decision (ball, encroachment, cavity) is made on the rounded point. A circumcenter outside its own
+//!   cavity would not remove its triangle: it is not inserted, and the triangle is owed.
+//!
+//! Termination is Corollary 3's for κ below [`guaranteed_angle`]; beyond it the vertex budget ends what does not end by itself. The
+//! result says which it was. A piece that coordinates cannot split any more ends the run with its place.
+
+mod begin;
+mod corner_arcs;
+mod harvest;
+mod splitball;
+mod splitcurve;
+mod splittri;
+
+use super::balls::Balls;
+use super::insert::{Cavity, Delaunay};
+use super::subcurves::{Midpoint, Subcurves};
+use crate::domain::Domain;
+use crate::geometry::{self, Point};
+use crate::ids::{BallId, CurveId, IdVec, PieceId, PointId, TriangleId, VertexId};
+use crate::mesh::Mesh;
+use crate::mesh::verify::{Promise, guaranteed_angle};
+use crate::refine::{Counters, Progress, Stop, StopReason, WorstFirst};
+use crate::size::{SizeField, Sizing};
+use begin::Beginning;
+use std::collections::VecDeque;
+use std::f64::consts::FRAC_PI_3;
+
+/// What is asked of the engine.
+#[derive(Clone, Debug)]
+pub struct Options {
+    /// κ.
+    pub angle_min_rad: f64,
+    /// β, ½ ≤ β < 1.
+    pub beta: f64,
+    pub shrinking: Shrinking,
+    pub midpoint: Midpoint,
+    /// Largest turning of a corner arc; `None`: no corner arcs.
+    pub corner_arcs: Option<f64>,
+    pub sizing: Sizing,
+    /// Vertices after which no triangle is split any more.
+    pub max_vertices: usize,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            angle_min_rad: 20.7f64.to_radians(),
+            beta: 0.95,
+            shrinking: Shrinking::Batched,
+            midpoint: Midpoint::Bisector,
+            corner_arcs: Some(FRAC_PI_3),
+            sizing: Sizing::default(),
+            max_vertices: 5_000_000,
+        }
+    }
+}
+
+impl Options {
+    /// What the judge holds a mesh to that was made by these options; `foreign`: it comes from elsewhere, without links to curves.
+    pub fn promise(&self, tau_rad: f64, foreign: bool) -> Promise {
+        Promise {
+            angle_min_rad: (self.angle_min_rad > 0.0).then_some(self.angle_min_rad),
+            tau_rad,
+            beta: self.beta,
+            corner_arcs: self.corner_arcs.is_some(),
+            arc_turning_rad: self.corner_arcs.unwrap_or(0.0),
+            midpoint_bisector: self.midpoint == Midpoint::Bisector,
+            sizing: self.sizing.clone(),
+            foreign,
+        }
+    }
+}
+
+/// How a ball shrinks when a vertex comes in.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub enum Shrinking {
+    /// By β until it is clear; then the curves are cut.
+    #[default]
+    Batched,
+    /// By β, cutting the curves at every step, as printed.
+    Literal,
+}
+
+/// A refined mesh, and how it ended.
+#[derive(Clone, Debug)]
+pub struct Refined {
+    /// `None` where the budget ended before the mesh was valid.
+    pub mesh: Option<Mesh>,
+    pub stop: Stop,
+    pub counters: Counters,
+}
+
+/// Why a domain cannot be meshed.
+#[derive(Clone, PartialEq, Debug, thiserror::Error)]
+#[error("{what} at ({}, {})", at.x, at.y)]
+pub struct RefineError {
+    pub what: String,
+    pub at: Point,
+    pub help: String,
+}
+
+/// Meshes a domain whose curves turn at most π/3 each. `watch` is told of the progress every few thousand steps; `false` stops.
+pub fn refine(
+    domain: &Domain,
+    options: &Options,
+    watch: &mut dyn FnMut(&Progress) -> bool,
+) -> Result<Refined, RefineError> {
+    let mut lopping = Lopping::start(domain, options)?;
+    let mut steps = 0u64;
+    while lopping.step() {
+        steps += 1;
+        if steps.is_multiple_of(4096) && !watch(&lopping.progress()) {
+            lopping.cancel();
+        }
+    }
+    lopping.finish()
+}
+
+/// Where a vertex came from.
+#[derive(Clone, Copy, PartialEq, Debug)]
+enum Origin {
+    Input(PointId),
+    OnCurve(CurveId),
+    /// On a corner arc of a ball, now or once.
+    OnArc(BallId),
+    Free,
+}
+
+/// A triangle as it was when it was queued: a triangle's id may be another's by now.
+type Suspect = (TriangleId, [VertexId; 3]);
+
+/// The engine, held at a step.
+pub struct Lopping {
+    domain: Domain,
+    /// What the domain was multiplied by.
+    scale: f64,
+    options: Options,
+    field: SizeField,
+    delaunay: Delaunay,
+    origins: IdVec<VertexId, Origin>,
+    subcurves: Subcurves,
+    balls: Balls,
+    /// Balls that a vertex came into.
+    intruded: VecDeque<BallId>,
+    /// Pieces to be looked at.
+    suspects: VecDeque<PieceId>,
+    /// Balls whose arcs are due.
+    arcs_due: VecDeque<BallId>,
+    /// Triangles with an angle below κ, and triangles too large.
+    skinny: WorstFirst<Suspect>,
+    oversized: WorstFirst<Suspect>,
+    /// Triangles made since regions were last given.
+    fresh: Vec<TriangleId>,
+    carved: bool,
+    cavity: Cavity,
+    counters: Counters,
+    reason: StopReason,
+    /// Where something could not be done: below what the coordinates can tell apart.
+    too_near: Vec<Point>,
+    /// sin² κ.
+    sin2_min: f64,
+    /// No edge shorter than this is made on purpose: 64 units in the last place of the largest coordinate.
+    resolution: f64,
+}
+
+/// What a step works on; the first that applies.
+enum Rule {
+    ShrinkBall(BallId),
+    Look(PieceId),
+    Carve,
+    PlaceArcs(BallId),
+    Split(Suspect),
+    Rest,
+}
+
+impl Lopping {
+    /// P, its balls, and D of both.
+    pub fn start(domain: &Domain, options: &Options) -> Result<Self, RefineError> {
+        let magnitude = geometry::magnitude(domain.bounds());
+        let scale = geometry::unit_scale(magnitude);
+        let domain = domain.scaled(scale);
+        let field = SizeField::new(&options.sizing.scaled(scale), &domain);
+        let balls = Balls::at_birth(&domain, &field);
+        let mut beginning = Beginning::new(&domain, balls);
+        beginning.cut_curves();
+        let delaunay = beginning.triangulate(options.midpoint).map_err(|e| e.scaled(1.0 / scale))?;
+        let Beginning { origins, subcurves, balls, .. } = beginning;
+        let sin_min = libm::sin(options.angle_min_rad);
+        let mut lopping = Self {
+            suspects: subcurves.ids().collect(),
+            intruded: VecDeque::new(),
+            arcs_due: if options.corner_arcs.is_some() { balls.ids().collect() } else { VecDeque::new() },
+            skinny: WorstFirst::default(),
+            oversized: WorstFirst::default(),
+            fresh: Vec::new(),
+            carved: false,
+            cavity: Cavity::default(),
+            counters: Counters::default(),
+            reason: StopReason::Done,
+            too_near: Vec::new(),
+            sin2_min: sin_min * sin_min,
+            resolution: 64.0 * f64::EPSILON * magnitude * scale,
+            options: options.clone(),
+            domain,
+            scale,
+            field,
+            delaunay,
+            origins,
+            subcurves,
+            balls,
+        };
+        lopping.suspects.iter().for_each(|&p| lopping.subcurves.get_mut(p).queued = true);
+        lopping.counters.add("vertices_input", lopping.domain.points().len() as u64);
+        lopping.counters.add("vertices_ball", (lopping.origins.len() - lopping.domain.points().len()) as u64);
+        Ok(lopping)
+    }
+
+    /// Applies the first rule that can be. `false`: none can, or the run is over.
+    pub fn step(&mut self) -> bool {
+        match self.first_rule() {
+            Rule::ShrinkBall(ball) => self.shrink_ball(ball),
+            Rule::Look(piece) => self.look_at_piece(piece),
+            Rule::Carve => self.carve(),
+            Rule::PlaceArcs(ball) => self.place_arcs(ball),
+            Rule::Split(suspect) => self.split_triangle(suspect),
+            Rule::Rest => return false,
+        }
+        true
+    }
+
+    fn first_rule(&mut self) -> Rule {
+        if self.reason == StopReason::Arithmetic || self.origins.len() > self.most_vertices() {
+            return Rule::Rest;
+        }
+        if let Some(ball) = self.intruded.pop_front() {
+            return Rule::ShrinkBall(ball);
+        }
+        if let Some(piece) = self.suspects.pop_front() {
+            return Rule::Look(piece);
+        }
+        if !self.carved || !self.fresh.is_empty() {
+            return Rule::Carve;
+        }
+        if self.reason != StopReason::Done {
+            return Rule::Rest;
+        }
+        if let Some(ball) = self.arcs_due.pop_front() {
+            return Rule::PlaceArcs(ball);
+        }
+        match self.skinny.pop().or_else(|| self.oversized.pop()) {
+            Some(suspect) => Rule::Split(suspect),
+            None => Rule::Rest,
+        }
+    }
+
+    /// The budget; once there was a valid mesh, twice as much, so that what is begun can be made valid again.
+    fn most_vertices(&self) -> usize {
+        self.options.max_vertices.saturating_mul(if self.carved { 2 } else { 1 })
+    }
+
+    /// Whether every piece is an edge that nothing encroaches, and every triangle has its region.
+    fn is_conforming(&self) -> bool {
+        self.carved && self.intruded.is_empty() && self.suspects.is_empty() && self.fresh.is_empty()
+    }
+
+    /// Splits no more triangles; what is needed for a valid mesh is still done.
+    pub fn cancel(&mut self) {
+        if self.reason == StopReason::Done {
+            self.reason = StopReason::Cancelled;
+        }
+    }
+
+    pub fn progress(&self) -> Progress {
+        let phase = if self.carved { "refining" } else { "conforming" };
+        let queued = self.suspects.len() + self.skinny.len() + self.oversized.len();
+        Progress { phase, vertices: self.origins.len(), queued }
+    }
+
+    /// The mesh of the kept regions, in the domain's own scale.
+    pub fn finish(mut self) -> Result<Refined, RefineError> {
+        if self.reason == StopReason::Arithmetic && !self.is_conforming() {
+            return Err(self.too_near_error());
+        }
+        let (owed, mut places) = self.owed();
+        places.extend(self.too_near.iter().copied());
+        places.iter_mut().for_each(|p| *p = geometry::scaled(*p, 1.0 / self.scale));
+        let reason = match self.reason {
+            StopReason::Done if !self.is_conforming() => StopReason::VertexBudget,
+            reason => reason,
+        };
+        let mesh = self.is_conforming().then(|| self.mesh().scaled(1.0 / self.scale));
+        self.count_kernel();
+        Ok(Refined { mesh, stop: Stop { reason, owed, places }, counters: self.counters })
+    }
+
+    fn too_near_error(&self) -> RefineError {
+        let at = self.too_near.first().copied().unwrap_or_default();
+        RefineError {
+            what: "features lie nearer to each other than the coordinates can tell apart".to_owned(),
+            at: geometry::scaled(at, 1.0 / self.scale),
+            help: "move the drawing nearer to the origin, or weld the features with a larger --tolerance".to_owned(),
+        }
+    }
+
+    /// Pieces and triangles that still miss a bound, and some of their places, the most crowded pieces first.
+    fn owed(&mut self) -> (usize, Vec<Point>) {
+        const PLACES: usize = 16;
+        let mut pieces: Vec<(f64, Point)> = self.suspects.iter().map(|&id| self.length_and_place(id)).collect();
+        pieces.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+        let mut owed = self.too_near.len() + pieces.len();
+        let mut places: Vec<Point> = pieces.into_iter().map(|(_, at)| at).take(PLACES).collect();
+        while let Some(suspect) = self.skinny.pop().or_else(|| self.oversized.pop()) {
+            if self.is_stale(&suspect) {
+                continue;
+            }
+            owed += 1;
+            if places.len() < PLACES {
+                places.push(self.delaunay.point(suspect.1[0]));
+            }
+        }
+        (owed, places)
+    }
+
+    fn length_and_place(&self, id: PieceId) -> (f64, Point) {
+        let [x, y] = self.subcurves.get(id).ends.map(|v| self.delaunay.point(v));
+        (x.distance(y), x.midpoint(y))
+    }
+
+    fn count_kernel(&mut self) {
+        let kernel = self.delaunay.counters();
+        self.counters.add("predicates", kernel.orient + kernel.in_circle);
+        self.counters.add("exact_fallbacks", kernel.exact_fallbacks);
+        self.counters.add("walk_steps", kernel.walk_steps);
+        self.counters.add("cavity_triangles", kernel.cavity_triangles);
+    }
+}
+
+/// The largest turning of corner arcs for which κ is proven, where that is the domain's to prove: `lambda_rad` is the largest lens angle
+/// of its curves. Elsewhere π/3, the largest that keeps the angles at the rim of a ball at 60° and more (section 6).
+///
+/// Arcs are curves: of turning T they have λ = T/2, so arcs of π/3 prove κ only up to 8.594°. Finer ones than a tenth of a radian would
+/// crowd the ball with vertices for the sake of the proof; then the angle is reached, not proven.
+pub fn arc_turning(kappa_rad: f64, lambda_rad: f64) -> f64 {
+    const FINEST: f64 = 0.1;
+    if kappa_rad >= guaranteed_angle(lambda_rad) || kappa_rad < guaranteed_angle(FRAC_PI_3 / 2.0) {
+        return FRAC_PI_3;
+    }
+    // The guarantee falls as λ grows: 50 halvings reach the spacing of f64.
+    let (mut covered, mut missed) = (0.0, FRAC_PI_3 / 2.0);
+    for _ in 0..50 {
+        let middle = 0.5 * (covered + missed);
+        if kappa_rad < guaranteed_angle(middle) {
+            covered = middle;
+        } else {
+            missed = middle;
+        }
+    }
+    if 2.0 * covered >= FINEST { 2.0 * covered } else { FRAC_PI_3 }
+}
+
+impl RefineError {
+    fn scaled(mut self, factor: f64) -> Self {
+        self.at = geometry::scaled(self.at, factor);
+        self
+    }
+}

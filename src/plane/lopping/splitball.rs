@@ -1,0 +1,77 @@
+//! Rule 1, splitball: a ball shrinks, and its spokes are cut.
+
+use super::{Lopping, Shrinking};
+use crate::curve::End;
+use crate::ids::{BallId, PieceId, VertexId};
+use crate::mesh::BallReason;
+use crate::plane::subcurves::Standing;
+
+impl Lopping {
+    pub(super) fn shrink_ball(&mut self, id: BallId) {
+        let ball = self.balls.get(id);
+        if ball.intruder >= ball.radius {
+            return;
+        }
+        let radius = ball.shrunk(self.options.beta, self.options.shrinking == Shrinking::Batched);
+        self.cut_ball(id, radius);
+        if self.balls.get(id).intruder < radius {
+            self.intruded.push_back(id);
+        }
+    }
+
+    /// splitball: the radius becomes `radius`, and each spoke is cut there.
+    pub(super) fn cut_ball(&mut self, id: BallId, radius: f64) {
+        if radius < self.resolution {
+            let at = self.balls.get(id).center;
+            return self.stop_too_near(at);
+        }
+        self.withdraw_arcs(id);
+        let spokes = std::mem::take(&mut self.balls.get_mut(id).spokes);
+        let mut shorter = Vec::with_capacity(spokes.len());
+        for spoke in spokes {
+            match self.cut_spoke(id, spoke, radius) {
+                Some(piece) => shorter.push(piece),
+                None => return,
+            }
+        }
+        let ball = self.balls.get_mut(id);
+        ball.spokes = shorter;
+        ball.radius = radius;
+        ball.why = BallReason::Encroached;
+        let excused = std::mem::take(&mut ball.excused);
+        for suspect in excused {
+            self.skinny.push(suspect, 1.0);
+        }
+        if self.options.corner_arcs.is_some() {
+            self.arcs_due.push_back(id);
+        }
+    }
+
+    /// Cuts a spoke at a smaller radius; the shorter spoke.
+    fn cut_spoke(&mut self, ball: BallId, spoke: PieceId, radius: f64) -> Option<PieceId> {
+        let piece = *self.subcurves.get(spoke);
+        let corner = VertexId(self.balls.get(ball).corner.0);
+        let end = if piece.ends[0] == corner { End::Start } else { End::Finish };
+        let shape = self.shape(piece.carrier);
+        let x = shape.leaves_ball(end, radius, piece.t[0], piece.t[1]).unwrap_or(f64::NAN);
+        let [head, tail] = self.split_piece_at(spoke, x, "vertices_ball")?;
+        let inner = if end == End::Start { head } else { tail };
+        self.subcurves.get_mut(inner).standing = Standing::Spoke(ball);
+        Some(inner)
+    }
+
+    /// Arcs are taken out of C′; their vertices stay.
+    fn withdraw_arcs(&mut self, id: BallId) {
+        self.balls.get_mut(id).arcs.clear();
+        for piece in std::mem::take(&mut self.balls.get_mut(id).arc_pieces) {
+            let Some(side) = self.side_of(piece) else {
+                self.subcurves.retire(piece);
+                continue;
+            };
+            if self.delaunay.topology().piece(side) == Some(piece) {
+                self.delaunay.topology_mut().set_piece(side, None);
+            }
+            self.subcurves.retire(piece);
+        }
+    }
+}

@@ -1,0 +1,277 @@
+//! Rule 2, splitcurve: who encroaches a piece, and where it is split.
+
+use super::{Lopping, Origin};
+use crate::curve::Curve;
+use crate::geometry::Point;
+use crate::geometry::exact::{CircleSide, Orientation, in_circle, in_diametral, orient};
+use crate::ids::{PieceId, TriangleId, VertexId};
+use crate::plane::insert::Location;
+use crate::plane::subcurves::{Carrier, Standing, split_parameter};
+use crate::plane::triangulation::{GHOST, Side};
+use crate::refine::StopReason;
+
+impl Lopping {
+    pub(super) fn shape(&self, carrier: Carrier) -> &Curve {
+        match carrier {
+            Carrier::Curve(id) => &self.domain.curves()[id].curve,
+            Carrier::Arc(ball, i) => &self.balls.get(ball).arcs[i as usize],
+        }
+    }
+
+    pub(super) fn side_of(&self, piece: PieceId) -> Option<Side> {
+        let [x, y] = self.subcurves.get(piece).ends;
+        self.delaunay.topology().side_between(x, y)
+    }
+
+    pub(super) fn suspect(&mut self, piece: PieceId) {
+        let entry = self.subcurves.get_mut(piece);
+        if !entry.queued {
+            entry.queued = true;
+            self.suspects.push_back(piece);
+        }
+    }
+
+    /// Marks a piece as the edge that it is, or splits it where it is encroached or too large.
+    pub(super) fn look_at_piece(&mut self, id: PieceId) {
+        self.subcurves.get_mut(id).queued = false;
+        let piece = *self.subcurves.get(id);
+        if piece.is_gone() {
+            return;
+        }
+        match self.encroacher(id) {
+            Look::Free(side) => {
+                self.delaunay.topology_mut().set_piece(side, Some(id));
+                if self.is_too_large(id) {
+                    self.split_piece(id, None, "vertices_size");
+                }
+            }
+            Look::Encroached(_) if piece.is_spoke() => {
+                // The open ball holds no vertex but its corner: only rounding can hide the spoke.
+                let at = self.delaunay.point(piece.ends[0]);
+                self.stop_too_near(at);
+            }
+            Look::Encroached(z) => {
+                let z = self.delaunay.point(z);
+                self.split_piece(id, Some(z), "vertices_encroached");
+            }
+        }
+    }
+
+    fn is_too_large(&self, id: PieceId) -> bool {
+        let piece = self.subcurves.get(id);
+        let Carrier::Curve(curve) = piece.carrier else { return false };
+        let within_budget = self.origins.len() < self.options.max_vertices && self.reason == StopReason::Done;
+        let [t0, t1] = piece.t;
+        within_budget && !piece.is_spoke() && self.field.edge_too_large(curve, self.shape(piece.carrier), t0, t1)
+    }
+
+    /// Whether a vertex lies in the open diametral circle of a piece.
+    ///
+    /// If the piece is an edge of D, one of the two apexes does if any vertex does. If it is not, look at the quadrilateral of the piece
+    /// `x y` and the first edge `a b` that crosses it: y lies not inside the circle of `x a b`, so the angles at a and b sum up to at
+    /// least 180°, and the larger is at least 90°; both are 90° only if all four are cocircular: then the edge is flipped.
+    fn encroacher(&mut self, id: PieceId) -> Look {
+        let piece = *self.subcurves.get(id);
+        let [x, y] = piece.ends;
+        let (px, py) = (self.delaunay.point(x), self.delaunay.point(y));
+        // Each flip gives x one more neighbour on the same circle, so the degree bounds the flips; the rest is a guard.
+        for _ in 0..self.origins.len() {
+            let Some(side) = self.delaunay.topology().side_between(x, y) else {
+                match self.crossing_side(x, py) {
+                    Some(crossing) => {
+                        if let Some(z) = self.inside_diametral_of(px, py, crossing, piece.is_spoke()) {
+                            return Look::Encroached(z);
+                        }
+                        if !self.flip_to_reach(crossing) {
+                            return Look::Encroached(self.delaunay.topology().origin(crossing));
+                        }
+                        continue;
+                    }
+                    // A vertex lies on the chord itself.
+                    None => return Look::Encroached(self.vertex_on_chord(x, py)),
+                }
+            };
+            if piece.is_spoke() {
+                return Look::Free(side);
+            }
+            let topology = self.delaunay.topology();
+            let apexes = [topology.apex(side), topology.apex(topology.twin(side))];
+            let inside =
+                |&a: &VertexId| a != GHOST && in_diametral(px, py, self.delaunay.point(a)) == CircleSide::Inside;
+            return match apexes.into_iter().find(inside) {
+                Some(z) => Look::Encroached(z),
+                None => Look::Free(side),
+            };
+        }
+        Look::Encroached(y)
+    }
+
+    /// The side opposite to x, in the triangle that the segment from x to y enters; `None` where a vertex blocks the way.
+    fn crossing_side(&self, x: VertexId, y: Point) -> Option<Side> {
+        let topology = self.delaunay.topology();
+        let px = self.delaunay.point(x);
+        topology.sides_from(x).find_map(|s| {
+            let (a, b) = (topology.target(s), topology.apex(s));
+            if a == GHOST || b == GHOST {
+                return None;
+            }
+            let right = orient(px, self.delaunay.point(a), y);
+            let left = orient(px, self.delaunay.point(b), y);
+            (right == Orientation::CounterClockwise && left == Orientation::Clockwise).then(|| s.next())
+        })
+    }
+
+    /// The neighbour of x in the direction of y: the segment from x to y passes through it.
+    fn vertex_on_chord(&self, x: VertexId, y: Point) -> VertexId {
+        let topology = self.delaunay.topology();
+        let px = self.delaunay.point(x);
+        let along = |v: VertexId| {
+            let a = self.delaunay.point(v);
+            orient(px, a, y) == Orientation::Collinear && (a - px).dot(y - px) > 0.0
+        };
+        let blocking = topology.sides_from(x).map(|s| topology.target(s)).find(|&v| v != GHOST && along(v));
+        blocking.unwrap_or(x)
+    }
+
+    /// The end of a crossing side that lies inside the diametral circle of `x y`. Spokes are not encroached, only hidden by ties.
+    fn inside_diametral_of(&self, x: Point, y: Point, crossing: Side, spoke: bool) -> Option<VertexId> {
+        let topology = self.delaunay.topology();
+        let inside = |&v: &VertexId| in_diametral(x, y, self.delaunay.point(v)) == CircleSide::Inside;
+        [topology.origin(crossing), topology.target(crossing)].into_iter().filter(|_| !spoke).find(inside)
+    }
+
+    /// Flips a side between cocircular triangles (both triangulations are Delaunay); `false` where they are not, or a piece lies on it.
+    fn flip_to_reach(&mut self, side: Side) -> bool {
+        let topology = self.delaunay.topology();
+        let far = topology.apex(topology.twin(side));
+        if far == GHOST || topology.piece(side).is_some() {
+            return false;
+        }
+        let [a, b, c] = topology.corners(side.triangle()).map(|v| self.delaunay.point(v));
+        if in_circle(a, b, c, self.delaunay.point(far)) != CircleSide::On {
+            return false;
+        }
+        let touched = [side.triangle(), topology.twin(side).triangle()];
+        self.delaunay.topology_mut().flip(side);
+        self.fresh.extend(touched);
+        true
+    }
+
+    /// splitcurve at the point that the midpoint rule chooses.
+    pub(super) fn split_piece(&mut self, id: PieceId, z: Option<Point>, why: &'static str) {
+        let piece = *self.subcurves.get(id);
+        let t = split_parameter(self.shape(piece.carrier), piece.t, z, self.options.midpoint);
+        self.split_piece_at(id, t, why);
+    }
+
+    /// Splits a piece at a parameter: a vertex, two pieces. `None`, and the run is over, where coordinates cannot hold it.
+    pub(super) fn split_piece_at(&mut self, id: PieceId, t: f64, why: &'static str) -> Option<[PieceId; 2]> {
+        let piece = *self.subcurves.get(id);
+        let at = self.shape(piece.carrier).point(t);
+        let [x, y] = piece.ends.map(|v| self.delaunay.point(v));
+        let room = at.distance(x).min(at.distance(y));
+        if !(piece.t[0] < t && t < piece.t[1]) || room < self.resolution {
+            self.stop_too_near(x);
+            return None;
+        }
+        let origin = match piece.carrier {
+            Carrier::Curve(curve) => Origin::OnCurve(curve),
+            Carrier::Arc(ball, _) => Origin::OnArc(ball),
+        };
+        let near = self.side_of(id).map_or_else(|| self.triangle_at(piece.ends[0]), Side::triangle);
+        self.look_at_cavity(at, near, x)?;
+        self.subcurves.retire(id);
+        self.disturb(at, Some(id));
+        let v = self.act(at, origin, why);
+        let standing = Standing::Ordinary;
+        let head = self.subcurves.add(piece.carrier, [piece.t[0], t], [piece.ends[0], v], standing);
+        let tail = self.subcurves.add(piece.carrier, [t, piece.t[1]], [v, piece.ends[1]], standing);
+        self.suspect(head);
+        self.suspect(tail);
+        if let Carrier::Arc(ball, _) = piece.carrier {
+            self.balls.get_mut(ball).arc_pieces.extend([head, tail]);
+        }
+        self.watch_balls(at, origin);
+        Some([head, tail])
+    }
+
+    pub(super) fn triangle_at(&self, v: VertexId) -> TriangleId {
+        let topology = self.delaunay.topology();
+        topology.sides_from(v).next().expect("every vertex has a side").triangle()
+    }
+
+    /// Looks: fills `cavity` for a point; `None`, and the run is over, where the point is a vertex already.
+    pub(super) fn look_at_cavity(&mut self, at: Point, near: TriangleId, place: Point) -> Option<()> {
+        let location = self.delaunay.locate(at, near);
+        if matches!(location, Location::Vertex(_)) {
+            self.stop_too_near(place);
+            return None;
+        }
+        self.delaunay.cavity(at, location, &mut self.cavity);
+        Some(())
+    }
+
+    /// Requeues every piece that a point is about to hide or encroach; `split`: the piece that it splits.
+    pub(super) fn disturb(&mut self, at: Point, split: Option<PieceId>) {
+        for (side, piece) in self.cavity_pieces() {
+            let inner = !self.cavity.border.contains(&side);
+            if inner || Some(piece) == split {
+                self.delaunay.topology_mut().set_piece(side, None);
+            }
+            if Some(piece) != split && (inner || self.encroaches(at, piece)) {
+                self.suspect(piece);
+            }
+        }
+    }
+
+    /// Pieces on the sides of the cavity's triangles, each once, with a side.
+    pub(super) fn cavity_pieces(&self) -> Vec<(Side, PieceId)> {
+        let topology = self.delaunay.topology();
+        let mut found: Vec<(PieceId, Side)> = Vec::new();
+        for &t in &self.cavity.triangles {
+            found.extend((0..3).map(|i| t.side_of(i)).filter_map(|s| Some((topology.piece(s)?, s))));
+        }
+        found.sort_unstable();
+        found.dedup_by_key(|&mut (piece, _)| piece);
+        found.into_iter().map(|(piece, side)| (side, piece)).collect()
+    }
+
+    pub(super) fn encroaches(&self, at: Point, piece: PieceId) -> bool {
+        let [x, y] = self.subcurves.get(piece).ends.map(|v| self.delaunay.point(v));
+        in_diametral(x, y, at) == CircleSide::Inside
+    }
+
+    /// Acts: inserts a point whose cavity has been looked at, and notes the new triangles.
+    pub(super) fn act(&mut self, at: Point, origin: Origin, why: &'static str) -> VertexId {
+        let v = self.delaunay.fill(at, &self.cavity);
+        self.origins.push(origin);
+        self.counters.add(why, 1);
+        let topology = self.delaunay.topology();
+        self.fresh.extend(topology.sides_from(v).map(Side::triangle));
+        v
+    }
+
+    /// A new vertex on a curve may lie in the ball of a corner that the curve does not end at.
+    fn watch_balls(&mut self, at: Point, origin: Origin) {
+        let Origin::OnCurve(curve) = origin else { return };
+        let Some((id, away)) = self.balls.holding(at) else { return };
+        let ball = self.balls.get_mut(id);
+        if self.domain.curves()[curve].ends.contains(&ball.corner) {
+            return;
+        }
+        ball.intruder = ball.intruder.min(away);
+        self.intruded.push_back(id);
+    }
+
+    pub(super) fn stop_too_near(&mut self, at: Point) {
+        self.too_near.push(at);
+        self.reason = StopReason::Arithmetic;
+    }
+}
+
+/// What was seen at a piece.
+enum Look {
+    /// It is this side of D, and nothing encroaches it.
+    Free(Side),
+    Encroached(VertexId),
+}

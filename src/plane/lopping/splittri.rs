@@ -1,0 +1,144 @@
+//! Rule 4, splittri: which triangles miss a bound, and the circumcenters that mend them.
+
+use super::{Lopping, Origin, Suspect};
+use crate::geometry::{Point, Vec2};
+use crate::ids::{PieceId, TriangleId};
+use crate::plane::carve;
+use crate::plane::insert::Location;
+use crate::plane::triangulation::Side;
+use crate::refine::StopReason;
+
+impl Lopping {
+    /// Every piece is an edge: triangles made since the last time get their regions and are judged.
+    pub(super) fn carve(&mut self) {
+        if !self.carved {
+            self.fresh = carve::all_triangles(&self.delaunay);
+            self.carved = true;
+        }
+        carve::carve(&mut self.delaunay, &self.subcurves, self.domain.curves(), &mut self.fresh);
+        for t in std::mem::take(&mut self.fresh) {
+            self.judge(t);
+        }
+    }
+
+    fn corners(&self, t: TriangleId) -> [Point; 3] {
+        self.delaunay.topology().corners(t).map(|v| self.delaunay.point(v))
+    }
+
+    /// Queues a kept triangle that misses a bound.
+    fn judge(&mut self, t: TriangleId) {
+        let Some(region) = self.delaunay.topology().region(t) else { return };
+        let corners = self.corners(t);
+        let suspect = (t, self.delaunay.topology().corners(t));
+        let sin2 = sin2_smallest(corners);
+        if sin2 < self.sin2_min {
+            return self.skinny.push(suspect, 1.0 - sin2 / self.sin2_min);
+        }
+        let excess = self.field.excess(region, corners);
+        if excess > 1.0 {
+            // Badness by octaves of excess: 2^32 is as bad as it gets.
+            self.oversized.push(suspect, libm::log2(excess) / 32.0);
+        }
+    }
+
+    pub(super) fn is_stale(&self, &(t, corners): &Suspect) -> bool {
+        let topology = self.delaunay.topology();
+        !topology.is_alive(t) || topology.corners(t) != corners
+    }
+}
+
+/// sin² of the smallest angle of a triangle.
+fn sin2_smallest([a, b, c]: [Point; 3]) -> f64 {
+    let (ab, bc, ca) = (b - a, c - b, a - c);
+    let [shortest, l1, l2] = {
+        let mut l = [ab.hypot2(), bc.hypot2(), ca.hypot2()];
+        l.sort_unstable_by(f64::total_cmp);
+        l
+    };
+    let cross = ab.cross(ca);
+    if shortest == 0.0 { 0.0 } else { cross * cross / (l1 * l2) }
+}
+
+impl Lopping {
+    pub(super) fn split_triangle(&mut self, suspect: Suspect) {
+        if self.is_stale(&suspect) {
+            return;
+        }
+        let (t, _) = suspect;
+        let Some(region) = self.delaunay.topology().region(t) else { return };
+        let corners = self.corners(t);
+        if self.origins.len() >= self.options.max_vertices {
+            self.reason = StopReason::VertexBudget;
+            return self.skinny.push(suspect, 1.0);
+        }
+        if self.options.corner_arcs.is_some() && self.balls.holding_all(corners, self.resolution).is_some() {
+            return;
+        }
+        let (center, radius) = circumcircle(corners);
+        let too_small = self.field.sizing().min_edge.is_some_and(|h| radius < h);
+        if too_small && self.field.excess(region, corners) <= 1.0 {
+            return;
+        }
+        match self.balls.holding(center) {
+            Some((ball, _)) if self.options.corner_arcs.is_none() => {
+                self.balls.get_mut(ball).excused.push(suspect);
+            }
+            _ => self.kill(suspect, center),
+        }
+    }
+
+    /// Inserts a circumcenter, or splits a piece that it encroaches.
+    fn kill(&mut self, suspect: Suspect, center: Point) {
+        let (t, corners) = suspect;
+        let place = self.delaunay.point(corners[0]);
+        let location = self.delaunay.locate(center, t);
+        let vertex = matches!(location, Location::Vertex(_));
+        if !vertex {
+            self.delaunay.cavity(center, location, &mut self.cavity);
+        }
+        if vertex || !self.cavity.triangles.contains(&t) {
+            // Rounding took the circumcenter out of the triangle's own circle.
+            return self.too_near.push(place);
+        }
+        let pieces = self.cavity_pieces();
+        if let Some(piece) = self.longest_encroached(center, &pieces) {
+            self.counters.add("rejected_circumcenters", 1);
+            self.split_piece(piece, None, "vertices_rejected_circumcenter");
+            if !self.is_stale(&suspect) {
+                self.skinny.push(suspect, 0.0);
+            }
+            return;
+        }
+        // What is hidden now and was not encroached is a spoke, by rounding; so is a center in a ball whose arcs it does not encroach.
+        let hides_spoke = pieces.iter().any(|(side, _)| !self.cavity.border.contains(side));
+        if hides_spoke || self.balls.holding(center).is_some() {
+            return self.too_near.push(place);
+        }
+        let v = self.delaunay.fill(center, &self.cavity);
+        self.origins.push(Origin::Free);
+        self.counters.add("vertices_circumcenter", 1);
+        let star: Vec<TriangleId> = self.delaunay.topology().sides_from(v).map(Side::triangle).collect();
+        for t in star {
+            self.judge(t);
+        }
+    }
+
+    /// The longest piece, spokes apart, that a point encroaches.
+    fn longest_encroached(&self, at: Point, pieces: &[(Side, PieceId)]) -> Option<PieceId> {
+        let length = |piece: PieceId| self.length_and_place(piece).0;
+        pieces
+            .iter()
+            .map(|&(_, piece)| piece)
+            .filter(|&piece| !self.subcurves.get(piece).is_spoke() && self.encroaches(at, piece))
+            .max_by(|&a, &b| length(a).total_cmp(&length(b)).then(b.cmp(&a)))
+    }
+}
+
+/// Circumcenter and circumradius.
+fn circumcircle([a, b, c]: [Point; 3]) -> (Point, f64) {
+    let (ab, ac) = (b - a, c - a);
+    let (bb, cc) = (ab.hypot2(), ac.hypot2());
+    let double = 2.0 * ab.cross(ac);
+    let offset = Vec2::new(ac.y * bb - ab.y * cc, ab.x * cc - ac.x * bb) / double;
+    (a + offset, offset.hypot())
+}

@@ -1,0 +1,270 @@
+//! The corner-lopping engine, held to its promises by the judge.
+
+use squinch::curve::Curve;
+use squinch::domain::{ArrangeOptions, Domain, Drawing, FillRule};
+use squinch::generate::curved_complex;
+use squinch::geometry::Point;
+use squinch::ids::PointId;
+use squinch::mesh::verify::{Status, Verdict, guaranteed_angle, verify};
+use squinch::mesh::{BallReason, Mesh, quality};
+use squinch::plane::Midpoint;
+use squinch::plane::lopping::{self, Options, Refined, Shrinking, arc_turning};
+use squinch::refine::{Progress, StopReason};
+use squinch::size::Sizing;
+use std::f64::consts::FRAC_PI_3;
+
+fn domain_of(drawing: &Drawing, tau_rad: f64) -> Domain {
+    drawing.arrange(&ArrangeOptions::default()).expect("a sound drawing").split_to_turning(tau_rad)
+}
+
+/// A drawing of lines and bulged lines (x0, y0, x1, y1, bulge), every bounded face a region.
+fn drawing_of(curves: &[(f64, f64, f64, f64, f64)]) -> Drawing {
+    let mut drawing = Drawing { fill: FillRule::Regions, ..Drawing::default() };
+    for (i, &(x0, y0, x1, y1, bulge)) in curves.iter().enumerate() {
+        let curve = Curve::bulge(Point::new(x0, y0), Point::new(x1, y1), bulge).expect("a sound curve");
+        drawing.add(curve, "edge", format!("curve {i}"));
+    }
+    drawing
+}
+
+fn boxed(half: f64) -> Vec<(f64, f64, f64, f64, f64)> {
+    let h = half;
+    vec![(-h, -h, h, -h, 0.0), (h, -h, h, h, 0.0), (h, h, -h, h, 0.0), (-h, h, -h, -h, 0.0)]
+}
+
+/// Two unit segments at an angle in a box.
+fn wedge(angle_deg: f64) -> Drawing {
+    let (s, c) = angle_deg.to_radians().sin_cos();
+    let mut curves = boxed(2.0);
+    curves.extend([(0.0, 0.0, 1.0, 0.0, 0.0), (0.0, 0.0, c, s, 0.0)]);
+    drawing_of(&curves)
+}
+
+fn refine(domain: &Domain, options: &Options) -> Refined {
+    lopping::refine(domain, options, &mut |_| true).expect("a domain that coordinates can hold")
+}
+
+/// Refines and judges; the verdict must be kept.
+fn kept(drawing: &Drawing, tau_rad: f64, options: &Options) -> (Mesh, Verdict) {
+    let domain = domain_of(drawing, tau_rad);
+    let refined = refine(&domain, options);
+    assert_eq!(refined.stop.reason, StopReason::Done);
+    let mesh = refined.mesh.expect("a run that is done has a mesh");
+    let verdict = verify(Some(&domain), &mesh, &options.promise(tau_rad, false));
+    let broken: Vec<_> = verdict.checks.iter().filter(|c| c.status == Status::Broken).collect();
+    assert!(broken.is_empty(), "{broken:#?}");
+    (mesh, verdict)
+}
+
+fn status(verdict: &Verdict, name: &str) -> Status {
+    verdict.checks.iter().find(|c| c.name == name).expect("a check of this name").status
+}
+
+fn largest_angle_deg(mesh: &Mesh) -> f64 {
+    let angles = mesh.triangles.ids().map(|t| quality::angle_range(mesh.corners(t)).1);
+    angles.fold(0.0, f64::max).to_degrees()
+}
+
+#[test]
+fn random_complexes_keep_the_angle_that_is_proven() {
+    for tau in [0.1, 0.5, FRAC_PI_3] {
+        let kappa = guaranteed_angle(tau) * (1.0 - 1e-9);
+        for arcs in [None, Some(arc_turning(kappa, tau))] {
+            let options = Options { angle_min_rad: kappa, corner_arcs: arcs, ..Options::default() };
+            for seed in 0..12 {
+                let (_, verdict) = kept(&curved_complex(seed), tau, &options);
+                assert_eq!(status(&verdict, "min_angle"), Status::Proven, "seed {seed}, τ {tau}, arcs {arcs:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn random_complexes_reach_thirty_degrees() {
+    for angle_deg in [20.7f64, 25.0, 30.0] {
+        for arcs in [None, Some(FRAC_PI_3)] {
+            let options = Options { angle_min_rad: angle_deg.to_radians(), corner_arcs: arcs, ..Options::default() };
+            for seed in 100..112 {
+                let (_, verdict) = kept(&curved_complex(seed), 0.5, &options);
+                assert_eq!(status(&verdict, "min_angle"), Status::Reached, "seed {seed}");
+            }
+        }
+    }
+}
+
+#[test]
+fn every_midpoint_rule_beta_and_shrinking_keeps_the_promise() {
+    for midpoint in [Midpoint::Bisector, Midpoint::Angle] {
+        for shrinking in [Shrinking::Batched, Shrinking::Literal] {
+            for beta in [0.5, 0.8, 0.95] {
+                for corner_arcs in [None, Some(FRAC_PI_3)] {
+                    let options = Options { midpoint, shrinking, beta, corner_arcs, ..Options::default() };
+                    for seed in 200..204 {
+                        kept(&curved_complex(seed), 0.5, &options);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// A corner with a line close by, so that its ball has to shrink.
+fn crowded_corner() -> Drawing {
+    let mut curves = boxed(2.0);
+    curves.extend([(0.0, 0.0, 1.0, 0.0, 0.0), (0.0, 0.0, 1.0, 0.3, 0.0), (-0.2, -0.9, -0.2, 0.9, 0.0)]);
+    drawing_of(&curves)
+}
+
+#[test]
+fn literal_shrinking_leaves_a_shell_a_step_and_batched_one() {
+    let with = |shrinking| Options { shrinking, corner_arcs: None, ..Options::default() };
+    let (literal, _) = kept(&crowded_corner(), 0.5, &with(Shrinking::Literal));
+    let (batched, _) = kept(&crowded_corner(), 0.5, &with(Shrinking::Batched));
+    assert!(batched.balls.iter().any(|b| b.why == BallReason::Encroached), "{:?}", batched.balls);
+    assert!(literal.nodes.len() > batched.nodes.len(), "{} and {}", literal.nodes.len(), batched.nodes.len());
+}
+
+#[test]
+fn a_zero_angle_costs_vertices_but_ends() {
+    // Two circles of radius 1 and ½ that touch from inside: two curves at (1, 0) with one tangent.
+    let mut drawing = Drawing { fill: FillRule::Regions, ..Drawing::default() };
+    let touch = Point::new(1.0, 0.0);
+    for (x, r) in [(0.0, 1.0), (0.5, 0.5)] {
+        let circle = Curve::circle(Point::new(x, 0.0), r).expect("a circle").with_ends(touch, touch);
+        drawing.add(circle, "circle", "circle");
+    }
+    for corner_arcs in [None, Some(FRAC_PI_3)] {
+        let (mesh, verdict) = kept(&drawing, 0.5, &Options { corner_arcs, ..Options::default() });
+        assert!((50..400).contains(&mesh.nodes.len()), "{} nodes", mesh.nodes.len());
+        assert!(!verdict.excused.is_empty());
+    }
+}
+
+#[test]
+fn corner_arcs_keep_large_angles_away() {
+    let options = |corner_arcs| Options { corner_arcs, ..Options::default() };
+    let (without, _) = kept(&wedge(0.1), 0.5, &options(None));
+    let (with, verdict) = kept(&wedge(0.1), 0.5, &options(Some(FRAC_PI_3)));
+    assert_eq!(status(&verdict, "max_angle"), Status::Reached);
+    assert!(largest_angle_deg(&without) > 170.0 && largest_angle_deg(&with) <= 180.0 - 2.0 * 20.7);
+}
+
+#[test]
+fn two_points_are_enough_of_a_beginning() {
+    // A lens, a D and a disk: all points of P on one line.
+    let lens = drawing_of(&[(0.0, 0.0, 1.0, 0.0, 0.1), (1.0, 0.0, 0.0, 0.0, 0.1)]);
+    let half_disk = drawing_of(&[(0.0, 0.0, 1.0, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0, 1.0)]);
+    let disk = drawing_of(&[(0.0, 0.0, 1.0, 0.0, 1.0), (1.0, 0.0, 0.0, 0.0, 1.0)]);
+    for drawing in [lens, half_disk, disk] {
+        kept(&drawing, FRAC_PI_3, &Options { angle_min_rad: 0.03, ..Options::default() });
+        kept(&drawing, FRAC_PI_3, &Options::default());
+    }
+}
+
+#[test]
+fn powers_of_two_change_nothing_but_the_scale() {
+    for seed in 0..6 {
+        let domain = domain_of(&curved_complex(seed), 0.5);
+        let mesh = refine(&domain, &Options::default()).mesh.expect("a mesh");
+        for factor in [2f64.powi(40), 2f64.powi(-40), 2f64.powi(300)] {
+            let scaled = refine(&domain.scaled(factor), &Options::default()).mesh.expect("a mesh");
+            assert!(scaled == mesh.clone().scaled(factor), "seed {seed}, factor {factor}");
+        }
+    }
+}
+
+#[test]
+fn a_turned_and_mirrored_drawing_keeps_its_promise() {
+    let drawing = curved_complex(5);
+    for map in [kurbo::Affine::rotate(0.7), kurbo::Affine::FLIP_Y, kurbo::Affine::translate((1e6, -1e6))] {
+        let mut image = drawing.clone();
+        for drawn in &mut image.curves {
+            drawn.curve = drawn.curve.transformed(map);
+        }
+        image.points.iter_mut().for_each(|p| p.at = map * p.at);
+        kept(&image, 0.5, &Options::default());
+    }
+}
+
+#[test]
+fn sizes_are_obeyed_and_cap_the_balls() {
+    let sizings = [
+        Sizing { max_edge: Some(0.05), ..Sizing::default() },
+        Sizing { max_area: Some(0.002), ..Sizing::default() },
+        Sizing { edge_turning_rad: Some(0.05), ..Sizing::default() },
+        Sizing { chord_error: Some(1e-4), ..Sizing::default() },
+    ];
+    let mut curves = boxed(2.0);
+    curves.extend([(0.0, 0.0, 1.0, 0.0, 0.3), (0.0, 0.0, 1.0, 0.5, 0.3)]);
+    for sizing in sizings {
+        let options = Options { sizing: sizing.clone(), ..Options::default() };
+        let (mesh, _) = kept(&drawing_of(&curves), 0.5, &options);
+        assert!(mesh.balls.iter().any(|b| b.why == BallReason::Size), "{sizing:?}: {:?}", mesh.balls);
+    }
+}
+
+#[test]
+fn a_budget_ends_with_a_valid_mesh_and_says_what_is_owed() {
+    let options = Options {
+        sizing: Sizing { max_area: Some(1e-5), ..Sizing::default() },
+        max_vertices: 500,
+        ..Options::default()
+    };
+    let domain = domain_of(&wedge(10.0), 0.5);
+    let refined = refine(&domain, &options);
+    assert_eq!(refined.stop.reason, StopReason::VertexBudget);
+    assert!(refined.stop.owed > 0 && !refined.stop.places.is_empty());
+    let verdict = verify(Some(&domain), &refined.mesh.expect("it was valid before"), &options.promise(0.5, false));
+    let broken: Vec<_> = verdict.checks.iter().filter(|c| c.status == Status::Broken).map(|c| c.name).collect();
+    assert!(broken.iter().all(|name| ["size", "min_angle", "max_angle"].contains(name)), "{broken:?}");
+}
+
+#[test]
+fn a_budget_too_small_for_the_curves_has_places_but_no_mesh() {
+    let options = Options { max_vertices: 40, ..Options::default() };
+    let mut curves = boxed(2.0);
+    curves.extend([(-1.0, 0.0, 1.0, 0.0, 0.0), (-0.9, 1e-3, 0.9, 1e-3, 0.0)]);
+    let refined = refine(&domain_of(&drawing_of(&curves), 0.5), &options);
+    assert_eq!(refined.stop.reason, StopReason::VertexBudget);
+    assert!(refined.mesh.is_none() && refined.stop.owed > 0 && !refined.stop.places.is_empty());
+}
+
+#[test]
+fn a_watcher_can_stop_the_run() {
+    let options = Options { sizing: Sizing { max_area: Some(1e-5), ..Sizing::default() }, ..Options::default() };
+    let mut told = 0;
+    let mut watch = |progress: &Progress| {
+        told += 1;
+        progress.phase == "conforming"
+    };
+    let refined = lopping::refine(&domain_of(&wedge(10.0), 0.5), &options, &mut watch).expect("no arithmetic limit");
+    assert_eq!(refined.stop.reason, StopReason::Cancelled);
+    assert!(told == 1 && refined.mesh.is_some() && refined.stop.owed > 0);
+}
+
+#[test]
+fn features_nearer_than_the_arithmetic_are_an_error_with_a_place() {
+    // Nanometres apart, kilometres away: 1e-9 at 1e6 is less than a hundred units in the last place.
+    let far = 1e6;
+    let mut drawing = drawing_of(&[]);
+    let corner = [(0.0, 0.0), (1.0, 0.0), (1.0, 1e-9), (0.0, 1e-9)].map(|(x, y)| Point::new(far + x, far + y));
+    for i in 0..4 {
+        let side = Curve::line(corner[i], corner[(i + 1) % 4]).expect("a line");
+        drawing.add(side, "edge", format!("side {i}"));
+    }
+    let exact = ArrangeOptions { tolerance: Some(0.0), ..ArrangeOptions::default() };
+    let domain = match drawing.arrange(&exact) {
+        Ok(domain) => domain.split_to_turning(0.5),
+        Err(error) => return assert!(!error.help.is_empty() && (error.at.x - far).abs() < 2.0, "{error:?}"),
+    };
+    let ended = lopping::refine(&domain, &Options::default(), &mut |_| true);
+    let error = ended.expect_err("such a strip needs 1e9 triangles of less than the resolution");
+    assert!(!error.help.is_empty() && (error.at.x - far).abs() < 2.0, "{error:?}");
+}
+
+#[test]
+fn balls_answer_to_acute_corners_only() {
+    let mesh = kept(&wedge(45.0), 0.5, &Options::default()).0;
+    let corners: Vec<PointId> = mesh.balls.iter().map(|b| b.corner).collect();
+    assert_eq!(corners.len(), 1, "{corners:?}");
+}
