@@ -571,6 +571,68 @@ fn regions_of_a_mixture_are_what_a_grid_of_points_counts() {
     assert!(domain.curves().ids().all(|c| c < CurveId(1000)));
 }
 
+/// A heap of curves of every kind, on top of each other; on a grid, so that ends and tangents coincide, where asked.
+fn heap(seed: u64, grid: bool) -> Vec<Curve> {
+    let mut number = numbers(seed * 7919 + 13);
+    let mut up_to = move |size: f64| {
+        let x = number() * size;
+        if grid { (x * 8.0).round() / 8.0 } else { x }
+    };
+    let mut curves = Vec::new();
+    for k in 0..6 + seed % 14 {
+        let mut places = |n: usize| -> Vec<Point> { (0..n).map(|_| p(up_to(2.0), up_to(2.0))).collect() };
+        let at = places(1)[0];
+        let curve = match (k + seed) % 7 {
+            0 => Curve::line(at, places(1)[0]),
+            1 => Curve::circle(at, 0.125 + up_to(0.8)),
+            2 => Curve::arc(at, 0.125 + up_to(0.8), up_to(6.0), 0.3 + up_to(5.0)),
+            3 => {
+                let (u, v) = (Vec2::new(0.2 + up_to(0.5), up_to(0.3)), Vec2::new(-up_to(0.1), 0.1 + up_to(0.5)));
+                Curve::ellipse(at, u, v, 0.0, TAU)
+            }
+            4 => Curve::bezier(places(4)),
+            5 => Curve::natural_spline(&places(7)),
+            _ => Curve::periodic_spline(&places(5)),
+        };
+        let Ok(curve) = curve else { continue };
+        if k % 5 == 4 {
+            curves.push(curve.part(0.2, 0.7));
+        }
+        curves.push(curve);
+    }
+    curves
+}
+
+#[test]
+fn heaps_of_curves_of_every_kind_have_no_flaw() {
+    for seed in 0..16 {
+        let domain = regions(&drawing(heap(seed, seed % 2 == 0)));
+        assert_eq!(domain.split_to_turning(0.5).flaws(), [""; 0], "seed {seed}");
+    }
+}
+
+#[test]
+fn heaps_far_from_the_origin_turned_or_drawn_nearly_twice_have_no_flaw() {
+    for seed in 0..8 {
+        let far = kurbo::Affine::translate((1e7, 3e7)) * kurbo::Affine::rotate(0.3);
+        regions(&drawing(heap(seed, seed % 2 == 0).iter().map(|c| c.transformed(far))));
+        // A copy of every curve a tolerance away.
+        let beside = kurbo::Affine::translate((2e-9, 1e-9));
+        regions(&drawing(heap(seed, false).iter().take(5).flat_map(|c| [c.clone(), c.transformed(beside)])));
+    }
+}
+
+#[test]
+fn a_coarse_tolerance_keeps_every_promise() {
+    for seed in 0..12 {
+        for tolerance in [0.0, 1e-3, 0.02] {
+            let options = ArrangeOptions { tolerance: Some(tolerance), fill: Some(FillRule::Regions), keep_all: false };
+            let domain = drawing(heap(seed, seed % 3 == 0)).arrange(&options).unwrap();
+            assert_eq!(domain.flaws(), [""; 0], "seed {seed}, tolerance {tolerance}");
+        }
+    }
+}
+
 // ---- files ----
 
 /// Points, segments and holes of a `.poly` file, as plainly as a test needs.

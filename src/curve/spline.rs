@@ -157,8 +157,11 @@ impl Spline {
         let mut spans = Vec::new();
         let pieces: Vec<_> = self.spans_in(t0, t1).collect();
         // A cut meant for a joint may miss it by rounding. The sliver that it leaves has no direction of its own: its neighbour takes
-        // its place. Searches for cuts end within some tens of units in the last place.
-        let is_sliver = |&(_, from, to): &(usize, f64, f64)| to - from <= 64.0 * f64::EPSILON;
+        // its place. Searches for cuts end within some tens of units in the last place of a parameter or of the coordinates.
+        let is_sliver = |&(i, from, to): &(usize, f64, f64)| {
+            let reach = self.spans[i].points.iter().map(|p| p.x.abs().max(p.y.abs())).fold(0.0, f64::max);
+            to - from <= 64.0 * f64::EPSILON || net_of(&self.spans[i], from, to) <= 32.0 * f64::EPSILON * reach
+        };
         let first = usize::from(pieces.len() > 1 && is_sliver(&pieces[0]));
         let last = pieces.len() - 1;
         let last = if last > first && is_sliver(&pieces[last]) { last - 1 } else { last };
@@ -181,6 +184,12 @@ impl Spline {
     pub(super) fn mapped(&self, map: impl Fn(Point) -> Point) -> Self {
         Spline { knots: self.knots.clone(), spans: self.spans.iter().map(|s| s.mapped(&map)).collect() }
     }
+}
+
+/// The length of the control polygon of a part of a span: it is no shorter than the part.
+fn net_of(span: &Bezier, from: f64, to: f64) -> f64 {
+    let part = span.part(from, to, [span.point(from), span.point(to)]);
+    part.points.windows(2).map(|w| w[0].distance(w[1])).sum()
 }
 
 /// Ascending numbers mapped to 0..1, strictly ascending whatever the rounding.

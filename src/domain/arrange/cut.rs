@@ -1,7 +1,7 @@
 //! The network: drawn curves cut into pieces at their breaks and self-meetings, and the places where pieces meet.
 
 use super::{ArrangeError, Drawing, Repair, RepairKind, Tolerances};
-use crate::curve::{BreakKind, Curve, MeetingKind, meetings, self_meetings};
+use crate::curve::{BreakKind, Curve, Meetings, meetings, self_meetings};
 use crate::geometry::boxes::BoxHierarchy;
 use crate::geometry::exact::{Orientation, orient};
 use crate::geometry::{Point, Rect};
@@ -235,6 +235,7 @@ impl Network<'_> {
     /// Every place where fresh pieces and nodes meet others.
     pub fn meet(&mut self) -> Result<Found, ArrangeError> {
         let mut found = Found::default();
+        let known = self.nodes.len();
         let grown = self.pieces.iter().map(|p| p.bounds.inflate(self.tolerances.weld, self.tolerances.weld));
         let boxes = BoxHierarchy::new(grown);
         self.nodes_on_pieces(&boxes, &mut found);
@@ -251,7 +252,8 @@ impl Network<'_> {
                 _ => self.meet_curves(a, b, &mut found)?,
             }
         }
-        self.nodes.iter_mut().for_each(|n| n.fresh = false);
+        // New nodes are looked at in the next round, when pieces end at them.
+        self.nodes.iter_mut().take(known).for_each(|n| n.fresh = false);
         self.pieces.iter_mut().for_each(|p| p.fresh = false);
         Ok(found)
     }
@@ -299,8 +301,57 @@ impl Network<'_> {
     }
 
     fn meet_curves(&mut self, a: CurveId, b: CurveId, found: &mut Found) -> Result<(), ArrangeError> {
+        let weld = self.tolerances.weld;
+        let near = self.meetings_of(a, b, weld)?;
         let [p, q] = [a, b].map(|id| &self.pieces[id]);
-        let found_here = meetings(&p.curve, &q.curve, self.tolerances.weld).map_err(|budget| ArrangeError {
+        let mut places: Vec<(Point, [f64; 2])> = Vec::new();
+        for meeting in near.points.iter().filter(|m| !self.is_contact([a, b], [m.t, m.u], weld)) {
+            places.push((meeting.at, [meeting.t, meeting.u]));
+        }
+        for overlap in &near.overlaps {
+            places.extend((0..2).map(|k| (p.curve.point(overlap.t[k]), [overlap.t[k], overlap.u[k]])));
+        }
+        let before = [found.cuts.len(), found.links.len()];
+        for (at, [t, u]) in places {
+            self.join_pieces((a, t), (b, u), at, found);
+        }
+        if before == [found.cuts.len(), found.links.len()] {
+            self.untangle([a, b], found)?;
+        }
+        Ok(())
+    }
+
+    /// Further meetings of two pieces with a common end. Within the tolerance of it all is one contact, but the curves may cross there
+    /// once more: they are cut there. Where even that is within the tolerance of the end, both begin at the crossing instead. Asked
+    /// only of pieces that meet nowhere else: those that repeat each other are cut and become one first.
+    fn untangle(&mut self, ids: [CurveId; 2], found: &mut Found) -> Result<(), ArrangeError> {
+        let [p, q] = ids.map(|id| &self.pieces[id]);
+        if !p.ends.iter().any(|end| q.ends.contains(end)) {
+            return Ok(());
+        }
+        let rounding = self.tolerances.rounding;
+        for meeting in self.meetings_of(ids[0], ids[1], rounding)?.points {
+            let ts = [meeting.t, meeting.u];
+            if self.is_contact(ids, ts, 0.5 * rounding) {
+                continue;
+            }
+            let [on_a, on_b] = [0, 1].map(|k| self.site(ids[k], ts[k], self.pieces[ids[k]].curve.point(ts[k])));
+            match (on_a, on_b) {
+                (Site::End(m), Site::End(n)) if m == n => {
+                    for (piece, t) in ids.into_iter().zip(ts).filter(|&(_, t)| 0.0 < t && t < 1.0) {
+                        let at = self.pieces[piece].curve.point(t);
+                        found.cuts.push(Cut { piece, t, at, node: m });
+                    }
+                }
+                _ => self.join_pieces((ids[0], ts[0]), (ids[1], ts[1]), meeting.at, found),
+            }
+        }
+        Ok(())
+    }
+
+    fn meetings_of(&self, a: CurveId, b: CurveId, tolerance: f64) -> Result<Meetings, ArrangeError> {
+        let [p, q] = [a, b].map(|id| &self.pieces[id]);
+        meetings(&p.curve, &q.curve, tolerance).map_err(|budget| ArrangeError {
             what: format!(
                 "{} and {} run so near to each other that their meetings cannot be told apart",
                 self.entity(p.source),
@@ -308,38 +359,18 @@ impl Network<'_> {
             ),
             at: budget.at,
             help: "remove one of the two, or raise the tolerance so that they become one".into(),
-        })?;
-        let mut places: Vec<(Point, [f64; 2])> = Vec::new();
-        for meeting in &found_here.points {
-            if !self.is_contact([a, b], [meeting.t, meeting.u], meeting.kind) {
-                places.push((meeting.at, [meeting.t, meeting.u]));
-            }
-        }
-        for overlap in &found_here.overlaps {
-            for k in 0..2 {
-                places.push((p.curve.point(overlap.t[k]), [overlap.t[k], overlap.u[k]]));
-            }
-        }
-        for (at, [t, u]) in places {
-            self.join_pieces((a, t), (b, u), at, found);
-        }
-        Ok(())
+        })
     }
 
-    /// Whether a meeting of two pieces is nothing but their contact at a common end: curves that share a tangent there stay within
-    /// the tolerance of each other for a while. A true crossing further on is one all the same, unless it drowns in rounding.
-    fn is_contact(&self, ids: [CurveId; 2], ts: [f64; 2], kind: MeetingKind) -> bool {
+    /// Whether a meeting of two pieces is nothing but their contact at a common end: from there to the meeting they stay within `slack`
+    /// of each other.
+    fn is_contact(&self, ids: [CurveId; 2], ts: [f64; 2], slack: f64) -> bool {
         let [p, q] = ids.map(|id| &self.pieces[id]);
-        let slack = match kind {
-            MeetingKind::Crossing => self.tolerances.rounding,
-            _ => self.tolerances.weld,
-        };
-        let shared = (0..2).flat_map(|i| (0..2).map(move |j| (i, j))).filter(|&(i, j)| p.ends[i] == q.ends[j]);
         let within = |t: f64, end: usize, curve: &Curve, other: &Curve| {
             let end = end as f64;
-            // Halfway and next to the meeting: contact fades slowest there.
-            [0.5, 0.75].iter().all(|&f| other.nearest(curve.point(end + f * (t - end)), 0.0, 1.0).1 <= slack)
+            [0.25, 0.5, 0.75].iter().all(|&f| other.nearest(curve.point(end + f * (t - end)), 0.0, 1.0).1 <= slack)
         };
+        let shared = (0..2).flat_map(|i| (0..2).map(move |j| (i, j))).filter(|&(i, j)| p.ends[i] == q.ends[j]);
         shared.into_iter().any(|(i, j)| within(ts[0], i, &p.curve, &q.curve) && within(ts[1], j, &q.curve, &p.curve))
     }
 

@@ -7,10 +7,11 @@ use crate::geometry::exact::{Orientation, orient};
 use crate::geometry::{Point, Vec2, turn_from};
 use crate::ids::{CurveId, IdVec, PointId};
 use std::cmp::Ordering;
+use std::f64::consts::PI;
 
-/// Tangents that differ by less than this (rad) are not trusted to tell the order: moving the ends of curves together by a tolerance
-/// of 1e-9 of the drawing turns the tangents of a curve a thousandth as long by 1e-6.
-const TANGENTS_TELL: f64 = 1e-6;
+/// Tangents that differ by less than this (rad) are not trusted to tell the order. Two curves that leave at an angle θ may bend towards
+/// each other and cross at once, θ²/κ deep; at 1e-3 that is more than rounding (1e-14) for radii of curvature down to 1e-8.
+const TANGENTS_TELL: f64 = 1e-3;
 
 /// Circles that are tried around a point, each half the one before.
 const CIRCLES: usize = 24;
@@ -40,39 +41,67 @@ fn order(at: Point, star: &mut Vec<Incident>, curves: &IdVec<CurveId, DomainCurv
         sort_around(at, star, |i| far_end(curve(i), i.end));
         return Ok(());
     }
-    let direction = |i: &Incident| curve(i).direction_at(i.end);
-    let mut by_angle: Vec<(Vec2, Incident)> = star.iter().map(|i| (direction(i), *i)).collect();
-    by_angle.sort_by(|a, b| angle(a.0).total_cmp(&angle(b.0)).then(a.1.curve.cmp(&b.1.curve)));
-    let following = by_angle.iter().cycle().skip(1);
-    if by_angle.iter().zip(following).all(|(a, b)| turn_from(a.0, b.0).abs() > TANGENTS_TELL) {
-        *star = by_angle.into_iter().map(|(_, i)| i).collect();
-        return Ok(());
+    let mut leaving: Vec<(Vec2, Incident)> = star.iter().map(|i| (curve(i).direction_at(i.end), *i)).collect();
+    leaving.sort_by(|a, b| angle(a.0).total_cmp(&angle(b.0)).then(a.1.curve.cmp(&b.1.curve)));
+    let are_tied = |a: &(Vec2, Incident), b: &(Vec2, Incident)| turn_from(a.0, b.0).abs() <= TANGENTS_TELL;
+    // Begin between two that are not tied, so that no group of tied ones straddles the beginning.
+    let n = leaving.len();
+    let begin = (0..n).find(|&k| !are_tied(&leaving[(k + n - 1) % n], &leaving[k])).unwrap_or(0);
+    leaving.rotate_left(begin);
+    star.clear();
+    for group in leaving.chunk_by(are_tied) {
+        let mut tied: Vec<Incident> = group.iter().map(|g| g.1).collect();
+        if tied.len() > 1 {
+            order_tied(at, group[0].0, &mut tied, curves)?;
+        }
+        star.extend(tied);
     }
-    order_on_circle(at, star, curves)
+    Ok(())
 }
 
-/// Sorts a star by where its curves first leave a circle around the point. Curves that meet nowhere inside leave it in the order in
-/// which they lie around the point, whatever its radius: the largest circle that all of them reach tells them apart best.
-fn order_on_circle(at: Point, star: &mut [Incident], curves: &IdVec<CurveId, DomainCurve>) -> Result<(), ArrangeError> {
+/// Sorts curves that leave in one direction by where they first leave a circle around the point, from right to left. Curves that meet
+/// nowhere inside it and keep to the half plane ahead leave it in the order in which they lie, whatever its radius: the largest
+/// circle that all of them reach so tells them apart best.
+fn order_tied(
+    at: Point,
+    ahead: Vec2,
+    tied: &mut [Incident],
+    curves: &IdVec<CurveId, DomainCurve>,
+) -> Result<(), ArrangeError> {
     let reach = |i: &Incident| {
         let curve = &curves[i.curve].curve;
-        (1..=8)
-            .map(|k| curve.point(k as f64 / 8.0).distance(at))
-            .chain([curve.point(0.0).distance(at)])
-            .fold(0.0, f64::max)
+        (0..=8).map(|k| curve.point(f64::from(k) / 8.0).distance(at)).fold(0.0, f64::max)
     };
     // Half as far as the curve with the shortest reach: two curves that share both ends are widest apart about there.
-    let mut radius = star.iter().map(reach).fold(f64::INFINITY, f64::min) / 2.0;
+    let mut radius = tied.iter().map(reach).fold(f64::INFINITY, f64::min) / 2.0;
     for _ in 0..CIRCLES {
-        let exits: Option<Vec<(Incident, Point)>> = star.iter().map(|i| Some((*i, exit(curves, i, radius)?))).collect();
-        if let Some(exits) = exits.filter(|exits| are_apart(at, radius, exits)) {
-            let exit_of = |i: &Incident| exits.iter().find(|e| e.0 == *i).map_or(at, |e| e.1);
-            sort_around(at, star, exit_of);
-            return Ok(());
+        let exits: Option<Vec<Point>> = tied.iter().map(|i| exit(at, ahead, curves, i, radius)).collect();
+        if let Some(exits) = exits {
+            let mut around: Vec<(Point, Incident)> = exits.into_iter().zip(tied.iter().copied()).collect();
+            around.sort_by(|a, b| turn_from(b.0 - at, a.0 - at).total_cmp(&0.0).then(a.1.curve.cmp(&b.1.curve)));
+            // Rounding cannot have swapped neighbours that are 64 units in the last place apart.
+            let noise = 64.0 * f64::EPSILON * at.x.abs().max(at.y.abs()).max(radius);
+            if around.windows(2).all(|w| w[0].0.distance(w[1].0) > noise) {
+                tied.iter_mut().zip(around).for_each(|(place, (_, incident))| *place = incident);
+                return Ok(());
+            }
         }
         radius /= 2.0;
     }
-    Err(undecided(at, star, curves))
+    Err(undecided(at, tied, curves))
+}
+
+/// Where a curve first leaves a circle; `None` where it does not, or has turned out of the half plane ahead by then.
+fn exit(at: Point, ahead: Vec2, curves: &IdVec<CurveId, DomainCurve>, i: &Incident, radius: f64) -> Option<Point> {
+    let curve = &curves[i.curve].curve;
+    let t = curve.leaves_ball(i.end, radius, 0.0, 1.0)?;
+    let turning = match i.end {
+        End::Start => curve.turning(0.0, t),
+        End::Finish => curve.turning(t, 1.0),
+    };
+    let point = curve.point(t);
+    // Less than 2π/5 keeps well clear of the half plane's border.
+    (turning < 0.4 * PI && ahead.dot(point - at) > 0.0).then_some(point)
 }
 
 fn undecided(at: Point, star: &[Incident], curves: &IdVec<CurveId, DomainCurve>) -> ArrangeError {
@@ -82,20 +111,6 @@ fn undecided(at: Point, star: &[Incident], curves: &IdVec<CurveId, DomainCurve>)
         at,
         help: "raise the tolerance so that they become one, or remove all but one of them".into(),
     }
-}
-
-fn exit(curves: &IdVec<CurveId, DomainCurve>, i: &Incident, radius: f64) -> Option<Point> {
-    let curve = &curves[i.curve].curve;
-    curve.leaves_ball(i.end, radius, 0.0, 1.0).map(|t| curve.point(t))
-}
-
-/// Whether rounding cannot have swapped two exits: neighbours on the circle are 64 units in the last place apart.
-fn are_apart(at: Point, radius: f64, exits: &[(Incident, Point)]) -> bool {
-    let noise = 64.0 * f64::EPSILON * at.x.abs().max(at.y.abs()).max(radius);
-    let mut angles: Vec<(f64, Point)> = exits.iter().map(|&(_, p)| (angle(p - at), p)).collect();
-    angles.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let following = angles.iter().cycle().skip(1);
-    angles.iter().zip(following).all(|(a, b)| a.1.distance(b.1) > noise)
 }
 
 fn angle(v: Vec2) -> f64 {
