@@ -120,7 +120,7 @@ fn tangent_fan(drawing: &mut Drawing, dice: &mut Dice, place: &Place) {
     let k = 2 + dice.below(4);
     let root = place.at(-0.8, 0.0);
     for i in 0..k {
-        let curvature = (i as f64 - (k - 1) as f64 / 2.0) * dice.between(0.3, 0.6);
+        let curvature = (i as f64 - (k - 1) as f64 / 2.0) * 0.45 + dice.between(-0.15, 0.15);
         let length = dice.between(0.8, 1.4);
         // End of the arc of that curvature and length that leaves the root along +x of the frame.
         let half = curvature * length / 2.0;

@@ -5,6 +5,9 @@
 
 use super::{Point, Rect};
 
+/// Depth first, one sibling waits a level; halving 2^32 items takes 32 levels.
+const WAITING: usize = 34;
+
 /// Leaves hold at most this many items: below it, a scan is quicker than a descent.
 const LEAF: usize = 4;
 
@@ -66,15 +69,18 @@ impl BoxHierarchy {
 
     /// Calls `each` with every item whose box meets `query`, borders included; stops when `each` says so (`false`).
     pub fn meeting(&self, query: Rect, mut each: impl FnMut(usize) -> bool) {
-        let mut stack = vec![0u32];
-        while let Some(here) = stack.pop() {
-            let Some(node) = self.nodes.get(here as usize) else { return };
+        let mut stack = [0u32; WAITING];
+        let mut waiting = usize::from(!self.nodes.is_empty());
+        while waiting > 0 {
+            waiting -= 1;
+            let here = stack[waiting];
+            let node = &self.nodes[here as usize];
             if !touches(node.bounds, query) {
                 continue;
             }
             if node.len == 0 {
-                stack.push(node.first);
-                stack.push(here + 1);
+                (stack[waiting], stack[waiting + 1]) = (node.first, here + 1);
+                waiting += 2;
                 continue;
             }
             for &item in &self.order[node.first as usize..][..node.len as usize] {
@@ -89,9 +95,12 @@ impl BoxHierarchy {
     /// are nearer than the best so far (`bound`); it may answer anything larger than `bound` for "no nearer".
     pub fn nearest(&self, p: Point, bound: f64, mut distance: impl FnMut(usize, f64) -> f64) -> Option<(usize, f64)> {
         let (mut best, mut nearest) = (bound, None);
-        let mut stack = vec![(0u32, 0.0)];
-        while let Some((here, away)) = stack.pop() {
-            if away > best || self.nodes.is_empty() {
+        let mut stack = [(0u32, 0.0); WAITING];
+        let mut waiting = usize::from(!self.nodes.is_empty());
+        while waiting > 0 {
+            waiting -= 1;
+            let (here, away) = stack[waiting];
+            if away > best {
                 continue;
             }
             let node = &self.nodes[here as usize];
@@ -101,7 +110,8 @@ impl BoxHierarchy {
                 let (dl, dr) = (to(left), to(right));
                 // The nearer child is pushed last and so looked at first.
                 let (far, near) = if dl <= dr { ((right, dr), (left, dl)) } else { ((left, dl), (right, dr)) };
-                stack.extend([far, near]);
+                (stack[waiting], stack[waiting + 1]) = (far, near);
+                waiting += 2;
                 continue;
             }
             for &item in &self.order[node.first as usize..][..node.len as usize] {

@@ -128,15 +128,23 @@ pub fn verify(domain: Option<&Domain>, mesh: &Mesh, promise: &Promise) -> Verdic
     let evidence = Evidence::gather(domain, mesh, promise);
     let known =
         |check: fn(&Evidence, &Domain) -> Check, name| domain.map_or(Check::not_asked(name), |d| check(&evidence, d));
-    let conforming = known(topology::conforming, "conforming");
-    let on_curve = known(curves::on_curve, "on_curve");
-    let curve_chain = known(curves::curve_chain, "curve_chain");
-    let empty_diametral = known(curves::empty_diametral, "empty_diametral");
+    // Checks share nothing but the evidence: the dear ones take what cores there are.
+    let (conforming, (empty_diametral, delaunay)) = rayon::join(
+        || known(topology::conforming, "conforming"),
+        || (known(curves::empty_diametral, "empty_diametral"), angles::delaunay(&evidence)),
+    );
+    let ((on_curve, curve_chain), (chord_error, edge_turning)) = rayon::join(
+        || (known(curves::on_curve, "on_curve"), known(curves::curve_chain, "curve_chain")),
+        || (known(curves::chord_error, "chord_error"), known(curves::edge_turning, "edge_turning")),
+    );
     let (ball_radius, lfs_ratio, balls) = match domain {
         Some(domain) => balls::judge(&evidence, domain),
         None => (Check::not_asked("ball_radius"), Check::not_asked("lfs_ratio"), Vec::new()),
     };
-    let (min_angle, excused) = angles::min_angle(&evidence, &balls);
+    let ((min_angle, excused), (max_angle, size)) = rayon::join(
+        || angles::min_angle(&evidence, &balls),
+        || (angles::max_angle(&evidence), measures::size(&evidence)),
+    );
     let checks = vec![
         topology::orientation(&evidence),
         topology::manifold(&evidence),
@@ -144,14 +152,14 @@ pub fn verify(domain: Option<&Domain>, mesh: &Mesh, promise: &Promise) -> Verdic
         on_curve,
         curve_chain,
         empty_diametral,
-        angles::delaunay(&evidence),
+        delaunay,
         min_angle,
-        angles::max_angle(&evidence),
+        max_angle,
         ball_radius,
         lfs_ratio,
-        known(curves::chord_error, "chord_error"),
-        known(curves::edge_turning, "edge_turning"),
-        measures::size(&evidence),
+        chord_error,
+        edge_turning,
+        size,
         known(measures::area, "area"),
         known(measures::names, "names"),
         Check::not_asked("jacobian"),
