@@ -77,6 +77,16 @@ fn printed(output: &Output) -> String {
 }
 
 #[test]
+fn no_output_is_the_input_or_another_output() {
+    let bench = Bench::new("named-twice");
+    for [option, file] in [["--report", "square.poly"], ["--case", "square.vtu"], ["-o", "square.vtu"]] {
+        bench.ends(2, &["mesh", "square.poly", "-o", "square.vtu", option, file]);
+    }
+    assert_eq!(bench.text("square.poly"), SQUARE);
+    assert!(bench.made().is_empty());
+}
+
+#[test]
 fn help_and_version_answer() {
     let bench = Bench::new("help");
     assert_eq!(printed(&bench.ends(0, &["--version"])), format!("squinch {}\n", env!("CARGO_PKG_VERSION")));

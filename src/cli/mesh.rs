@@ -38,6 +38,7 @@ pub struct Mesh {
 impl Mesh {
     pub fn run(self, volume: Volume) -> Result<Exit, Halt> {
         let outputs = self.outputs()?;
+        self.each_file_once()?;
         let Resolved { request, input_format } = self.options.resolve()?;
         let input = Input::open(&self.input, input_format)?;
         remember(&input, &request);
@@ -52,6 +53,25 @@ impl Mesh {
             write_case(&pipeline::ending(&outcome), "broken");
         }
         Ok(outcome.exit)
+    }
+
+    /// No output may be the input, or another output.
+    fn each_file_once(&self) -> Result<(), Halt> {
+        let whole =
+            |path: &PathBuf| std::fs::canonicalize(path).or_else(|_| std::path::absolute(path)).unwrap_or(path.clone());
+        let files = [&self.input].into_iter().chain(&self.output).chain(&self.report).chain(&self.case);
+        let mut seen: Vec<PathBuf> = Vec::new();
+        for path in files.filter(|path| path.as_os_str() != "-" && !path.starts_with("/dev")) {
+            let path = whole(path);
+            if seen.contains(&path) {
+                return Err(Halt::Usage(format!(
+                    "{} is named twice: each file is read or written once",
+                    path.display()
+                )));
+            }
+            seen.push(path);
+        }
+        Ok(())
     }
 
     /// Every output with its format.

@@ -135,7 +135,10 @@ impl Options {
         let request: Request = toml::Value::Table(asked).try_into().map_err(usage)?;
         request.validate().map_err(usage)?;
         if let Some(threads) = all.threads {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(usize::try_from(threads).unwrap_or(usize::MAX));
+            // More threads than cores only cost their stacks: the bytes of the result are the same with any number.
+            let cores = std::thread::available_parallelism().map_or(1, usize::from);
+            let pool =
+                rayon::ThreadPoolBuilder::new().num_threads(usize::try_from(threads).unwrap_or(usize::MAX).min(cores));
             pool.build_global().map_err(usage)?;
         }
         let input_format = all.input_format.as_deref().map(input_format).transpose()?;

@@ -303,7 +303,7 @@ impl Network<'_> {
     fn meet_curves(&mut self, a: CurveId, b: CurveId, found: &mut Found) -> Result<(), ArrangeError> {
         let weld = self.tolerances.weld;
         let near = self.meetings_of(a, b, weld)?;
-        let [p, q] = [a, b].map(|id| &self.pieces[id]);
+        let p = &self.pieces[a];
         let mut places: Vec<(Point, [f64; 2])> = Vec::new();
         for meeting in near.points.iter().filter(|m| !self.is_contact([a, b], [m.t, m.u], weld)) {
             places.push((meeting.at, [meeting.t, meeting.u]));
