@@ -12,36 +12,81 @@ use super::triangulation::Side;
 use crate::domain::DomainCurve;
 use crate::ids::{CurveId, Id, IdVec, RegionId, TriangleId};
 
-/// Gives regions to triangles that were made since the last time; `fresh` is left with those that are alive, each once.
-pub fn carve(
-    delaunay: &mut Delaunay,
-    subcurves: &Subcurves,
-    curves: &IdVec<CurveId, DomainCurve>,
-    fresh: &mut Vec<TriangleId>,
-) {
-    fresh.sort_unstable();
-    fresh.dedup();
-    fresh.retain(|&t| delaunay.topology().is_alive(t));
-    let mut known = vec![false; fresh.len()];
-    let mut stack: Vec<usize> = Vec::new();
-    for i in 0..fresh.len() {
-        if let Some(region) = region_by_sides(delaunay, subcurves, curves, fresh, fresh[i]) {
-            delaunay.topology_mut().set_region(fresh[i], region);
-            known[i] = true;
-            stack.push(i);
-        }
-    }
-    while let Some(i) = stack.pop() {
-        let region = delaunay.topology().region(fresh[i]);
-        for s in sides_of(fresh[i]) {
-            let beyond = delaunay.topology().twin(s).triangle();
-            let Ok(j) = fresh.binary_search(&beyond) else { continue };
-            if !known[j] && bounded_by(delaunay, subcurves, s).is_none() {
-                delaunay.topology_mut().set_region(beyond, region);
-                known[j] = true;
-                stack.push(j);
+/// Gives regions to triangles.
+#[derive(Default)]
+pub struct Carver {
+    /// Place of each triangle among the fresh ones, from 1; 0 of all others, between two carvings of all.
+    places: Vec<u32>,
+}
+
+impl Carver {
+    /// Gives regions to triangles that were made since the last time; `fresh` is left with those that are alive, each once.
+    pub fn carve(
+        &mut self,
+        delaunay: &mut Delaunay,
+        subcurves: &Subcurves,
+        curves: &IdVec<CurveId, DomainCurve>,
+        fresh: &mut Vec<TriangleId>,
+    ) {
+        self.note(delaunay, fresh);
+        let mut known = vec![false; fresh.len()];
+        let mut stack: Vec<usize> = Vec::new();
+        for i in 0..fresh.len() {
+            if let Some(region) = self.region_by_sides(delaunay, subcurves, curves, fresh[i]) {
+                delaunay.topology_mut().set_region(fresh[i], region);
+                known[i] = true;
+                stack.push(i);
             }
         }
+        while let Some(i) = stack.pop() {
+            let region = delaunay.topology().region(fresh[i]);
+            for s in sides_of(fresh[i]) {
+                let beyond = delaunay.topology().twin(s).triangle();
+                let Some(j) = self.place(beyond) else { continue };
+                if !known[j] && bounded_by(delaunay, subcurves, s).is_none() {
+                    delaunay.topology_mut().set_region(beyond, region);
+                    known[j] = true;
+                    stack.push(j);
+                }
+            }
+        }
+        fresh.iter().for_each(|t| self.places[t.index()] = 0);
+    }
+
+    /// Leaves each living triangle once, in the order of their ids, and notes its place.
+    fn note(&mut self, delaunay: &Delaunay, fresh: &mut Vec<TriangleId>) {
+        fresh.sort_unstable();
+        fresh.dedup();
+        fresh.retain(|&t| delaunay.topology().is_alive(t));
+        self.places.resize(delaunay.topology().triangle_capacity(), 0);
+        for (i, t) in fresh.iter().enumerate() {
+            self.places[t.index()] = i as u32 + 1;
+        }
+    }
+
+    fn place(&self, t: TriangleId) -> Option<usize> {
+        (self.places[t.index()] as usize).checked_sub(1)
+    }
+
+    /// The region that the sides of a triangle tell: from a curve on it, or from a neighbour whose region stands.
+    fn region_by_sides(
+        &self,
+        delaunay: &Delaunay,
+        subcurves: &Subcurves,
+        curves: &IdVec<CurveId, DomainCurve>,
+        t: TriangleId,
+    ) -> Option<Option<RegionId>> {
+        let topology = delaunay.topology();
+        if topology.is_ghost(t) {
+            return Some(None);
+        }
+        sides_of(t).into_iter().find_map(|s| match bounded_by(delaunay, subcurves, s) {
+            Some((curve, along)) => Some(curves[curve].sides[usize::from(!along)]),
+            None => {
+                let beyond = topology.twin(s).triangle();
+                self.place(beyond).is_none().then(|| topology.region(beyond))
+            }
+        })
     }
 }
 
@@ -50,27 +95,6 @@ fn bounded_by(delaunay: &Delaunay, subcurves: &Subcurves, s: Side) -> Option<(Cu
     let piece = subcurves.get(delaunay.topology().piece(s)?);
     let Carrier::Curve(curve) = piece.carrier else { return None };
     Some((curve, delaunay.topology().origin(s) == piece.ends[0]))
-}
-
-/// The region that the sides of a triangle tell: from a curve on it, or from a neighbour whose region stands.
-fn region_by_sides(
-    delaunay: &Delaunay,
-    subcurves: &Subcurves,
-    curves: &IdVec<CurveId, DomainCurve>,
-    fresh: &[TriangleId],
-    t: TriangleId,
-) -> Option<Option<RegionId>> {
-    let topology = delaunay.topology();
-    if topology.is_ghost(t) {
-        return Some(None);
-    }
-    sides_of(t).into_iter().find_map(|s| match bounded_by(delaunay, subcurves, s) {
-        Some((curve, along)) => Some(curves[curve].sides[usize::from(!along)]),
-        None => {
-            let beyond = topology.twin(s).triangle();
-            fresh.binary_search(&beyond).is_err().then(|| topology.region(beyond))
-        }
-    })
 }
 
 /// Every triangle, ghosts included, for the first carving.

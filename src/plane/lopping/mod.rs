@@ -37,6 +37,7 @@ mod splitcurve;
 mod splittri;
 
 use super::balls::Balls;
+use super::carve::Carver;
 use super::insert::{Cavity, Delaunay};
 use super::subcurves::{Midpoint, Subcurves};
 use crate::domain::Domain;
@@ -177,6 +178,7 @@ pub struct Lopping {
     /// Triangles made since regions were last given.
     fresh: Vec<TriangleId>,
     carved: bool,
+    carver: Carver,
     cavity: Cavity,
     counters: Counters,
     reason: StopReason,
@@ -219,6 +221,7 @@ impl Lopping {
             oversized: WorstFirst::default(),
             fresh: Vec::new(),
             carved: false,
+            carver: Carver::default(),
             cavity: Cavity::default(),
             counters: Counters::default(),
             reason: StopReason::Done,

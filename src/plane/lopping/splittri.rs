@@ -15,7 +15,7 @@ impl Lopping {
             self.fresh = carve::all_triangles(&self.delaunay);
             self.carved = true;
         }
-        carve::carve(&mut self.delaunay, &self.subcurves, self.domain.curves(), &mut self.fresh);
+        self.carver.carve(&mut self.delaunay, &self.subcurves, self.domain.curves(), &mut self.fresh);
         for t in std::mem::take(&mut self.fresh) {
             self.judge(t);
         }
