@@ -71,7 +71,8 @@ fn random_complexes_keep_the_angle_that_is_proven() {
         let kappa = guaranteed_angle(tau) * (1.0 - 1e-9);
         for arcs in [None, Some(arc_turning(kappa, tau))] {
             let options = Options { angle_min_rad: kappa, corner_arcs: arcs, ..Options::default() };
-            for seed in 0..12 {
+            // 156 and 187: circles that touch from inside, drawn a few roundings deep in each other.
+            for seed in (0..12).chain([156, 187]) {
                 let (_, verdict) = kept(&curved_complex(seed), tau, &options);
                 assert_eq!(status(&verdict, "min_angle"), Status::Proven, "seed {seed}, τ {tau}, arcs {arcs:?}");
             }
