@@ -1,6 +1,5 @@
 //! Writers: Mesh → files. One file a format; a writer says what its format cannot hold.
 
-pub mod atomic;
 pub mod picture;
 pub mod vtu;
 

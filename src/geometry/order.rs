@@ -16,13 +16,6 @@ const CROWD: usize = 16;
 /// Fewer points than this are sorted by comparison: below it, clearing the counts of a radix sort costs more.
 const FEW: usize = 2048;
 
-/// Indices of `points` in a good order for insertion. Deterministic: the rounds are drawn by a hash of the place along
-/// the curve.
-pub fn brio(points: &[Point]) -> Vec<u32> {
-    let curve = hilbert(points);
-    rounds(curve.len()).into_iter().map(|place| curve[place as usize]).collect()
-}
-
 /// Indices of `points` along the Hilbert curve of their box; in a cell with many, along the curve of the box of those.
 /// Equal points come by their indices.
 pub fn hilbert(points: &[Point]) -> Vec<u32> {
@@ -187,6 +180,12 @@ mod tests {
         for pair in cells.windows(2) {
             assert_eq!((pair[0].1 - pair[1].1).abs() + (pair[0].2 - pair[1].2).abs(), 1, "{pair:?}");
         }
+    }
+
+    /// The order of insertion, as the kernel puts it together.
+    fn brio(points: &[Point]) -> Vec<u32> {
+        let curve = hilbert(points);
+        rounds(curve.len()).into_iter().map(|place| curve[place as usize]).collect()
     }
 
     #[test]

@@ -72,11 +72,6 @@ impl Mesh {
         self.triangles[t].map(|v| self.nodes[v])
     }
 
-    /// The name of a triangle's region.
-    pub fn region_name(&self, t: TriangleId) -> &str {
-        self.names.text(self.regions[self.triangle_regions[t]])
-    }
-
     /// All coordinates and radii times a power of two: exact.
     pub fn scaled(mut self, factor: f64) -> Self {
         for p in self.nodes.iter_mut() {
