@@ -46,6 +46,8 @@ ids! {
     RegionId,
     /// A name: of boundaries, of regions, of layers.
     NameId,
+    /// A filled shape of a picture.
+    ShapeId,
     /// A protecting ball around an acute corner.
     BallId,
 }

@@ -129,7 +129,9 @@ impl Outcome {
         let Refined { mesh, stop, counters } = refined?;
         self.report.stop = Some(StopReport::new(&stop));
         self.report.counters = counters;
-        let mesh = mesh.ok_or_else(|| no_mesh(&stop))?;
+        let mut mesh = mesh.ok_or_else(|| no_mesh(&stop))?;
+        mesh.unit = drawing.unit.as_ref().map(|(unit, _)| unit.clone());
+        mesh.frame = drawing.frame;
 
         let verdict = plan.judge(Some(&domain), &mesh);
         self.report.mesh = Some(MeshReport::new(&mesh));
@@ -246,6 +248,9 @@ fn in_units(mut drawing: Drawing, request: &Request) -> Result<Drawing, FailureR
 /// A drawing with every length times a factor.
 fn scaled(mut drawing: Drawing, factor: f64) -> Drawing {
     let point = |p: Point| Point::new(p.x * factor, p.y * factor);
+    if let Some(frame) = &mut drawing.frame {
+        frame.origin = frame.origin.map(|x| x * factor);
+    }
     for DrawnCurve { curve, .. } in &mut drawing.curves {
         *curve = curve.transformed(Affine::scale(factor));
     }

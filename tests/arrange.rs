@@ -2,7 +2,7 @@
 
 use squinch::curve::Curve;
 use squinch::domain::{
-    ArrangeError, ArrangeOptions, Domain, Drawing, DrawnPoint, FillRule, RepairKind, Seed, SeedKind,
+    ArrangeError, ArrangeOptions, Domain, Drawing, DrawnPoint, FillRule, RepairKind, Seed, SeedKind, Shape,
 };
 use squinch::geometry::{Point, Vec2};
 use squinch::ids::{CurveId, Id};
@@ -674,4 +674,82 @@ fn every_poly_file_at_hand_is_arranged_without_a_flaw() {
             }
         }
     }
+}
+
+/// Shapes in the order in which they are painted: name, rule and outlines.
+fn painted<const N: usize>(shapes: [(&str, bool, Vec<Curve>); N]) -> Drawing {
+    let mut drawing = Drawing { fill: FillRule::Shapes, ..Drawing::default() };
+    for (name, even_odd, curves) in shapes {
+        let name = drawing.names.intern(name);
+        let shape = drawing.shapes.push(Shape { name, even_odd, entity: "path".into() });
+        for curve in curves {
+            drawing.add(curve, "ink", "curve");
+            drawing.curves.last_mut().unwrap().shape = Some(shape);
+        }
+    }
+    drawing
+}
+
+fn areas_by_name(domain: &Domain) -> Vec<(&str, f64)> {
+    domain.regions().iter().map(|r| (domain.name(r.name), r.area)).collect()
+}
+
+#[test]
+fn the_topmost_shape_names_a_face() {
+    let (low, high) = (square(0.0, 0.0, 4.0), square(2.0, 2.0, 4.0));
+    let over =
+        painted([("low", false, low.clone()), ("high", false, high.clone())]).arrange(&Default::default()).unwrap();
+    assert_eq!(areas_by_name(&over), [("low", 12.0), ("high", 16.0)]);
+    let under = painted([("high", false, high), ("low", false, low)]).arrange(&Default::default()).unwrap();
+    assert_eq!(areas_by_name(&under), [("high", 12.0), ("low", 16.0)]);
+}
+
+#[test]
+fn every_shape_has_its_own_rule() {
+    // Two squares one in the other, the same way round: a ring by one rule, full by the other.
+    let pair = |x: f64| [square(x, 0.0, 4.0), square(x + 1.0, 1.0, 2.0)].concat();
+    let drawn = painted([("ring", true, pair(0.0)), ("full", false, pair(10.0))]);
+    let domain = drawn.arrange(&Default::default()).unwrap();
+    assert_eq!(areas_by_name(&domain), [("ring", 12.0), ("full", 16.0)]);
+    assert_eq!(domain.flaws(), [""; 0]);
+}
+
+#[test]
+fn shapes_that_share_or_repeat_an_outline_stay_apart() {
+    // Side by side with a common edge, the same square twice, and one shape that runs there and back: nothing enclosed.
+    let there_and_back = vec![line((8.0, 0.0), (9.0, 0.0)), line((9.0, 0.0), (8.0, 0.0))];
+    let drawn = painted([
+        ("left", false, square(0.0, 0.0, 1.0)),
+        ("right", true, square(1.0, 0.0, 1.0)),
+        ("again", true, square(1.0, 0.0, 1.0)),
+        ("nothing", false, there_and_back),
+    ]);
+    let domain = drawn.arrange(&Default::default()).unwrap();
+    assert_eq!(areas_by_name(&domain), [("left", 1.0), ("again", 1.0)]);
+}
+
+#[test]
+fn every_bounded_face_of_a_picture_is_a_region_on_request() {
+    let ring = painted([("ring", true, [square(0.0, 0.0, 4.0), square(1.0, 1.0, 2.0)].concat())]);
+    assert_eq!(areas_by_name(&regions(&ring)), [("ring", 12.0), ("region", 4.0)]);
+    // A region of the picture that is called like ours keeps its name to itself.
+    let ring = painted([("region", true, [square(0.0, 0.0, 4.0), square(1.0, 1.0, 2.0)].concat())]);
+    assert_eq!(areas_by_name(&regions(&ring)), [("region", 12.0), ("region1", 4.0)]);
+}
+
+#[test]
+fn shapes_nested_deep_are_painted_in_turn() {
+    let rings = 500;
+    let mut drawing = Drawing { fill: FillRule::Shapes, ..Drawing::default() };
+    for k in 0..rings {
+        let name = drawing.names.intern(&format!("ring {k}"));
+        let shape = drawing.shapes.push(Shape { name, even_odd: false, entity: "circle".into() });
+        drawing.add(circle(0.0, 0.0, f64::from(rings - k)), "ink", "circle");
+        drawing.curves.last_mut().unwrap().shape = Some(shape);
+    }
+    let domain = drawing.arrange(&Default::default()).unwrap();
+    assert_eq!(domain.regions().len(), 500);
+    let ring = |k: i32| PI * f64::from(2 * (rings - k) - 1);
+    let wanted: Vec<f64> = (0..rings).map(ring).collect();
+    assert!(areas(&domain).iter().zip(wanted).all(|(f, w)| (f - w).abs() < 1e-6));
 }

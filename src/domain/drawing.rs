@@ -1,8 +1,8 @@
 //! Curves, names and seeds as found in a file: nothing promised, nothing cleaned.
 
 use crate::curve::Curve;
-use crate::geometry::{Point, Rect};
-use crate::ids::{NameId, Names};
+use crate::geometry::{Frame, Point, Rect};
+use crate::ids::{IdVec, NameId, Names, ShapeId};
 
 /// A drawing as found.
 #[derive(Clone, Debug, Default)]
@@ -15,9 +15,13 @@ pub struct Drawing {
     pub curves: Vec<DrawnCurve>,
     pub points: Vec<DrawnPoint>,
     pub seeds: Vec<Seed>,
+    /// The filled shapes of a picture, in the order in which they are painted.
+    pub shapes: IdVec<ShapeId, Shape>,
     pub fill: FillRule,
     /// The physical unit of a coordinate ("m", "mm", "chord", …) and where it was read from, where known.
     pub unit: Option<(String, String)>,
+    /// Where the plane of the drawing lies in space, of a face of a solid.
+    pub frame: Option<Frame>,
     /// What the reader left out, counted.
     pub skipped: Vec<Skipped>,
     /// What the reader noticed or mended (format quirks), one sentence each.
@@ -45,6 +49,18 @@ pub struct DrawnCurve {
     /// Name of the boundary that the curve belongs to.
     pub name: NameId,
     /// Where it came from, for messages: "line 12", "segment 7", "path outline, curve 3".
+    pub entity: String,
+    /// The shape whose outline it is a part of. The curves of a shape are closed outlines, end to end.
+    pub shape: Option<ShapeId>,
+}
+
+/// A filled shape of a picture. A later shape lies on top of an earlier one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Shape {
+    /// Name of the region where the shape is on top.
+    pub name: NameId,
+    /// Filled where its outlines wind an odd number of times; else where they wind at all.
+    pub even_odd: bool,
     pub entity: String,
 }
 
@@ -82,6 +98,8 @@ pub enum FillRule {
     EvenOdd,
     /// Every bounded face is a region, but those reached from a hole seed.
     Regions,
+    /// A face is inside where a shape fills it, by the shape's own rule; the topmost one names it.
+    Shapes,
 }
 
 /// Entities that a reader left out.
@@ -103,6 +121,6 @@ impl Drawing {
     /// Adds a curve of the named boundary.
     pub fn add(&mut self, curve: Curve, name: &str, entity: impl Into<String>) {
         let name = self.names.intern(name);
-        self.curves.push(DrawnCurve { curve, name, entity: entity.into() });
+        self.curves.push(DrawnCurve { curve, name, entity: entity.into(), shape: None });
     }
 }

@@ -37,3 +37,19 @@ pub fn scaled(p: Point, factor: f64) -> Point {
 pub fn turn_from(u: Vec2, v: Vec2) -> f64 {
     libm::atan2(u.cross(v), u.dot(v))
 }
+
+/// An orthonormal frame of a plane in space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Frame {
+    pub origin: [f64; 3],
+    /// Unit vectors along the plane's coordinates.
+    pub x: [f64; 3],
+    pub y: [f64; 3],
+}
+
+impl Frame {
+    /// The place in space of a point of the plane.
+    pub fn place(&self, p: Point) -> [f64; 3] {
+        std::array::from_fn(|k| self.origin[k] + p.x * self.x[k] + p.y * self.y[k])
+    }
+}

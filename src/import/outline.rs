@@ -15,9 +15,9 @@
 
 use super::ImportError;
 use crate::curve::{Bezier, CircularArc, Curve, CurveError, EllipticArc, Spline};
-use crate::domain::{Drawing, DrawnCurve, DrawnPoint, FillRule, Seed, SeedKind, SizeRequest, Skipped};
+use crate::domain::{Drawing, DrawnCurve, DrawnPoint, FillRule, Seed, SeedKind, Shape, SizeRequest, Skipped};
 use crate::geometry::{Point, Vec2};
-use crate::ids::Names;
+use crate::ids::{Names, ShapeId};
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{Error as _, MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
@@ -53,6 +53,8 @@ struct File {
     unit_from: Option<String>,
     fill: Option<Fill>,
     names: Option<Vec<String>>,
+    #[serde(default, deserialize_with = "shapes")]
+    shapes: Vec<ShapeForm>,
     #[serde(default, deserialize_with = "curves")]
     curves: Vec<CurveEntry>,
     #[serde(default, deserialize_with = "points")]
@@ -72,6 +74,17 @@ enum Fill {
     NonZero,
     EvenOdd,
     Regions,
+    Shapes,
+}
+
+/// A filled shape; curves name it by its place in the list.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ShapeForm {
+    name: String,
+    #[serde(default)]
+    even_odd: bool,
+    entity: Option<String>,
 }
 
 /// One curve: exactly one of the kinds, and what it is called.
@@ -80,6 +93,7 @@ enum Fill {
 struct CurveForm {
     name: Option<String>,
     entity: Option<String>,
+    shape: Option<u32>,
     line: Option<[Pair; 2]>,
     polyline: Option<Vec<Pair>>,
     polygon: Option<Vec<Pair>>,
@@ -206,6 +220,7 @@ struct SkippedForm {
 struct CurveEntry {
     name: Option<String>,
     entity: Option<String>,
+    shape: Option<u32>,
     curves: Vec<Curve>,
 }
 
@@ -226,12 +241,19 @@ trait Entry: Sized {
 impl Entry for CurveEntry {
     type Form = CurveForm;
     fn from_form(form: CurveForm) -> Result<Self, String> {
-        let (name, entity) = (form.name.clone(), form.entity.clone());
-        Ok(Self { name, entity, curves: form.curves()? })
+        let (name, entity, shape) = (form.name.clone(), form.entity.clone(), form.shape);
+        Ok(Self { name, entity, shape, curves: form.curves()? })
     }
 }
 
 impl Entry for PointForm {
+    type Form = Self;
+    fn from_form(form: Self) -> Result<Self, String> {
+        Ok(form)
+    }
+}
+
+impl Entry for ShapeForm {
     type Form = Self;
     fn from_form(form: Self) -> Result<Self, String> {
         Ok(form)
@@ -329,6 +351,9 @@ fn seeds<'de, D: Deserializer<'de>>(reader: D) -> Result<Vec<SeedForm>, D::Error
 fn sizes<'de, D: Deserializer<'de>>(reader: D) -> Result<Vec<SizeEntry>, D::Error> {
     list("sizes", reader)
 }
+fn shapes<'de, D: Deserializer<'de>>(reader: D) -> Result<Vec<ShapeForm>, D::Error> {
+    list("shapes", reader)
+}
 fn skipped<'de, D: Deserializer<'de>>(reader: D) -> Result<Vec<SkippedForm>, D::Error> {
     list("skipped", reader)
 }
@@ -344,7 +369,14 @@ pub fn read(bytes: &[u8], stem: &str) -> Result<Drawing, ImportError> {
         let what = format!("version {} of the outline format is not known", file.squinch);
         return Err(ImportError::new(what, format!("this program reads version {VERSION}")));
     }
-    Ok(file.drawing(stem))
+    let shapes = file.shapes.len();
+    let unknown = file.curves.iter().position(|c| c.shape.is_some_and(|k| k as usize >= shapes));
+    match unknown {
+        Some(i) => {
+            Err(ImportError::new(format!("{} is of a shape that `shapes` does not list", curve_entity(i)), HELP))
+        }
+        None => Ok(file.drawing(stem)),
+    }
 }
 
 fn located(error: serde_json::Error) -> ImportError {
@@ -363,6 +395,7 @@ impl File {
             fill: match self.fill {
                 Some(Fill::NonZero) => FillRule::NonZero,
                 Some(Fill::Regions) => FillRule::Regions,
+                Some(Fill::Shapes) => FillRule::Shapes,
                 Some(Fill::EvenOdd) | None => FillRule::EvenOdd,
             },
             unit: self.unit.map(|unit| (unit, self.unit_from.unwrap_or_else(|| "outline".into()))),
@@ -372,13 +405,18 @@ impl File {
         for name in self.names.iter().flatten() {
             d.names.intern(name);
         }
+        for (i, shape) in self.shapes.into_iter().enumerate() {
+            let name = d.names.intern(&shape.name);
+            let entity = shape.entity.unwrap_or_else(|| shape_entity(i));
+            d.shapes.push(Shape { name, even_odd: shape.even_odd, entity });
+        }
         for (i, entry) in self.curves.into_iter().enumerate() {
             let name = d.names.intern(entry.name.as_deref().unwrap_or(UNNAMED));
             let whole = entry.entity.unwrap_or_else(|| curve_entity(i));
             let several = entry.curves.len() > 1;
             for (k, curve) in entry.curves.into_iter().enumerate() {
                 let entity = if several { format!("{whole}, edge {k}") } else { whole.clone() };
-                d.curves.push(DrawnCurve { curve, name, entity });
+                d.curves.push(DrawnCurve { curve, name, entity, shape: entry.shape.map(ShapeId) });
             }
         }
         for (i, p) in self.points.into_iter().enumerate() {
@@ -404,6 +442,9 @@ const UNNAMED: &str = "boundary";
 
 fn curve_entity(i: usize) -> String {
     format!("curve {i}")
+}
+fn shape_entity(i: usize) -> String {
+    format!("shape {i}")
 }
 fn point_entity(i: usize) -> String {
     format!("point {i}")
@@ -640,8 +681,8 @@ pub fn to_json(drawing: &Drawing) -> String {
         text.push_str(&format!("  {}: {value},\n", json!(key)));
     }
     let names = &drawing.names;
-    let curves = drawing.curves.iter().enumerate().map(|(i, c)| curve_value(i, c, names));
-    push_list(&mut text, "curves", curves);
+    push_list(&mut text, "shapes", drawing.shapes.iter().enumerate().map(|(i, s)| shape_value(i, s, names)));
+    push_list(&mut text, "curves", drawing.curves.iter().enumerate().map(|(i, c)| curve_value(i, c, names)));
     push_list(&mut text, "points", drawing.points.iter().enumerate().map(|(i, p)| point_value(i, p, names)));
     push_list(&mut text, "seeds", drawing.seeds.iter().enumerate().map(|(i, s)| seed_value(i, s, names)));
     push_list(&mut text, "sizes", drawing.sizes.iter().map(|s| size_value(s, names)));
@@ -666,6 +707,7 @@ fn fill_word(fill: FillRule) -> &'static str {
         FillRule::NonZero => "nonzero",
         FillRule::EvenOdd => "evenodd",
         FillRule::Regions => "regions",
+        FillRule::Shapes => "shapes",
     }
 }
 
@@ -684,14 +726,22 @@ fn with_entity(mut value: Value, entity: &str, default: &str) -> Value {
     value
 }
 
+fn shape_value(i: usize, shape: &Shape, names: &Names) -> Value {
+    let value = json!({ "name": names.text(shape.name), "even_odd": shape.even_odd });
+    with_entity(value, &shape.entity, &shape_entity(i))
+}
+
 fn curve_value(i: usize, drawn: &DrawnCurve, names: &Names) -> Value {
-    let (kind, shape) = shape_value(&drawn.curve);
-    let value = json!({ "name": names.text(drawn.name), kind: shape });
+    let (kind, form) = kind_value(&drawn.curve);
+    let mut value = json!({ "name": names.text(drawn.name), kind: form });
+    if let Some(shape) = drawn.shape {
+        value["shape"] = json!(shape);
+    }
     with_entity(value, &drawn.entity, &curve_entity(i))
 }
 
 /// The kind and its value: the plain form where reading that gives the same curve, else the one that spells everything out.
-fn shape_value(curve: &Curve) -> (&'static str, Value) {
+fn kind_value(curve: &Curve) -> (&'static str, Value) {
     let same = |plain: Result<Curve, CurveError>| plain.as_ref() == Ok(curve);
     match curve {
         Curve::Line(l) => ("line", json!([pair(l.start), pair(l.end)])),

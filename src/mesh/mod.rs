@@ -4,12 +4,13 @@
 pub mod quality;
 pub mod verify;
 
-use crate::geometry::Point;
+use crate::geometry::{Frame, Point};
 use crate::ids::{CurveId, IdVec, NameId, Names, PointId, RegionId, TriangleId, VertexId};
 
-/// A triangle mesh in the plane (order 1), with names and links back to the domain where they are known.
+/// A triangle mesh in the plane, with names and links back to the domain where they are known.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mesh {
+    /// Corners first; then, of a mesh of order 2, the nodes within edges.
     pub nodes: IdVec<VertexId, Point>,
     /// Corners of each triangle, counter-clockwise.
     pub triangles: IdVec<TriangleId, [VertexId; 3]>,
@@ -25,6 +26,14 @@ pub struct Mesh {
     pub points: Vec<(PointId, VertexId)>,
     /// Protecting balls that were set around acute corners.
     pub balls: Vec<Ball>,
+    /// Of order 2: the node within each side of each triangle: between its corners 0 and 1, 1 and 2, 2 and 0. Empty of order 1.
+    pub triangle_mids: IdVec<TriangleId, [VertexId; 3]>,
+    /// Of order 2: the node within each of `edges`. Empty of order 1.
+    pub edge_mids: Vec<VertexId>,
+    /// The physical unit of a coordinate, where known.
+    pub unit: Option<String>,
+    /// Where the plane of the mesh lies in space; `None`: x and y as they are, z = 0.
+    pub frame: Option<Frame>,
 }
 
 /// A mesh edge on a curve of the domain, or on a named boundary of a foreign mesh.
@@ -67,6 +76,16 @@ pub enum BallReason {
 }
 
 impl Mesh {
+    /// Polynomial order of the cells: 1 or 2.
+    pub fn order(&self) -> u8 {
+        if self.triangle_mids.is_empty() { 1 } else { 2 }
+    }
+
+    /// Every node in space.
+    pub fn places(&self) -> impl ExactSizeIterator<Item = [f64; 3]> {
+        self.nodes.iter().map(|&p| self.frame.map_or([p.x, p.y, 0.0], |frame| frame.place(p)))
+    }
+
     /// The corners of a triangle.
     pub fn corners(&self, t: TriangleId) -> [Point; 3] {
         self.triangles[t].map(|v| self.nodes[v])

@@ -5,11 +5,12 @@
 //!    to end at their nodes, bit for bit; again, until nothing meets but at common ends. The node is the truth: a drawn end, where there
 //!    is one, rather than a computed crossing. Pieces that coincide become one.
 //! 3. `star`: the curves around every point, in order.
-//! 4. `trace`: faces, winding numbers, hole and region seeds, names.
+//! 4. `trace`, `fill`: faces, winding numbers, painted shapes, hole and region seeds, names.
 //!
 //! All of it happens in a frame scaled by a power of two, so that the same drawing at another such scale gives the same bits.
 
 mod cut;
+mod fill;
 mod star;
 mod trace;
 mod weld;

@@ -1,12 +1,14 @@
 //! Faces: cycles of curve sides, which face holds which component, winding numbers, and the kept regions with their names.
 
 use super::cut::{Network, extent};
+use super::fill::Fill;
 use super::{ArrangeError, Drawing, FillRule, Repair, RepairKind};
 use crate::curve::End;
 use crate::domain::locate::{Axis, Hit, Locator, Side, Sight, left_of};
 use crate::domain::{Domain, Incident, Region, SeedKind};
 use crate::geometry::{Point, Rect};
 use crate::ids::{CurveId, Id, IdVec, NameId, PointId, RegionId};
+use std::collections::BTreeSet;
 
 /// Axis-parallel lines tried through a component before its place counts as undecided; each fails only by passing within rounding of
 /// a vertex or along a curve.
@@ -17,17 +19,17 @@ const FRAME: f64 = 16.0;
 
 /// A curve side: the curve travelled forward has its face on the left, travelled backward the one on its right.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-struct Half {
-    curve: CurveId,
-    side: Side,
+pub(super) struct Half {
+    pub curve: CurveId,
+    pub side: Side,
 }
 
 impl Half {
-    fn index(self) -> usize {
+    pub fn index(self) -> usize {
         2 * self.curve.index() + self.side.index()
     }
 
-    fn twin(self) -> Self {
+    pub fn twin(self) -> Self {
         Half { side: self.side.other(), ..self }
     }
 
@@ -42,22 +44,22 @@ impl Half {
 }
 
 /// A face: a cycle that bounds it from outside, known by its place; `None`: the unbounded face.
-type Face = Option<usize>;
+pub(super) type Face = Option<usize>;
 
 /// The cycles of all sides, their components, and how components lie in each other.
 pub(super) struct Faces {
-    cycle_of: Vec<usize>,
-    cycles: Vec<Cycle>,
+    pub cycle_of: Vec<usize>,
+    pub cycles: Vec<Cycle>,
     /// By component: the cycle that sees the component from outside.
-    outer: Vec<usize>,
+    pub outer: Vec<usize>,
     /// By component: the face in which it lies.
-    parent: Vec<Face>,
+    pub parent: Vec<Face>,
 }
 
-struct Cycle {
-    halves: Vec<Half>,
-    area: f64,
-    component: usize,
+pub(super) struct Cycle {
+    pub halves: Vec<Half>,
+    pub area: f64,
+    pub component: usize,
 }
 
 impl Faces {
@@ -85,8 +87,17 @@ impl Faces {
         if self.outer[component] == cycle { self.parent[component] } else { Some(cycle) }
     }
 
-    fn face(&self, half: Half) -> Face {
+    pub fn face(&self, half: Half) -> Face {
         self.face_of_cycle(self.cycle_of[half.index()])
+    }
+
+    /// The components that lie in each face (by its cycle) and, last, in the unbounded one.
+    pub fn components_by_face(&self) -> Vec<Vec<usize>> {
+        let mut holds = vec![Vec::new(); self.cycles.len() + 1];
+        for (component, parent) in self.parent.iter().enumerate() {
+            holds[parent.unwrap_or(self.cycles.len())].push(component);
+        }
+        holds
     }
 
     /// The face in which every component lies.
@@ -248,151 +259,6 @@ fn area(domain: &Domain, halves: &[Half]) -> f64 {
     sum + lost
 }
 
-// ---- which faces are inside ----
-
-/// How often the drawn curves go around every face (by the cycle that bounds it); 0 of the unbounded face.
-struct Windings<'a> {
-    faces: &'a Faces,
-    domain: &'a Domain,
-    rule: FillRule,
-    /// How often each curve counts, in its own direction; 0 where the same face lies on both sides.
-    weight: Vec<i32>,
-    winding: Vec<Option<i32>>,
-}
-
-fn is_inside(rule: FillRule, winding: i32) -> bool {
-    match rule {
-        FillRule::NonZero => winding != 0,
-        FillRule::EvenOdd => winding % 2 != 0,
-        FillRule::Regions => true,
-    }
-}
-
-impl Windings<'_> {
-    fn of(&self, face: Face) -> i32 {
-        face.map_or(0, |f| self.winding[f].unwrap_or(0))
-    }
-
-    /// Winding numbers of all faces, outer components first.
-    fn settle(&mut self, counted: &[bool]) {
-        let faces = self.faces;
-        let mut inside: Vec<Vec<usize>> = vec![Vec::new(); faces.cycles.len()];
-        let mut queue: Vec<usize> = Vec::new();
-        for (component, parent) in faces.parent.iter().enumerate() {
-            match parent {
-                Some(face) => inside[*face].push(component),
-                None => queue.push(component),
-            }
-        }
-        let mut bounded: Vec<Vec<usize>> = vec![Vec::new(); faces.outer.len()];
-        for (i, cycle) in faces.cycles.iter().enumerate() {
-            if faces.outer[cycle.component] != i {
-                bounded[cycle.component].push(i);
-            }
-        }
-        while let Some(component) = queue.pop() {
-            self.settle_component(component, &bounded[component], counted);
-            queue.extend(bounded[component].iter().flat_map(|&face| inside[face].iter().copied()));
-        }
-    }
-
-    fn settle_component(&mut self, component: usize, bounded: &[usize], counted: &[bool]) {
-        let around = self.of(self.faces.parent[component]);
-        let outer = self.faces.outer[component];
-        let sides = bounded.iter().chain([&outer]).flat_map(|&cycle| &self.faces.cycles[cycle].halves);
-        let closed = bounded.is_empty() || sides.clone().any(|half| counted[half.curve.index()]);
-        if !closed {
-            // Nothing but open curves that enclose something by crossing: filled where nothing around them is.
-            let within = if is_inside(self.rule, around) { around } else { around + 1 };
-            bounded.iter().for_each(|&face| self.winding[face] = Some(within));
-        } else if self.is_balanced(sides.copied()) {
-            self.spread(outer, around);
-        } else {
-            bounded.iter().for_each(|&face| self.winding[face] = Some(around + 1));
-        }
-    }
-
-    /// Whether as many curves arrive as leave, at every point: only then is the winding number the same along every way.
-    fn is_balanced(&self, sides: impl Iterator<Item = Half>) -> bool {
-        let mut flow: Vec<(PointId, i32)> = Vec::new();
-        for half in sides.filter(|h| h.side == Side::Left) {
-            let weight = self.weight[half.curve.index()];
-            let ends = self.domain.curves[half.curve].ends;
-            flow.extend([(ends[0], weight), (ends[1], -weight)]);
-        }
-        flow.sort_unstable();
-        flow.chunk_by(|a, b| a.0 == b.0).all(|chunk| {
-            let net: i32 = chunk.iter().map(|f| f.1).sum();
-            if self.rule == FillRule::EvenOdd { net % 2 == 0 } else { net == 0 }
-        })
-    }
-
-    /// From the face around a component across its curves to all its faces.
-    fn spread(&mut self, outer: usize, around: i32) {
-        let mut stack = vec![(outer, around)];
-        while let Some((cycle, winding)) = stack.pop() {
-            for &half in &self.faces.cycles[cycle].halves {
-                let beyond = self.faces.cycle_of[half.twin().index()];
-                if beyond == outer || beyond == cycle || self.winding[beyond].is_some() {
-                    continue;
-                }
-                let weight = self.weight[half.curve.index()];
-                // The left of a curve that counts once winds once more than its right.
-                let there = if half.side == Side::Left { winding - weight } else { winding + weight };
-                self.winding[beyond] = Some(there);
-                stack.push((beyond, there));
-            }
-        }
-    }
-}
-
-/// Which drawn curves are parts of closed outlines, by their own ends: a curve at a free end is none, nor what is left free without it.
-fn closed_outlines(network: &Network) -> Vec<bool> {
-    let mut at: IdVec<PointId, Vec<usize>> = vec![Vec::new(); network.nodes.len()].into();
-    for (i, ends) in network.drawn_ends.iter().enumerate() {
-        ends.iter().flatten().for_each(|&end| at[end].push(i));
-    }
-    let mut closed: Vec<bool> = network.drawn_ends.iter().map(Option::is_some).collect();
-    let mut degree: IdVec<PointId, usize> = at.iter().map(Vec::len).collect();
-    let mut free: Vec<PointId> = degree.enumerate().filter(|&(_, &d)| d == 1).map(|(id, _)| id).collect();
-    while let Some(end) = free.pop() {
-        let Some(&gone) = at[end].iter().find(|&&i| closed[i]) else { continue };
-        closed[gone] = false;
-        for &other in network.drawn_ends[gone].iter().flatten() {
-            degree[other] -= 1;
-            if degree[other] == 1 {
-                free.push(other);
-            }
-        }
-    }
-    closed
-}
-
-fn windings(network: &Network, domain: &Domain, faces: &Faces, rule: FillRule) -> Vec<i32> {
-    let closed = closed_outlines(network);
-    let same_face = |id: CurveId| {
-        let [left, right] = [Side::Left, Side::Right].map(|side| faces.cycle_of[Half { curve: id, side }.index()]);
-        left == right
-    };
-    let drawn = |id: CurveId| {
-        let piece = &network.pieces[id];
-        [(piece.source, false)].into_iter().chain(piece.merged.iter().copied())
-    };
-    let count = |(source, against): (u32, bool)| match closed[source as usize] {
-        false => 0,
-        true if against => -1,
-        true => 1,
-    };
-    let weight = domain.curves.ids().map(|id| if same_face(id) { 0 } else { drawn(id).map(count).sum() });
-    let counted: Vec<bool> = (domain.curves.ids())
-        .map(|id| !same_face(id) && drawn(id).any(|(source, _)| closed[source as usize]))
-        .collect();
-    let winding = vec![None; faces.cycles.len()];
-    let mut windings = Windings { faces, domain, rule, weight: weight.collect(), winding };
-    windings.settle(&counted);
-    windings.winding.into_iter().map(|w| w.unwrap_or(0)).collect()
-}
-
 // ---- regions ----
 
 /// What the seeds say of a face.
@@ -410,12 +276,7 @@ pub(super) fn keep(
     rule: FillRule,
     holes: bool,
 ) -> Result<(), ArrangeError> {
-    let winding = match rule {
-        FillRule::Regions => vec![1; faces.cycles.len()],
-        _ => windings(network, domain, faces, rule),
-    };
-    let is_bounded = |cycle: usize| faces.outer[faces.cycles[cycle].component] != cycle;
-    let mut kept: Vec<bool> = (0..faces.cycles.len()).map(|c| is_bounded(c) && is_inside(rule, winding[c])).collect();
+    let Fill { inside: mut kept, painter } = Fill::new(network, domain, faces, rule);
     let said = read_seeds(network.drawing, domain, faces, network.tolerances.weld);
     for (face, said) in said.iter().enumerate() {
         kept[face] &= !(holes && *said == Some(Said::Hole));
@@ -424,7 +285,11 @@ pub(super) fn keep(
         return Err(nothing_to_mesh(network, faces));
     }
     let areas = face_areas(faces);
-    let region_of = name_regions(domain, faces, &kept, &said, &areas);
+    let named = |face: usize| match said[face] {
+        Some(Said::Region(name, max_area)) => Some((name, max_area)),
+        _ => painter[face].map(|shape| (network.drawing.shapes[shape].name, None)),
+    };
+    let region_of = name_regions(domain, faces, &kept, named, &areas);
     let region = |half: Half| faces.face(half).and_then(|face| region_of[face]);
     for id in domain.curves.ids() {
         let sides = [Side::Left, Side::Right].map(|side| region(Half { curve: id, side }));
@@ -477,20 +342,21 @@ fn face_areas(faces: &Faces) -> Vec<f64> {
     areas
 }
 
-/// One region for each name and area limit that seeds give, in their order; then one for each other kept face, the largest first.
+/// One region for each name and area limit that is given, in order of the names; then one for each other kept face, the largest
+/// first, under a name that no other region has.
 fn name_regions(
     domain: &mut Domain,
     faces: &Faces,
     kept: &[bool],
-    said: &[Option<Said>],
+    given: impl Fn(usize) -> Option<(NameId, Option<f64>)>,
     areas: &[f64],
 ) -> Vec<Option<RegionId>> {
     let mut region_of = vec![None; faces.cycles.len()];
     let (mut named, mut unnamed) = (Vec::new(), Vec::new());
     for face in (0..kept.len()).filter(|&f| kept[f]) {
-        match said[face] {
-            Some(Said::Region(name, max_area)) => named.push((name, max_area, face)),
-            _ => unnamed.push(face),
+        match given(face) {
+            Some((name, max_area)) => named.push((name, max_area, face)),
+            None => unnamed.push(face),
         }
     }
     let limit = |max_area: Option<f64>| max_area.unwrap_or(f64::INFINITY);
@@ -510,9 +376,10 @@ fn name_regions(
         let lower = a.1[0].total_cmp(&b.1[0]).then(a.1[1].total_cmp(&b.1[1]));
         b.0.total_cmp(&a.0).then(lower).then(a.2.cmp(&b.2))
     });
-    let alone = placed.len() == 1;
-    for (k, &(area, _, face)) in placed.iter().enumerate() {
-        let name = if alone { "region".to_owned() } else { format!("region{}", k + 1) };
+    let taken: BTreeSet<String> = domain.regions.iter().map(|r| domain.name(r.name).to_owned()).collect();
+    let alone = (placed.len() == 1).then(|| "region".to_owned());
+    let free = alone.into_iter().chain((1..).map(|k| format!("region{k}"))).filter(|name| !taken.contains(name));
+    for ((area, _, face), name) in placed.into_iter().zip(free) {
         let name = domain.names.intern(&name);
         region_of[face] = Some(domain.regions.push(Region { name, area, max_area: None }));
     }

@@ -1,0 +1,244 @@
+//! Which faces are inside: by how often the drawn curves go around them, or by the shapes of a picture that paint them.
+
+use super::FillRule;
+use super::cut::Network;
+use super::trace::{Face, Faces, Half};
+use crate::domain::locate::Side;
+use crate::domain::{Domain, Shape};
+use crate::ids::{CurveId, Id, IdVec, PointId, ShapeId};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// What the fill rule says of every face, by the cycle that bounds it.
+pub(super) struct Fill {
+    pub inside: Vec<bool>,
+    /// The topmost shape that paints the face.
+    pub painter: Vec<Option<ShapeId>>,
+}
+
+impl Fill {
+    pub fn new(network: &Network, domain: &Domain, faces: &Faces, rule: FillRule) -> Self {
+        let is_bounded = |cycle: usize| faces.outer[faces.cycles[cycle].component] != cycle;
+        let painter = painters(network, faces);
+        let inside: Vec<bool> = match rule {
+            FillRule::Regions => vec![true; faces.cycles.len()],
+            FillRule::Shapes => painter.iter().map(Option::is_some).collect(),
+            FillRule::NonZero | FillRule::EvenOdd => {
+                let winding = windings(network, domain, faces, rule);
+                winding.into_iter().map(|w| is_inside(rule, w)).collect()
+            }
+        };
+        let inside = inside.into_iter().enumerate().map(|(cycle, inside)| inside && is_bounded(cycle)).collect();
+        Self { inside, painter }
+    }
+}
+
+/// How often the drawn curves go around every face (by the cycle that bounds it); 0 of the unbounded face.
+struct Windings<'a> {
+    faces: &'a Faces,
+    domain: &'a Domain,
+    rule: FillRule,
+    /// How often each curve counts, in its own direction; 0 where the same face lies on both sides.
+    weight: Vec<i32>,
+    winding: Vec<Option<i32>>,
+}
+
+fn is_inside(rule: FillRule, winding: i32) -> bool {
+    match rule {
+        FillRule::NonZero => winding != 0,
+        FillRule::EvenOdd => winding % 2 != 0,
+        FillRule::Regions | FillRule::Shapes => true,
+    }
+}
+
+impl Windings<'_> {
+    fn of(&self, face: Face) -> i32 {
+        face.map_or(0, |f| self.winding[f].unwrap_or(0))
+    }
+
+    /// Winding numbers of all faces, outer components first.
+    fn settle(&mut self, counted: &[bool]) {
+        let faces = self.faces;
+        let mut inside = faces.components_by_face();
+        let mut queue = inside.pop().unwrap_or_default();
+        let mut bounded: Vec<Vec<usize>> = vec![Vec::new(); faces.outer.len()];
+        for (i, cycle) in faces.cycles.iter().enumerate() {
+            if faces.outer[cycle.component] != i {
+                bounded[cycle.component].push(i);
+            }
+        }
+        while let Some(component) = queue.pop() {
+            self.settle_component(component, &bounded[component], counted);
+            queue.extend(bounded[component].iter().flat_map(|&face| inside[face].iter().copied()));
+        }
+    }
+
+    fn settle_component(&mut self, component: usize, bounded: &[usize], counted: &[bool]) {
+        let around = self.of(self.faces.parent[component]);
+        let outer = self.faces.outer[component];
+        let sides = bounded.iter().chain([&outer]).flat_map(|&cycle| &self.faces.cycles[cycle].halves);
+        let closed = bounded.is_empty() || sides.clone().any(|half| counted[half.curve.index()]);
+        if !closed {
+            // Nothing but open curves that enclose something by crossing: filled where nothing around them is.
+            let within = if is_inside(self.rule, around) { around } else { around + 1 };
+            bounded.iter().for_each(|&face| self.winding[face] = Some(within));
+        } else if self.is_balanced(sides.copied()) {
+            self.spread(outer, around);
+        } else {
+            bounded.iter().for_each(|&face| self.winding[face] = Some(around + 1));
+        }
+    }
+
+    /// Whether as many curves arrive as leave, at every point: only then is the winding number the same along every way.
+    fn is_balanced(&self, sides: impl Iterator<Item = Half>) -> bool {
+        let mut flow: Vec<(PointId, i32)> = Vec::new();
+        for half in sides.filter(|h| h.side == Side::Left) {
+            let weight = self.weight[half.curve.index()];
+            let ends = self.domain.curves[half.curve].ends;
+            flow.extend([(ends[0], weight), (ends[1], -weight)]);
+        }
+        flow.sort_unstable();
+        flow.chunk_by(|a, b| a.0 == b.0).all(|chunk| {
+            let net: i32 = chunk.iter().map(|f| f.1).sum();
+            if self.rule == FillRule::EvenOdd { net % 2 == 0 } else { net == 0 }
+        })
+    }
+
+    /// From the face around a component across its curves to all its faces.
+    fn spread(&mut self, outer: usize, around: i32) {
+        let mut stack = vec![(outer, around)];
+        while let Some((cycle, winding)) = stack.pop() {
+            for &half in &self.faces.cycles[cycle].halves {
+                let beyond = self.faces.cycle_of[half.twin().index()];
+                if beyond == outer || beyond == cycle || self.winding[beyond].is_some() {
+                    continue;
+                }
+                let weight = self.weight[half.curve.index()];
+                // The left of a curve that counts once winds once more than its right.
+                let there = if half.side == Side::Left { winding - weight } else { winding + weight };
+                self.winding[beyond] = Some(there);
+                stack.push((beyond, there));
+            }
+        }
+    }
+}
+
+/// Which drawn curves are parts of closed outlines, by their own ends: a curve at a free end is none, nor what is left free without it.
+fn closed_outlines(network: &Network) -> Vec<bool> {
+    let mut at: IdVec<PointId, Vec<usize>> = vec![Vec::new(); network.nodes.len()].into();
+    for (i, ends) in network.drawn_ends.iter().enumerate() {
+        ends.iter().flatten().for_each(|&end| at[end].push(i));
+    }
+    let mut closed: Vec<bool> = network.drawn_ends.iter().map(Option::is_some).collect();
+    let mut degree: IdVec<PointId, usize> = at.iter().map(Vec::len).collect();
+    let mut free: Vec<PointId> = degree.enumerate().filter(|&(_, &d)| d == 1).map(|(id, _)| id).collect();
+    while let Some(end) = free.pop() {
+        let Some(&gone) = at[end].iter().find(|&&i| closed[i]) else { continue };
+        closed[gone] = false;
+        for &other in network.drawn_ends[gone].iter().flatten() {
+            degree[other] -= 1;
+            if degree[other] == 1 {
+                free.push(other);
+            }
+        }
+    }
+    closed
+}
+
+fn windings(network: &Network, domain: &Domain, faces: &Faces, rule: FillRule) -> Vec<i32> {
+    let closed = closed_outlines(network);
+    let same_face = |id: CurveId| {
+        let [left, right] = [Side::Left, Side::Right].map(|side| faces.cycle_of[Half { curve: id, side }.index()]);
+        left == right
+    };
+    let drawn = |id: CurveId| drawn_along(network, id);
+    let count = |(source, against): (u32, bool)| match closed[source as usize] {
+        false => 0,
+        true if against => -1,
+        true => 1,
+    };
+    let weight = domain.curves.ids().map(|id| if same_face(id) { 0 } else { drawn(id).map(count).sum() });
+    let counted: Vec<bool> = (domain.curves.ids())
+        .map(|id| !same_face(id) && drawn(id).any(|(source, _)| closed[source as usize]))
+        .collect();
+    let winding = vec![None; faces.cycles.len()];
+    let mut windings = Windings { faces, domain, rule, weight: weight.collect(), winding };
+    windings.settle(&counted);
+    windings.winding.into_iter().map(|w| w.unwrap_or(0)).collect()
+}
+
+/// The drawn curves that run along a piece of the domain, and whether each runs against it.
+fn drawn_along(network: &Network, id: CurveId) -> impl Iterator<Item = (u32, bool)> {
+    let piece = &network.pieces[id];
+    [(piece.source, false)].into_iter().chain(piece.merged.iter().copied())
+}
+
+// ---- shapes ----
+
+/// How often each shape goes around one face, and which shapes fill it. Held for one face at a time: a tour of all faces crosses one
+/// curve after another, and back, so that shapes nested a thousand deep cost no more than the curves they are made of.
+struct Paint<'a> {
+    shapes: &'a IdVec<ShapeId, Shape>,
+    winding: BTreeMap<ShapeId, i32>,
+    filled: BTreeSet<ShapeId>,
+}
+
+impl Paint<'_> {
+    fn add(&mut self, shape: ShapeId, turns: i32) {
+        let winding = self.winding.entry(shape).or_insert(0);
+        *winding += turns;
+        let fills = if self.shapes[shape].even_odd { *winding % 2 != 0 } else { *winding != 0 };
+        if fills {
+            self.filled.insert(shape);
+        } else {
+            self.filled.remove(&shape);
+        }
+        if *winding == 0 {
+            self.winding.remove(&shape);
+        }
+    }
+
+    /// Goes from the face of a curve's side to the face across the curve.
+    fn cross(&mut self, half: Half, network: &Network) {
+        for (source, against) in drawn_along(network, half.curve) {
+            if let Some(shape) = network.drawing.curves[source as usize].shape {
+                // The left of a curve that runs once around a shape winds once more than its right.
+                let leaves_left = (half.side == Side::Left) != against;
+                self.add(shape, if leaves_left { -1 } else { 1 });
+            }
+        }
+    }
+}
+
+/// The topmost shape that fills each face.
+fn painters(network: &Network, faces: &Faces) -> Vec<Option<ShapeId>> {
+    enum Step {
+        Cross(Half),
+        Return(Half),
+    }
+    let mut painter = vec![None; faces.cycles.len()];
+    if network.drawing.shapes.is_empty() {
+        return painter;
+    }
+    let holds = faces.components_by_face();
+    let sides = |face: Face| {
+        let around = holds[face.unwrap_or(faces.cycles.len())].iter().map(|&component| faces.outer[component]);
+        face.into_iter().chain(around).flat_map(|cycle| faces.cycles[cycle].halves.iter().copied())
+    };
+    let mut seen = vec![false; faces.cycles.len()];
+    let mut paint = Paint { shapes: &network.drawing.shapes, winding: BTreeMap::new(), filled: BTreeSet::new() };
+    let mut steps: Vec<Step> = sides(None).map(Step::Cross).collect();
+    while let Some(step) = steps.pop() {
+        match step {
+            Step::Return(half) => paint.cross(half.twin(), network),
+            Step::Cross(half) => {
+                let Some(face) = faces.face(half.twin()).filter(|&face| !seen[face]) else { continue };
+                seen[face] = true;
+                paint.cross(half, network);
+                painter[face] = paint.filled.last().copied();
+                steps.push(Step::Return(half));
+                steps.extend(sides(Some(face)).map(Step::Cross));
+            }
+        }
+    }
+    painter
+}
