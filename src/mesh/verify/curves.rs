@@ -1,5 +1,4 @@
-//! What the curves of the domain ask of the mesh: nodes on them, chains of edges along them, empty diametral circles,
-//! small errors.
+//! What the curves of the domain ask of the mesh: nodes on them, chains of edges along them, small errors.
 
 use super::evidence::{Evidence, Piece, is_kept, place};
 use super::tally::Tally;
@@ -7,9 +6,8 @@ use super::topology::{ends_a_region, nodes_of_points};
 use super::{Check, Status};
 use crate::curve::Curve;
 use crate::domain::Domain;
+use crate::geometry::Point;
 use crate::geometry::boxes::BoxHierarchy;
-use crate::geometry::exact::{CircleSide, in_diametral};
-use crate::geometry::{Point, Rect};
 use crate::ids::{CurveId, Id, IdVec, PointId, VertexId};
 
 /// Every linked node lies where its curve has the parameter, within the welding distance and rounding; ends lie exactly
@@ -114,88 +112,6 @@ fn gap_in(ev: &Evidence, chain: &[Piece], ends: [Option<VertexId>; 2]) -> Option
     }
     let torn = chain.windows(2).find(|w| w[0].t[1] != w[1].t[0] || w[0].nodes[1] != w[1].nodes[0])?;
     Some(format!("has a gap after t = {}, node {} at {}", torn[0].t[1], torn[0].nodes[1].0, at(torn[0].nodes[1])))
-}
-
-/// No node lies inside the diametral circle of a curve's edge (Lemma 6): the apexes beside each edge first, then every
-/// node of the mesh by a hierarchy over the circles' boxes. A spoke's circle lies in its ball and touches the rim, on which nodes are
-/// rounded: where curves leave a corner close to each other, a neighbour on the rim does not count. Checked: edges. Worst: the smallest distance of a node from
-/// the circle's centre, in radii.
-pub fn empty_diametral(ev: &Evidence, domain: &Domain) -> Check {
-    let mut tally = Tally::lowest("empty_diametral");
-    let mut intruder: Vec<Option<VertexId>> = vec![None; ev.pieces.len()];
-    let balls = ball_at_nodes(ev, domain);
-    for (piece, intruder) in ev.pieces.iter().zip(&mut intruder) {
-        tally.count();
-        for apex in apexes(ev, piece) {
-            tally.measure(radii_away(ev, piece, apex), ev.middle(piece.nodes));
-            if encroaches(ev, piece, apex) && !is_on_rim(ev, &balls, piece, apex) {
-                *intruder = Some(apex);
-            }
-        }
-    }
-    let circles = BoxHierarchy::new(ev.pieces.iter().map(|p| box_of_circle(ev, p)));
-    for (v, &at) in ev.mesh.nodes.enumerate() {
-        circles.meeting(Rect::from_points(at, at), |i| {
-            let piece = &ev.pieces[i];
-            if intruder[i].is_none() && encroaches(ev, piece, v) && !is_on_rim(ev, &balls, piece, v) {
-                tally.measure(radii_away(ev, piece, v), ev.middle(piece.nodes));
-                intruder[i] = Some(v);
-            }
-            true
-        });
-    }
-    for (piece, v) in ev.pieces.iter().zip(intruder).filter_map(|(p, v)| Some((p, v?))) {
-        let name = domain.name(domain.curves()[piece.curve].name);
-        let node = ev.node(v);
-        tally.flaw(|| {
-            let edge = ev.tell_edge(piece.nodes);
-            format!("node {} at {} lies inside the diametral circle of {edge} of \"{name}\"", v.0, place(node))
-        });
-    }
-    tally.finish(Status::Proven)
-}
-
-fn apexes(ev: &Evidence, piece: &Piece) -> impl Iterator<Item = VertexId> {
-    let edge = piece.edge.map(|e| ev.edges.edges()[e]);
-    let sides = edge.into_iter().flat_map(|e| [e.left(), e.right()]).flatten();
-    sides.map(|s| ev.mesh.triangles[s.triangle][(s.corner + 2) % 3])
-}
-
-fn encroaches(ev: &Evidence, piece: &Piece, v: VertexId) -> bool {
-    let [x, y] = piece.nodes.map(|v| ev.signs[v]);
-    in_diametral(x, y, ev.signs[v]) == CircleSide::Inside
-}
-
-/// Nodes at corners with a ball, ascending, and the radius.
-fn ball_at_nodes(ev: &Evidence, domain: &Domain) -> Vec<(VertexId, f64)> {
-    let nodes = nodes_of_points(ev, domain);
-    let mut balls: Vec<(VertexId, f64)> =
-        ev.mesh.balls.iter().filter_map(|ball| Some((nodes[ball.corner]?, ball.radius))).collect();
-    balls.sort_unstable_by_key(|&(v, _)| v);
-    balls
-}
-
-/// Whether a piece is a spoke, from a corner to the rim of its ball, and a node lies on that rim too, or outside.
-fn is_on_rim(ev: &Evidence, balls: &[(VertexId, f64)], piece: &Piece, v: VertexId) -> bool {
-    let [x, y] = piece.nodes;
-    [(x, y), (y, x)].into_iter().any(|(corner, end)| {
-        let Ok(i) = balls.binary_search_by_key(&corner, |&(v, _)| v) else { return false };
-        let (center, inner) = (ev.node(corner), balls[i].1 - ev.rim);
-        ev.node(end).distance(center) >= inner
-            && ev.node(end).distance(center) <= balls[i].1 + ev.rim
-            && ev.node(v).distance(center) >= inner
-    })
-}
-
-fn radii_away(ev: &Evidence, piece: &Piece, v: VertexId) -> f64 {
-    let [x, y] = piece.nodes.map(|v| ev.node(v));
-    2.0 * ev.node(v).distance(x.midpoint(y)) / x.distance(y)
-}
-
-fn box_of_circle(ev: &Evidence, piece: &Piece) -> Rect {
-    let [x, y] = piece.nodes.map(|v| ev.node(v));
-    let (center, radius) = (x.midpoint(y), 0.5 * x.distance(y) + ev.rounding);
-    Rect::from_center_size(center, (2.0 * radius, 2.0 * radius))
 }
 
 /// Where asked: no curve is farther than the limit from its edge.

@@ -19,6 +19,7 @@
 
 mod angles;
 mod balls;
+mod circles;
 mod curves;
 mod edges;
 mod evidence;
@@ -31,6 +32,7 @@ pub use angles::{ANGLE_RULE_GUARANTEE_RAD, guaranteed_angle};
 use super::Mesh;
 use crate::domain::Domain;
 use crate::size::Sizing;
+use circles::Circles;
 use evidence::Evidence;
 use tally::Tally;
 
@@ -129,10 +131,14 @@ pub fn verify(domain: Option<&Domain>, mesh: &Mesh, promise: &Promise) -> Verdic
     let known =
         |check: fn(&Evidence, &Domain) -> Check, name| domain.map_or(Check::not_asked(name), |d| check(&evidence, d));
     // Checks share nothing but the evidence: the dear ones take what cores there are.
-    let (conforming, (empty_diametral, delaunay)) = rayon::join(
-        || known(topology::conforming, "conforming"),
-        || (known(curves::empty_diametral, "empty_diametral"), angles::delaunay(&evidence)),
-    );
+    let (circles, delaunay) =
+        rayon::join(|| domain.map(|d| (d, Circles::look(&evidence, d))), || angles::delaunay(&evidence));
+    let (conforming, empty_diametral) = match circles {
+        Some((domain, circles)) => {
+            rayon::join(|| topology::conforming(&evidence, domain, &circles), || circles.empty(&evidence, domain))
+        }
+        None => (Check::not_asked("conforming"), Check::not_asked("empty_diametral")),
+    };
     let ((on_curve, curve_chain), (chord_error, edge_turning)) = rayon::join(
         || (known(curves::on_curve, "on_curve"), known(curves::curve_chain, "curve_chain")),
         || (known(curves::chord_error, "chord_error"), known(curves::edge_turning, "edge_turning")),

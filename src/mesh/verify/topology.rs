@@ -1,5 +1,6 @@
 //! Orientation, manifoldness, and whether the mesh conforms to the domain.
 
+use super::circles::Circles;
 use super::edges::Edge;
 use super::evidence::{Evidence, Piece, is_kept, place};
 use super::tally::Tally;
@@ -47,7 +48,7 @@ pub fn manifold(ev: &Evidence) -> Check {
 /// The edges at which a region ends are exactly the chords of the curves, each with its regions on the right sides, and
 /// no two chords cross; every point of P in a kept region is a node, and (ours) every node has a triangle. A hanging
 /// node would leave an edge that ends a region on no curve. Checked: chords, other edges that end a region, and points.
-pub fn conforming(ev: &Evidence, domain: &Domain) -> Check {
+pub fn conforming(ev: &Evidence, domain: &Domain, circles: &Circles) -> Check {
     let mut tally = Tally::highest("conforming");
     let mut on_curve = vec![false; ev.edges.edges().len()];
     for piece in &ev.pieces {
@@ -59,7 +60,7 @@ pub fn conforming(ev: &Evidence, domain: &Domain) -> Check {
             tally.flaw(|| format!("{} ends a region, but lies on no curve", ev.tell_edge(edge.nodes)));
         }
     }
-    crossing_chords(ev, &mut tally);
+    circles.tell_crossings(ev, &mut tally);
     missing_points(ev, domain, &mut tally);
     if !ev.promise.foreign {
         idle_nodes(ev, &mut tally);
@@ -89,24 +90,6 @@ fn chord(ev: &Evidence, domain: &Domain, piece: &Piece, on_curve: &mut [bool], t
             )
         });
     }
-}
-
-/// Chords that cross although their curves do not: the triangles beside them would overlap.
-fn crossing_chords(ev: &Evidence, tally: &mut Tally) {
-    let ends = |i: usize| ev.pieces[i].nodes.map(|v| ev.signs[v]);
-    let boxes = BoxHierarchy::new((0..ev.pieces.len()).map(|i| Rect::from_points(ends(i)[0], ends(i)[1])));
-    boxes.pairs(|i, j| {
-        if part(ends(i), ends(j)) && part(ends(j), ends(i)) {
-            let [first, second] = [i, j].map(|k| ev.tell_edge(ev.pieces[k].nodes));
-            tally.flaw(|| format!("{first} crosses {second}"));
-        }
-    });
-}
-
-/// Whether the line through `a b` has `x` and `y` strictly on either side.
-fn part([a, b]: [Point; 2], [x, y]: [Point; 2]) -> bool {
-    let sides = [orient(a, b, x), orient(a, b, y)];
-    sides.contains(&Orientation::Clockwise) && sides.contains(&Orientation::CounterClockwise)
 }
 
 /// Classes on the left and right of an edge followed from `nodes[0]`.

@@ -168,8 +168,8 @@ pub struct Lopping {
     balls: Balls,
     /// Balls that a vertex came into.
     intruded: VecDeque<BallId>,
-    /// Pieces to be looked at.
-    suspects: VecDeque<PieceId>,
+    /// Pieces to be looked at, the latest first: its place is still in the cache.
+    suspects: Vec<PieceId>,
     /// Balls whose arcs are due.
     arcs_due: VecDeque<BallId>,
     /// Triangles with an angle below κ, and triangles too large.
@@ -265,7 +265,7 @@ impl Lopping {
         if let Some(ball) = self.intruded.pop_front() {
             return Rule::ShrinkBall(ball);
         }
-        if let Some(piece) = self.suspects.pop_front() {
+        if let Some(piece) = self.suspects.pop() {
             return Rule::Look(piece);
         }
         if !self.carved || !self.fresh.is_empty() {

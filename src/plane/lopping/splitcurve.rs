@@ -32,7 +32,7 @@ impl Lopping {
         let entry = self.subcurves.get_mut(piece);
         if !entry.queued {
             entry.queued = true;
-            self.suspects.push_back(piece);
+            self.suspects.push(piece);
         }
     }
 

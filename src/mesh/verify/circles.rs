@@ -1,0 +1,176 @@
+//! What lies in the diametral circles of the curves' edges: nodes that encroach, and edges that cross.
+//!
+//! Two segments that cross are the diagonals of a quadrilateral, one of whose angles is 90° or more: that corner lies in the closed
+//! diametral circle of the diagonal that faces it. So whoever looks at the nodes in every circle has met every crossing.
+
+use super::evidence::{Evidence, Piece, place};
+use super::tally::Tally;
+use super::topology::nodes_of_points;
+use super::{Check, Status};
+use crate::domain::Domain;
+use crate::geometry::boxes::BoxHierarchy;
+use crate::geometry::exact::{CircleSide, Orientation, in_diametral, orient};
+use crate::geometry::{Point, Rect};
+use crate::ids::{Id, VertexId};
+use rayon::prelude::*;
+use std::sync::atomic::{AtomicU32, Ordering};
+
+/// No such node or piece.
+const NONE: u32 = u32::MAX;
+
+/// By piece: the first node in its open diametral circle, and the first piece that crosses it.
+pub struct Circles {
+    intruder: Vec<AtomicU32>,
+    crossing: Vec<AtomicU32>,
+}
+
+impl Circles {
+    /// Looks into every circle by a hierarchy over their boxes.
+    pub fn look(ev: &Evidence, domain: &Domain) -> Self {
+        let none = || ev.pieces.iter().map(|_| AtomicU32::new(NONE)).collect();
+        let circles = Self { intruder: none(), crossing: none() };
+        let balls = ball_at_nodes(ev, domain);
+        let at_node = PiecesAtNodes::new(ev);
+        let boxes = BoxHierarchy::new(ev.pieces.iter().map(|p| box_of_circle(ev, p)));
+        (0..ev.mesh.nodes.len()).into_par_iter().map(VertexId::from_index).for_each(|v| {
+            let at = ev.node(v);
+            boxes.meeting(Rect::from_points(at, at), |i| {
+                circles.note(ev, &balls, &at_node, i, v);
+                true
+            });
+        });
+        circles
+    }
+
+    /// Takes down what a node near a piece means. The smallest ids win, in whatever order nodes are looked at.
+    fn note(&self, ev: &Evidence, balls: &[(VertexId, f64)], at_node: &PiecesAtNodes, i: usize, v: VertexId) {
+        let piece = &ev.pieces[i];
+        if piece.nodes.contains(&v) {
+            return;
+        }
+        let [x, y] = piece.nodes.map(|v| ev.signs[v]);
+        let side = in_diametral(x, y, ev.signs[v]);
+        if side == CircleSide::Outside {
+            return;
+        }
+        if side == CircleSide::Inside && !is_on_rim(ev, balls, piece, v) {
+            self.intruder[i].fetch_min(v.0, Ordering::Relaxed);
+        }
+        for &j in at_node.of(v) {
+            let (first, second) = (ends(ev, i), ends(ev, j as usize));
+            if part(first, second) && part(second, first) {
+                self.crossing[i].fetch_min(j, Ordering::Relaxed);
+            }
+        }
+    }
+
+    /// Chords that cross although their curves do not: the triangles beside them would overlap.
+    pub fn tell_crossings(&self, ev: &Evidence, tally: &mut Tally) {
+        for (i, other) in self.crossing.iter().enumerate() {
+            let other = other.load(Ordering::Relaxed);
+            if other != NONE {
+                let [first, second] = [i, other as usize].map(|k| ev.tell_edge(ev.pieces[k].nodes));
+                tally.flaw(|| format!("{first} crosses {second}"));
+            }
+        }
+    }
+
+    /// No node lies inside the diametral circle of a curve's edge (Lemma 6). A spoke's circle lies in its ball and touches the rim, on
+    /// which nodes are rounded: where curves leave a corner close to each other, a neighbour on the rim does not count. Checked: edges.
+    /// Worst: the smallest distance of a node from the circle's centre, in radii, of those that encroach and those across from an edge.
+    pub fn empty(&self, ev: &Evidence, domain: &Domain) -> Check {
+        let mut tally = Tally::lowest("empty_diametral");
+        for (piece, intruder) in ev.pieces.iter().zip(&self.intruder) {
+            tally.count();
+            let intruder = intruder.load(Ordering::Relaxed);
+            let intruder = (intruder != NONE).then_some(VertexId(intruder));
+            for v in apexes(ev, piece).chain(intruder) {
+                tally.measure(radii_away(ev, piece, v), ev.middle(piece.nodes));
+            }
+            if let Some(v) = intruder {
+                let name = domain.name(domain.curves()[piece.curve].name);
+                let (edge, at) = (ev.tell_edge(piece.nodes), place(ev.node(v)));
+                tally.flaw(|| format!("node {} at {at} lies inside the diametral circle of {edge} of \"{name}\"", v.0));
+            }
+        }
+        tally.finish(Status::Proven)
+    }
+}
+
+/// The pieces that end at each node.
+struct PiecesAtNodes {
+    first: Vec<u32>,
+    pieces: Vec<u32>,
+}
+
+impl PiecesAtNodes {
+    fn new(ev: &Evidence) -> Self {
+        let mut first = vec![0u32; ev.mesh.nodes.len() + 1];
+        for v in ev.pieces.iter().flat_map(|p| p.nodes) {
+            first[v.index() + 1] += 1;
+        }
+        for v in 1..first.len() {
+            first[v] += first[v - 1];
+        }
+        let (mut free, mut pieces) = (first.clone(), vec![0; 2 * ev.pieces.len()]);
+        for (i, piece) in ev.pieces.iter().enumerate() {
+            for v in piece.nodes {
+                pieces[free[v.index()] as usize] = i as u32;
+                free[v.index()] += 1;
+            }
+        }
+        Self { first, pieces }
+    }
+
+    fn of(&self, v: VertexId) -> &[u32] {
+        &self.pieces[self.first[v.index()] as usize..self.first[v.index() + 1] as usize]
+    }
+}
+
+fn ends(ev: &Evidence, piece: usize) -> [Point; 2] {
+    ev.pieces[piece].nodes.map(|v| ev.signs[v])
+}
+
+/// Whether the line through `a b` has `x` and `y` strictly on either side.
+fn part([a, b]: [Point; 2], [x, y]: [Point; 2]) -> bool {
+    let sides = [orient(a, b, x), orient(a, b, y)];
+    sides.contains(&Orientation::Clockwise) && sides.contains(&Orientation::CounterClockwise)
+}
+
+fn apexes(ev: &Evidence, piece: &Piece) -> impl Iterator<Item = VertexId> {
+    let edge = piece.edge.map(|e| ev.edges.edges()[e]);
+    let sides = edge.into_iter().flat_map(|e| [e.left(), e.right()]).flatten();
+    sides.map(|s| ev.mesh.triangles[s.triangle][(s.corner + 2) % 3])
+}
+
+/// Nodes at corners with a ball, ascending, and the radius.
+fn ball_at_nodes(ev: &Evidence, domain: &Domain) -> Vec<(VertexId, f64)> {
+    let nodes = nodes_of_points(ev, domain);
+    let mut balls: Vec<(VertexId, f64)> =
+        ev.mesh.balls.iter().filter_map(|ball| Some((nodes[ball.corner]?, ball.radius))).collect();
+    balls.sort_unstable_by_key(|&(v, _)| v);
+    balls
+}
+
+/// Whether a piece is a spoke, from a corner to the rim of its ball, and a node lies on that rim too, or outside.
+fn is_on_rim(ev: &Evidence, balls: &[(VertexId, f64)], piece: &Piece, v: VertexId) -> bool {
+    let [x, y] = piece.nodes;
+    [(x, y), (y, x)].into_iter().any(|(corner, end)| {
+        let Ok(i) = balls.binary_search_by_key(&corner, |&(v, _)| v) else { return false };
+        let (center, inner) = (ev.node(corner), balls[i].1 - ev.rim);
+        ev.node(end).distance(center) >= inner
+            && ev.node(end).distance(center) <= balls[i].1 + ev.rim
+            && ev.node(v).distance(center) >= inner
+    })
+}
+
+fn radii_away(ev: &Evidence, piece: &Piece, v: VertexId) -> f64 {
+    let [x, y] = piece.nodes.map(|v| ev.node(v));
+    2.0 * ev.node(v).distance(x.midpoint(y)) / x.distance(y)
+}
+
+fn box_of_circle(ev: &Evidence, piece: &Piece) -> Rect {
+    let [x, y] = piece.nodes.map(|v| ev.node(v));
+    let (center, radius) = (x.midpoint(y), 0.5 * x.distance(y) + ev.rounding);
+    Rect::from_center_size(center, (2.0 * radius, 2.0 * radius))
+}
