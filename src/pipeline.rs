@@ -121,15 +121,15 @@ impl Outcome {
         self.report.request.note_use(drawing, &arranged, &plan);
         self.report.seconds.arrange = clock.lap();
 
-        let refined = match extent {
-            Extent::Whole(watch) => plan.refine(&domain, &mut until(request.timeout, watch)),
-            Extent::Steps(steps) => plan.refine_steps(&domain, steps),
+        let (refined, more) = match extent {
+            Extent::Whole(watch) => (plan.refine(&domain, &mut until(request.timeout, watch)), "--timeout"),
+            Extent::Steps(steps) => (plan.refine_steps(&domain, steps), "--until"),
         };
         self.report.seconds.mesh = clock.lap();
         let Refined { mesh, stop, counters } = refined?;
         self.report.stop = Some(StopReport::new(&stop));
         self.report.counters = counters;
-        let mut mesh = mesh.ok_or_else(|| no_mesh(&stop))?;
+        let mut mesh = mesh.ok_or_else(|| no_mesh(&stop, more))?;
         mesh.unit = drawing.unit.as_ref().map(|(unit, _)| unit.clone());
         mesh.frame = drawing.frame;
 
@@ -175,6 +175,11 @@ pub fn broken(verdict: &Verdict) -> Vec<&'static str> {
     verdict.checks.iter().filter(|c| c.status == Status::Broken).map(|c| c.name).collect()
 }
 
+/// How many things failed in all checks.
+fn flaws(verdict: &Verdict) -> usize {
+    verdict.checks.iter().map(|c| c.broken).sum()
+}
+
 /// Checks of bounds that were asked for; the rest holds of every mesh that we make.
 const REQUESTED: &[&str] = &["min_angle", "max_angle", "chord_error", "edge_turning", "size"];
 /// What refinement brings about last: owed where a budget ended it.
@@ -218,8 +223,22 @@ pub fn read(source: &Source, request: &Request) -> Result<Drawing, FailureReport
         },
         nodes: source.nodes.map(<[u8]>::to_vec),
     };
-    let drawing = import::read(source.bytes, format, stem, &options)?;
+    let mut drawing = import::read(source.bytes, format, stem, &options)?;
+    drawing.notes.extend(unused_options(format, request));
     in_units(drawing, request)
+}
+
+/// Says which options a drawing of this format has no use for.
+fn unused_options(format: Format, request: &Request) -> Option<String> {
+    let default = Request::default();
+    let of_airfoils = [
+        ("--trailing-edge", request.trailing_edge != default.trailing_edge),
+        ("--far-field", request.far_field != default.far_field),
+        ("--incidence", request.incidence != default.incidence),
+    ];
+    let given: Vec<&str> = of_airfoils.into_iter().filter(|(_, given)| *given).map(|(option, _)| option).collect();
+    let unused = format != Format::Airfoil && !given.is_empty();
+    unused.then(|| format!("{}: only for airfoils, and not used here", given.join(", ")))
 }
 
 impl From<ImportError> for FailureReport {
@@ -310,16 +329,16 @@ impl From<RefineError> for FailureReport {
     }
 }
 
-/// Why a refinement that stopped has no mesh to show.
-pub fn no_mesh(stop: &Stop) -> FailureReport {
+/// Why a refinement that stopped has no mesh to show; `more` is the option that lets it run longer.
+pub fn no_mesh(stop: &Stop, more: &str) -> FailureReport {
     let (what, help) = match stop.reason {
         StopReason::VertexBudget => {
-            ("the vertex budget ended before there was a valid mesh", "give more by --max-vertices")
+            ("the vertex budget ended before there was a valid mesh", "give more by --max-vertices".into())
         }
-        StopReason::Cancelled => ("the run was stopped before there was a valid mesh", "give more by --timeout"),
+        StopReason::Cancelled => ("the run was stopped before there was a valid mesh", format!("give more by {more}")),
         StopReason::Done | StopReason::Arithmetic => (
             "features are nearer to each other than the coordinates can tell apart",
-            "move the drawing nearer to the origin, or weld by a larger --tolerance",
+            "move the drawing nearer to the origin, or weld by a larger --tolerance".into(),
         ),
     };
     let failure = FailureReport::new(FailureKind::NoMesh, what, help);
@@ -392,10 +411,21 @@ impl Plan {
         Ok(lopping.finish()?)
     }
 
-    /// Holds a mesh to what was asked: ours by its links to the domain's curves, any other by its coordinates.
+    /// Holds a mesh of ours to what was asked, by its links to the domain's curves.
     pub fn judge(&self, domain: Option<&Domain>, mesh: &Mesh) -> Verdict {
-        let foreign = mesh.edges.is_empty() || mesh.edges.iter().any(|edge| edge.link.is_none());
-        verify(domain, mesh, &self.options.promise(self.tau_rad, foreign))
+        verify(domain, mesh, &self.options.promise(self.tau_rad, false))
+    }
+
+    /// Holds a mesh from a file to what was asked. Other programs drop or renumber what ties a mesh to its curves: where that does not hold,
+    /// the mesh is judged by where its nodes lie, if it stands better so. Returns that mesh, without its ties, beside the verdict.
+    pub fn judge_file(&self, domain: Option<&Domain>, mesh: &Mesh) -> (Verdict, Option<Mesh>) {
+        let by_links = self.judge(domain, mesh);
+        if domain.is_none() || by_links.kept() {
+            return (by_links, None);
+        }
+        let untied = mesh.clone().untied();
+        let by_place = verify(domain, &untied, &self.options.promise(self.tau_rad, true));
+        if flaws(&by_place) < flaws(&by_links) { (by_place, Some(untied)) } else { (by_links, None) }
     }
 }
 

@@ -121,7 +121,7 @@ fn overlapping_squares_count_every_stretch_as_often_as_it_was_drawn() {
     let twice = drawing(square(0.0, 0.0, 1.0).into_iter().chain(square(0.0, 0.0, 1.0)));
     close(&areas(&filled(&twice, FillRule::NonZero)), &[1.0]);
     let refused = twice.arrange(&ArrangeOptions { fill: Some(FillRule::EvenOdd), ..Default::default() }).unwrap_err();
-    assert!(refused.help.contains("fill rule"), "{refused:?}");
+    assert!(refused.what.contains("4 curves are drawn twice") && refused.help.contains("nonzero"), "{refused:?}");
 }
 
 #[test]

@@ -1,5 +1,10 @@
 //! The contract of the command line, kept by the program itself: exit codes, files, reports.
 
+use squinch::export;
+use squinch::geometry::{Point, Vec2};
+use squinch::ids::{IdVec, NameId, VertexId};
+use squinch::import::vtu;
+use squinch::mesh::Mesh;
 use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -156,7 +161,6 @@ fn wrong_usage_is_2_and_leaves_nothing() {
         vec!["mesh", "square.poly", "-o", "-"],
         vec!["mesh", "square.poly", "-o", "-", "--format", "vtu", "--report", "-"],
         vec!["mesh", "square.poly", "-o", "a.vtu", "-o", "b.svg", "--format", "vtu"],
-        vec!["mesh", "-", "-o", "a.vtu"],
         vec!["draw", "square.poly", "-o", "a.vtu"],
         vec!["draw", "square.poly", "-o", "a.svg", "--view", "1,1,0,0"],
         with(&["--min-angle", "60"]),
@@ -342,6 +346,126 @@ fn standard_input_and_output_carry_files() {
 }
 
 #[test]
+fn standard_input_tells_its_format_by_its_content() {
+    let bench = Bench::new("sniff");
+    let fed = |arguments: &[&str], bytes: &[u8]| {
+        let mut child = bench.command(arguments).stdin(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("a start");
+        child.stdin.take().expect("a pipe").write_all(bytes).expect("the input is taken");
+        let output = child.wait_with_output().expect("it ends");
+        assert_eq!(output.status.code(), Some(0), "{arguments:?}: {}", said(&output));
+    };
+    for (drawing, format) in [(SQUARE, "poly"), (LENS, "outline")] {
+        fed(&["mesh", "-", "-o", "a.vtu", "--report", "r.json"], drawing.as_bytes());
+        assert_eq!(bench.report("r.json")["input"]["format"], format);
+        fed(&["draw", "-", "--stage", "drawing", "-o", "a.svg"], drawing.as_bytes());
+    }
+    let mesh = fs::read(bench.0.join("a.vtu")).unwrap();
+    fed(&["check", "-"], &mesh);
+    fed(&["draw", "-", "-o", "mesh.svg"], &mesh);
+    assert_ne!(bench.text("mesh.svg"), bench.text("a.svg"));
+    // Nothing at all has no format.
+    let output = bench.ends(3, &["mesh", "-", "-o", "b.vtu"]);
+    assert!(said(&output).contains("--input-format"), "{}", said(&output));
+}
+
+#[test]
+fn what_a_file_holds_does_not_steer_the_terminal() {
+    let bench = Bench::new("control");
+    let named = LENS.replace("below", "be\\u001b[2Jlow");
+    fs::write(bench.0.join("named.json"), &named).unwrap();
+    fs::write(bench.0.join("cut.poly"), format!("4 2 0 0\n1 0 \x1b[31m{}\n", "x".repeat(1 << 22))).unwrap();
+    fs::write(bench.0.join("cut.dat"), "na\x1b]0;me\n1 0\n0.5 \x1b[2J\n0 0\n0.5 -0.1\n1 0\n").unwrap();
+    let outputs = [
+        bench.ends(0, &["inspect", "named.json"]),
+        bench.ends(0, &["mesh", "named.json", "-o", "a.vtu", "-v"]),
+        bench.ends(2, &["mesh", "named.json", "-o", "a.vtu", "--size-of", "wing=1"]),
+        bench.ends(3, &["mesh", "cut.poly", "-o", "a.vtu"]),
+        bench.ends(3, &["mesh", "cut.dat", "-o", "a.vtu"]),
+    ];
+    for output in &outputs {
+        let text = said(output) + &printed(output);
+        assert!(!text.contains('\x1b') && text.len() < 20_000, "{} bytes: {:.2000}", text.len(), text);
+    }
+    assert!(printed(&outputs[0]).contains("be\\u{1b}[2Jlow"), "{}", printed(&outputs[0]));
+    // Data keep their names as they are.
+    let json: serde_json::Value =
+        serde_json::from_str(&printed(&bench.ends(0, &["inspect", "named.json", "--json"]))).expect("JSON");
+    assert_eq!(json["boundaries"][0]["name"], "be\u{1b}[2Jlow");
+}
+
+#[test]
+fn an_option_below_its_bound_is_answered_by_the_bound() {
+    let bench = Bench::new("negative");
+    for [option, value, why] in [
+        ["--min-angle", "-1", "an angle from 0"],
+        ["--tolerance", "-1", "not negative"],
+        ["--max-area", "-1e-3", "a positive number"],
+        ["--chord-error", "-0.5", "a positive length"],
+        ["--far-field", "-2", "1 chord or more"],
+    ] {
+        let output = bench.ends(2, &with(&[option, value]));
+        assert!(said(&output).contains(why), "{option} {value}: {}", said(&output));
+    }
+}
+
+#[test]
+fn an_option_that_has_no_use_is_told() {
+    let bench = Bench::new("unused");
+    let output = bench.ends(0, &with(&["--far-field", "5", "--incidence", "-3", "--report", "r.json"]));
+    assert!(said(&output).contains("--far-field, --incidence: only for airfoils"), "{}", said(&output));
+    let notes = bench.report("r.json")["input"]["notes"].to_string();
+    assert!(notes.contains("--far-field, --incidence"), "{notes}");
+    assert!(!said(&bench.ends(0, &with(&[]))).contains("airfoils"));
+}
+
+#[test]
+fn triangles_left_alone_for_their_size_are_no_corners() {
+    let bench = Bench::new("min-edge");
+    // Two lines a hair apart make small angles that --min-edge leaves alone.
+    let thin = "8 2 0 0\n1 0 0\n2 1 0\n3 1 1\n4 0 1\n5 0.4 0.5\n6 0.6 0.5\n7 0.45 0.503\n8 0.55 0.503\n\
+                6 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n5 5 6\n6 7 8\n0\n";
+    fs::write(bench.0.join("thin.poly"), thin).unwrap();
+    let output = bench.ends(0, &["mesh", "thin.poly", "-o", "a.vtu", "--min-edge", "0.3", "--edge-turning", "off"]);
+    assert!(said(&output).contains("left alone for --min-edge"), "{}", said(&output));
+    assert!(!said(&output).contains("sharp corner"), "{}", said(&output));
+}
+
+#[test]
+fn why_nothing_is_meshed_fits_the_drawing() {
+    let bench = Bench::new("nothing");
+    let help = |drawing: &str, more: &[&str]| {
+        fs::write(bench.0.join("x.json"), drawing).unwrap();
+        said(&bench.ends(4, &[&["mesh", "x.json", "-o", "a.vtu"][..], more].concat()))
+    };
+    let circle = r#"{ "name": "rim", "circle": { "center": [0, 0], "radius": 1 } }"#;
+    let twice = format!(r#"{{ "squinch": 1, "fill": "evenodd", "curves": [{circle}, {circle}] }}"#);
+    let text = help(&twice, &[]);
+    assert!(text.contains("drawn twice") && text.contains("--fill-rule nonzero"), "{text}");
+    bench.ends(0, &["mesh", "x.json", "-o", "a.vtu", "--fill-rule", "nonzero"]);
+    let hole = format!(r#"{{ "squinch": 1, "curves": [{circle}], "seeds": [{{ "at": [0, 0], "hole": true }}] }}"#);
+    let text = help(&hole, &["--fill-rule", "regions"]);
+    assert!(text.contains("remove hole points") && !text.contains("`regions`"), "{text}");
+    let open = |x: f64| {
+        format!(r#"{{ "squinch": 1, "curves": [{{ "name": "a", "polyline": [[0, 0], [1, 0], [1, 1], [0, {x}]] }}] }}"#)
+    };
+    assert!(help(&open(0.8), &[]).contains("close the outline by another curve"));
+    assert!(help(&open(1e-4), &[]).contains("raise the tolerance above that"));
+}
+
+#[test]
+fn a_case_of_another_version_is_remarked() {
+    let bench = Bench::new("version");
+    bench.ends(0, &["mesh", "square.poly", "-o", "a.vtu", "--case", "a.case"]);
+    assert!(!said(&bench.ends(0, &["replay", "a.case"])).contains("recorded by"));
+    let version = format!("squinch = \"{}\"", env!("CARGO_PKG_VERSION"));
+    let older = bench.text("a.case").replace(&version, "squinch = \"0.0.7\"");
+    fs::write(bench.0.join("b.case"), older).unwrap();
+    assert!(said(&bench.ends(0, &["replay", "b.case"])).contains("recorded by squinch 0.0.7"));
+    let output = bench.ends(5, &["replay", "a.case", "--until", "0"]);
+    assert!(said(&output).contains("--until") && !said(&output).contains("--timeout"), "{}", said(&output));
+}
+
+#[test]
 fn a_closed_pipe_is_no_panic() {
     let bench = Bench::new("closed");
     for arguments in
@@ -418,6 +542,109 @@ fn a_mesh_of_ours_is_checked_by_what_it_was_asked_for() {
     bench.ends(5, &["check", "a.vtu", "--against", "lens.json", "--max-edge", "0.01"]);
     bench.ends(5, &["check", "a.vtu", "--against", "square.poly"]);
     bench.ends(4, &["check", "a.vtu", "--against", "open.json"]);
+}
+
+/// What other programs do to a mesh of ours.
+fn rewritten(mesh: &Mesh) -> Vec<(&'static str, Mesh)> {
+    let numbered = |mesh: &Mesh| {
+        let mut nameless = Mesh { names: Default::default(), ..mesh.clone() };
+        let numbers: Vec<NameId> =
+            mesh.names.iter().enumerate().map(|(i, _)| nameless.names.intern(&(i + 1).to_string())).collect();
+        let number = |name: NameId| numbers[mesh.names.iter().position(|(id, _)| id == name).expect("a name")];
+        nameless.regions.iter_mut().for_each(|name| *name = number(*name));
+        nameless.edges.iter_mut().for_each(|edge| edge.name = number(edge.name));
+        nameless
+    };
+    let permuted = |mesh: &Mesh| {
+        let n = mesh.nodes.len() as u32;
+        let place = |v: VertexId| VertexId(n - 1 - v.0);
+        let mut turned = mesh.clone();
+        turned.nodes = mesh.nodes.iter().rev().copied().collect::<IdVec<_, Point>>();
+        turned.triangles.iter_mut().for_each(|t| *t = t.map(place));
+        turned.edges.iter_mut().for_each(|e| e.nodes = e.nodes.map(place));
+        turned
+    };
+    let mut half = mesh.clone();
+    half.edges.iter_mut().step_by(3).for_each(|edge| edge.link = None);
+    let fewer = Mesh { edges: mesh.edges.iter().copied().step_by(2).collect(), ..mesh.clone() };
+    let bare = Mesh { edges: Vec::new(), ..numbered(mesh).untied() };
+    vec![
+        ("names lost", numbered(mesh)),
+        ("fields lost", numbered(mesh).untied()),
+        ("links half kept", half),
+        ("half the lines", fewer),
+        ("triangles only", bare),
+        ("nodes renumbered, points and balls not", permuted(mesh)),
+        ("nodes renumbered, all else lost", permuted(&numbered(mesh).untied())),
+    ]
+}
+
+fn write_mesh(bench: &Bench, file: &str, mesh: &Mesh) {
+    let mut bytes = Vec::new();
+    export::vtu::write(mesh, &[], &mut bytes).expect("a vector takes everything");
+    fs::write(bench.0.join(file), bytes).expect("a mesh is written");
+}
+
+#[test]
+fn a_mesh_that_another_program_rewrote_is_judged_by_where_its_nodes_lie() {
+    let bench = Bench::new("rewritten");
+    let plate = Path::new(env!("CARGO_MANIFEST_DIR")).join("samples/plate.json");
+    fs::copy(plate, bench.0.join("plate.json")).expect("a sample");
+    for (drawing, edge) in [("lens.json", "0.3"), ("square.poly", "0.3"), ("plate.json", "2")] {
+        bench.ends(0, &["mesh", drawing, "-o", "a.vtu", "--max-edge", edge]);
+        let ours = vtu::read(&fs::read(bench.0.join("a.vtu")).unwrap()).expect("our own mesh").mesh;
+        for (what, mesh) in rewritten(&ours) {
+            write_mesh(&bench, "b.vtu", &mesh);
+            let check = ["check", "b.vtu", "--against", drawing, "--report", "r.json"];
+            let output = bench.ends(0, &check);
+            assert!(said(&output).contains("note:"), "{what}: {}", said(&output));
+            let status = |name: &str| {
+                let checks = bench.report("r.json")["promise"]["checks"].as_array().cloned().unwrap();
+                checks.iter().find(|c| c["name"] == name).expect(name)["status"].clone()
+            };
+            for name in ["conforming", "on_curve", "curve_chain", "area"] {
+                assert_eq!(status(name), "proven", "{drawing}, {what}: {name}");
+            }
+            let nameless = ["names lost", "fields lost", "triangles only", "nodes renumbered, all else lost"];
+            // The square's only region is called as every region without a name is.
+            let asked = if nameless.contains(&what) && drawing != "square.poly" { "n/a" } else { "proven" };
+            assert!(drawing == "square.poly" || status("names") == asked, "{drawing}, {what}: {}", status("names"));
+
+            let mut moved = mesh.clone();
+            let rim = mesh.nodes.ids().find(|&v| is_on_rim(&mesh, v)).expect("a node on the rim");
+            moved.nodes[rim] += Vec2::new(1e-4, 1.3e-4);
+            write_mesh(&bench, "b.vtu", &moved);
+            let output = bench.ends(5, &check);
+            assert!(said(&output).contains("conforming"), "{what}: {}", said(&output));
+        }
+    }
+}
+
+/// Whether a node has an edge with one triangle.
+fn is_on_rim(mesh: &Mesh, v: VertexId) -> bool {
+    let beside: Vec<_> = mesh.triangles.iter().filter(|t| t.contains(&v)).collect();
+    let neighbours = beside.iter().flat_map(|t| t.iter()).filter(|&&u| u != v);
+    neighbours.clone().any(|u| neighbours.clone().filter(|&w| w == u).count() == 1)
+}
+
+#[test]
+fn a_rewritten_mesh_with_wrong_names_is_broken() {
+    let bench = Bench::new("misnamed");
+    bench.ends(0, &["mesh", "lens.json", "-o", "a.vtu", "--max-edge", "0.2"]);
+    let ours = vtu::read(&fs::read(bench.0.join("a.vtu")).unwrap()).expect("our own mesh").mesh;
+    let mut swapped = ours.clone().untied();
+    let other = swapped.names.find("above").expect("a boundary");
+    swapped.edges[0].name = other;
+    let mut stray = ours.clone().untied();
+    let inner = stray.nodes.ids().find(|&v| !is_on_rim(&stray, v)).expect("a node inside");
+    let beside = *stray.triangles.iter().find(|t| t.contains(&inner)).expect("a triangle");
+    let nodes = [inner, *beside.iter().find(|&&v| v != inner).expect("a neighbour")];
+    stray.edges.push(squinch::mesh::CurveEdge { nodes, name: other, link: None });
+    for (mesh, culprit) in [(swapped, "is of \"above\", its curve of \"below\""), (stray, "lies on no curve")] {
+        write_mesh(&bench, "b.vtu", &mesh);
+        let output = bench.ends(5, &["check", "b.vtu", "--against", "lens.json"]);
+        assert!(said(&output).contains("broken: names") && said(&output).contains(culprit), "{}", said(&output));
+    }
 }
 
 #[test]

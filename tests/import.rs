@@ -300,6 +300,47 @@ fn a_thick_back_is_no_missing_point() {
 }
 
 #[test]
+fn a_contour_that_was_cut_short_is_refused_where_it_stops() {
+    let points = contour();
+    let nose = points.len() / 2;
+    for kept in [5, nose, nose + 1, nose + 4, points.len() - 4] {
+        let error = refused(&format!("Name\n{}", lines(&points[..kept])), Format::Airfoil);
+        assert_eq!(error.line, Some(kept + 1), "{kept}: {error}");
+        assert!(error.what.contains("missing") && error.help.contains("complete the file"), "{error}");
+    }
+    // Lednicer's lower surface, cut short.
+    let [upper, lower] = surfaces();
+    let text = format!("Name\n{}\n{}", lines(&upper), lines(&lower[..8]));
+    assert!(refused(&text, Format::Airfoil).what.contains("missing"));
+    // Four corners without the closing one are whole: every edge is long.
+    assert_eq!(curves(&dat("1 0\n.5 .05\n0 0\n.5 -.05\n"), "te").len(), 0);
+    // A flat side that is meant is said by its end.
+    assert!(!curves(&dat(&format!("{}{}", lines(&points[..=nose]), lines(&points[..1]))), "upper").is_empty());
+}
+
+#[test]
+fn a_blunt_edge_is_sized_for_three_edges() {
+    let drawing = selig();
+    let te = drawing.names.find("te").unwrap();
+    let edges: Vec<f64> = drawing
+        .sizes
+        .iter()
+        .filter_map(|s| match s {
+            SizeRequest::Boundary { name, edge } if *name == te => Some(*edge),
+            _ => None,
+        })
+        .collect();
+    assert_eq!(edges, [one(&drawing, "te").length() / 3.0]);
+}
+
+#[test]
+fn text_amid_the_data_is_told_by_its_lines() {
+    let points = contour();
+    let text = format!("Name\n{}lower\n{}the end\n", lines(&points[..=11]), lines(&points[11..]));
+    assert!(noted(&dat(&text), "passed over: 14, "), "{:?}", dat(&text).notes);
+}
+
+#[test]
 fn a_blunt_edge_may_be_drawn_in_the_file() {
     let mut points = contour();
     points.insert(0, (1.0, 0.0));

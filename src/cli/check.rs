@@ -1,6 +1,6 @@
 //! `check MESH`: the judge's verdict on a mesh file, ours or not.
 
-use super::files::{self, Input, Staged, unwritable};
+use super::files::{Input, Staged, unwritable};
 use super::options::{Options, Resolved};
 use super::{Halt, Volume, remember, say};
 use clap::Args;
@@ -30,31 +30,36 @@ pub struct Check {
     options: Options,
 }
 
-/// Whether a path is a mesh's by its suffix.
-pub fn is_mesh_file(path: &Path) -> bool {
-    export::format_of(path) == Some(export::Format::Vtu)
+/// Whether an input is a mesh by its suffix, or without one by its content.
+pub fn is_mesh(input: &Input) -> bool {
+    let path = Path::new(&input.path);
+    input.format.is_none()
+        && match path.extension() {
+            Some(_) => export::format_of(path) == Some(export::Format::Vtu),
+            None => vtu::sniff(&input.bytes),
+        }
 }
 
-/// Reads a mesh file, and its path as it is shown.
-pub fn open(path: &Path) -> Result<(MeshFile, String), Halt> {
-    let shown = path.display().to_string();
-    let bytes = files::read(path).map_err(|e| Halt::Unreadable(format!("{shown}: {e}")))?;
-    match vtu::read(&bytes) {
-        Ok(file) => Ok((file, shown)),
-        Err(error) => {
-            let failure = FailureReport::new(FailureKind::Unreadable, error.what, error.help);
-            let input = Input { path: shown, bytes, format: None, nodes: None };
-            Err(Halt::Failure(Box::new(failure), Some(Box::new(input))))
-        }
-    }
+/// Reads the mesh of an input.
+pub fn read(input: &Input) -> Result<MeshFile, Halt> {
+    vtu::read(&input.bytes).map_err(|error| {
+        let failure = FailureReport::new(FailureKind::Unreadable, error.what, error.help);
+        Halt::Failure(Box::new(failure), Some(Box::new(input.clone())))
+    })
 }
 
 /// Key under which our mesh files say what they were asked for: the options, as in a `--config` file.
 pub const REQUEST_STAMP: &str = "request";
 
+/// Said of a mesh whose links are missing or do not fit.
+const BY_PLACE: &str =
+    "The mesh does not say, or not rightly, which curves its edges lie on: it was judged by where its nodes lie.";
+
 impl Check {
     pub fn run(self, volume: Volume) -> Result<Exit, Halt> {
-        let (MeshFile { mesh, stamps, notes }, path) = open(&self.mesh)?;
+        let input = Input::open(&self.mesh, None)?;
+        let MeshFile { mesh, stamps, notes } = read(&input)?;
+        let path = input.path;
         let stamped = stamps.iter().find(|(key, _)| key == REQUEST_STAMP).map(|(_, text)| text.as_str());
         let Resolved { request, input_format } = self.options.resolve_over(stamped.unwrap_or(""))?;
         let mut report = Report::new(&path, &request);
@@ -63,8 +68,10 @@ impl Check {
             None => None,
         };
         let (domain, plan) = against.map_or_else(|| (None, Plan::without_domain(&request)), |(d, p)| (Some(d), p));
-        let verdict = plan.judge(domain.as_ref(), &mesh);
+        let (verdict, untied) = plan.judge_file(domain.as_ref(), &mesh);
         report.input.notes.extend(notes);
+        report.input.notes.extend(untied.is_some().then(|| BY_PLACE.to_owned()));
+        let mesh = untied.unwrap_or(mesh);
         report.mesh = Some(MeshReport::new(&mesh));
         report.quality = Some(Quality::of(domain.as_ref(), &mesh, &verdict));
         report.promise = Some(PromiseReport::new(&verdict));
@@ -75,6 +82,7 @@ impl Check {
         if volume > Volume::Quiet {
             let ink = say::Ink::stderr();
             say::line(&format!("{} {path}: {}", ink.bold("squinch"), say::promise(&verdict, ink)));
+            report.input.notes.iter().for_each(|note| say::line(&format!("    {} {note}", ink.dim("note:"))));
             let shown = verdict.checks.iter().filter(|c| volume == Volume::Verbose || c.status != Status::NotAsked);
             shown.flat_map(|check| say::check_lines(check, ink)).for_each(|text| say::line(&text));
         }

@@ -79,11 +79,11 @@ impl Draw {
             None if self.output.as_os_str() == "-" => Format::Svg,
             _ => return Err(Halt::Usage(format!("-o {}: pictures are .svg or .png", self.output.display()))),
         };
-        let canvas = if check::is_mesh_file(&self.input) {
-            let (file, title) = check::open(&self.input)?;
-            picture_of_mesh(&file.mesh, None, self.mesh_colour(), &self.picture(title, true))
+        let input = Input::open(&self.input, input_format)?;
+        let canvas = if check::is_mesh(&input) {
+            let file = check::read(&input)?;
+            picture_of_mesh(&file.mesh, None, self.mesh_colour(), &self.picture(input.path, true))
         } else {
-            let input = Input::open(&self.input, input_format)?;
             remember(&input, &request);
             self.stage(&input, &request).map_err(|failure| Halt::Failure(Box::new(failure), Some(Box::new(input))))?
         };
@@ -125,7 +125,7 @@ impl Draw {
             Stage::Triangulation => plan.conform(&domain)?,
             _ => plan.refine(&domain, &mut |_| true)?,
         };
-        let mesh = refined.mesh.ok_or_else(|| pipeline::no_mesh(&refined.stop))?;
+        let mesh = refined.mesh.ok_or_else(|| pipeline::no_mesh(&refined.stop, "--timeout"))?;
         Ok(picture_of_mesh(&mesh, Some(&domain), self.mesh_colour(), picture))
     }
 

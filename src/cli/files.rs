@@ -22,12 +22,9 @@ pub struct Input {
 }
 
 impl Input {
-    /// Reads a file, or standard input for `-`, whose format must be given.
+    /// Reads a file, or standard input for `-`.
     pub fn open(path: &Path, format: Option<Format>) -> Result<Self, Halt> {
         let shown = path.display().to_string();
-        if shown == "-" && format.is_none() {
-            return Err(Halt::Usage("standard input has no suffix: say its format by --input-format".into()));
-        }
         let bytes = read(path).map_err(|e| Halt::Unreadable(format!("{shown}: {e}")))?;
         let beside = path.with_extension("node");
         let nodes = path.extension().filter(|e| e.eq_ignore_ascii_case("poly")).and_then(|_| fs::read(beside).ok());

@@ -139,7 +139,8 @@ impl Findings {
         let ink = say::Ink::stdout();
         let mut text = String::new();
         let mut row = |name: &str, value: &str| {
-            let _ = writeln!(text, "  {}  {value}", ink.dim(&format!("{name:<8}"))); // a String takes every write
+            let row = say::harmless(&format!("  {}  {value}", ink.dim(&format!("{name:<8}"))));
+            let _ = writeln!(text, "{row}"); // a String takes every write
         };
         row("title", &self.title);
         row("format", &self.format);

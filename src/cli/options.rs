@@ -21,42 +21,42 @@ pub struct Options {
     #[serde(skip)]
     config: Option<PathBuf>,
     /// Threads; the result does not depend on it [default: all]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..), help_heading = "General")]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..), allow_hyphen_values = true, help_heading = "General")]
     threads: Option<u64>,
     /// Format of the input, where suffix and content do not tell: airfoil, poly, node, outline
     #[arg(long, value_name = "FORMAT", help_heading = "Input")]
     input_format: Option<String>,
 
     /// Smallest angle, in degrees; 0: none [default: 20.7]
-    #[arg(long, value_name = "DEG", help_heading = "Bounds")]
+    #[arg(long, value_name = "DEG", allow_hyphen_values = true, help_heading = "Bounds")]
     min_angle: Option<f64>,
     /// Largest area of a triangle
-    #[arg(long, value_name = "AREA", help_heading = "Bounds")]
+    #[arg(long, value_name = "AREA", allow_hyphen_values = true, help_heading = "Bounds")]
     max_area: Option<f64>,
     /// Largest length of an edge
-    #[arg(long, value_name = "LENGTH", help_heading = "Bounds")]
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, help_heading = "Bounds")]
     max_edge: Option<f64>,
     /// Triangles whose circumradius is below this are not refined for their angles
-    #[arg(long, value_name = "LENGTH", help_heading = "Bounds")]
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, help_heading = "Bounds")]
     min_edge: Option<f64>,
     /// Largest distance from mesh boundary to curve: a length, or a share of the drawing's diagonal as in 0.1%
-    #[arg(long, value_name = "LENGTH|E%", help_heading = "Bounds")]
+    #[arg(long, value_name = "LENGTH|E%", allow_hyphen_values = true, help_heading = "Bounds")]
     chord_error: Option<ChordError>,
     /// Largest turning of the curve along a mesh edge, in degrees, or off [default: 15]
-    #[arg(long, value_name = "DEG|off", help_heading = "Bounds")]
+    #[arg(long, value_name = "DEG|off", allow_hyphen_values = true, help_heading = "Bounds")]
     edge_turning: Option<EdgeTurning>,
     /// Largest length of an edge on the boundary, or in the region, of this name; may be repeated
     #[arg(long, value_name = "NAME=LENGTH", help_heading = "Bounds")]
     size_of: Option<Vec<SizeOf>>,
     /// Growth of a sized boundary's edge length a unit of distance away from it
-    #[arg(long, value_name = "G", help_heading = "Bounds")]
+    #[arg(long, value_name = "G", allow_hyphen_values = true, help_heading = "Bounds")]
     grade: Option<f64>,
     /// Order of the cells [default: 1]
-    #[arg(long, value_name = "1", help_heading = "Bounds")]
+    #[arg(long, value_name = "1", allow_hyphen_values = true, help_heading = "Bounds")]
     order: Option<Order>,
 
     /// Welding distance; 0 heals nothing [default: 1e-9 of the diagonal; ends that meet nothing else: 1e-6 of it]
-    #[arg(long, value_name = "LENGTH", help_heading = "Input")]
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, help_heading = "Input")]
     tolerance: Option<f64>,
     /// Which faces are inside [default: auto, the file's own rule]
     #[arg(long, value_enum, value_name = "RULE", help_heading = "Input")]
@@ -68,34 +68,34 @@ pub struct Options {
     #[arg(long, value_name = "UNIT", help_heading = "Input")]
     unit: Option<String>,
     /// Factor on every coordinate [default: 1]
-    #[arg(long, value_name = "S", help_heading = "Input")]
+    #[arg(long, value_name = "S", allow_hyphen_values = true, help_heading = "Input")]
     scale: Option<f64>,
 
     /// Trailing edge of an airfoil [default: keep]
     #[arg(long, value_enum, value_name = "HOW", help_heading = "Airfoils")]
     trailing_edge: Option<TrailingEdge>,
     /// Radius of the far field in chords; 0 meshes the section itself [default: 20]
-    #[arg(long, value_name = "R", help_heading = "Airfoils")]
+    #[arg(long, value_name = "R", allow_hyphen_values = true, help_heading = "Airfoils")]
     far_field: Option<f64>,
     /// Angle of incidence in degrees, nose up [default: 0]
-    #[arg(long, value_name = "DEG", allow_negative_numbers = true, help_heading = "Airfoils")]
+    #[arg(long, value_name = "DEG", allow_hyphen_values = true, help_heading = "Airfoils")]
     incidence: Option<f64>,
 
     /// Vertices after which refinement stops [default: 5000000]
-    #[arg(long, value_name = "N", help_heading = "Budget")]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, help_heading = "Budget")]
     max_vertices: Option<u64>,
     /// Seconds after which refinement stops
-    #[arg(long, value_name = "S", help_heading = "Budget")]
+    #[arg(long, value_name = "S", allow_hyphen_values = true, help_heading = "Budget")]
     timeout: Option<f64>,
 
     /// Who refines [default: lop, corner lopping]
     #[arg(long, value_name = "lop", help_heading = "Engine")]
     engine: Option<Engine>,
     /// Largest turning of a curve before it is meshed, at most π/3; auto: the largest whose guarantee covers the angle [default: 0.5]
-    #[arg(long, value_name = "RAD|auto", help_heading = "Engine")]
+    #[arg(long, value_name = "RAD|auto", allow_hyphen_values = true, help_heading = "Engine")]
     max_turning: Option<MaxTurning>,
     /// Factor by which a protecting ball shrinks, from 0.5 to below 1 [default: 0.95]
-    #[arg(long, value_name = "B", help_heading = "Engine")]
+    #[arg(long, value_name = "B", allow_hyphen_values = true, help_heading = "Engine")]
     beta: Option<f64>,
     /// Shrink until the ball is clear, or insert at every step as printed in the paper [default: batched]
     #[arg(long, value_enum, value_name = "HOW", help_heading = "Engine")]

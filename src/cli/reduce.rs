@@ -27,6 +27,9 @@ pub struct Reduce {
 impl Reduce {
     pub fn run(self, volume: Volume) -> Result<Exit, Halt> {
         let (case, input) = replay::open(&self.case)?;
+        if volume > Volume::Quiet {
+            replay::tell_version(&case);
+        }
         let drawing = case::caught(|| pipeline::read(&input.source(), &case.request)).map_err(|panic| {
             Halt::Unreadable(format!("the reader breaks down before there is a drawing to reduce: {panic}"))
         })?;

@@ -35,10 +35,21 @@ pub fn open(path: &Path) -> Result<(Case, Input), Halt> {
     Ok((case, input))
 }
 
+/// Remarks on a case that another version recorded.
+pub fn tell_version(case: &Case) {
+    let ours = env!("CARGO_PKG_VERSION");
+    if case.squinch != ours {
+        say::line(&format!("recorded by squinch {}; this is {ours}, with which it may end otherwise", case.squinch));
+    }
+}
+
 impl Replay {
     pub fn run(self, volume: Volume) -> Result<Exit, Halt> {
         let (case, input) = open(&self.case)?;
         remember(&input, &case.request);
+        if volume > Volume::Quiet {
+            tell_version(&case);
+        }
         let outcome = match self.until {
             Some(steps) => pipeline::run(&input.source(), &case.request, Extent::Steps(steps)),
             None => mesh_with_progress(&input, &case.request, volume),

@@ -5,7 +5,7 @@ use super::{Halt, Volume};
 use indicatif::{ProgressBar, ProgressStyle};
 use miette::{LabeledSpan, MietteDiagnostic, NamedSource};
 use squinch::domain::{Repair, RepairKind};
-use squinch::mesh::verify::{Check, Status, Verdict};
+use squinch::mesh::verify::{Check, Excuse, Status, Verdict};
 use squinch::pipeline::{Exit, Outcome};
 use squinch::refine::{Progress, StopReason};
 use squinch::report::{FailureReport, Report};
@@ -14,9 +14,39 @@ use std::io::{self, IsTerminal, Write};
 use std::ops::Range;
 use std::time::{Duration, Instant};
 
-/// One line on stderr. A closed stderr is no reason to fail.
+/// One line on stderr, [`harmless`]. A closed stderr is no reason to fail.
 pub fn line(text: &str) {
-    let _ = writeln!(io::stderr(), "{text}");
+    let _ = writeln!(io::stderr(), "{}", harmless(text));
+}
+
+/// A text as one line for people, whatever bytes of a file are in it: control characters, which could steer a terminal, are written by
+/// their numbers, and the middle of a text longer than anybody reads is left out. The door of all that people read; [`Ink`] goes through.
+pub fn harmless(text: &str) -> String {
+    const HEAD: usize = 3000;
+    const TAIL: usize = 500;
+    let long = text.char_indices().nth(HEAD + TAIL).is_some();
+    let head = text.char_indices().nth(HEAD).filter(|_| long).map_or(text.len(), |(i, _)| i);
+    let tail = text.char_indices().nth_back(TAIL - 1).filter(|_| long).map_or(text.len(), |(i, _)| i);
+    let gap = if long { " […] " } else { "" };
+    [&text[..head], gap, &text[tail..]]
+        .iter()
+        .flat_map(|part| part.chars())
+        .map(|c| Ink::code(c).map_or_else(|| shown(c), str::to_owned))
+        .collect()
+}
+
+/// A character that does nothing to a terminal but appear.
+fn shown(c: char) -> String {
+    match c {
+        '\t' => " ".into(),
+        // Control characters, and those that turn the direction of writing.
+        _ if c.is_control()
+            || matches!(c, '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}') =>
+        {
+            c.escape_unicode().to_string()
+        }
+        _ => c.to_string(),
+    }
 }
 
 pub fn error(text: &str) {
@@ -67,10 +97,37 @@ pub fn failure(report: &FailureReport, input: Option<&Input>) {
 
 /// A message that points into a text.
 pub fn pointing(what: &str, advice: Option<&str>, path: &str, text: &str, span: Range<usize>) {
-    let mut diagnostic = MietteDiagnostic::new(what).with_label(LabeledSpan::at(span, "here"));
-    diagnostic.help = advice.filter(|a| !a.is_empty()).map(str::to_owned);
-    let report = miette::Report::new(diagnostic).with_source_code(NamedSource::new(path, text.to_owned()));
-    line(&format!("{report:?}"));
+    let (excerpt, span) = excerpt(text, span);
+    let mut diagnostic = MietteDiagnostic::new(harmless(what)).with_label(LabeledSpan::at(span, "here"));
+    diagnostic.help = advice.filter(|a| !a.is_empty()).map(harmless);
+    let report = miette::Report::new(diagnostic).with_source_code(NamedSource::new(harmless(path), excerpt));
+    let _ = writeln!(io::stderr(), "{report:?}");
+}
+
+/// The line of a span and its neighbours, harmless and cut to what fits beside each other, below as many empty lines as stand before
+/// them; and where the span is in that.
+fn excerpt(text: &str, span: Range<usize>) -> (String, Range<usize>) {
+    /// Characters shown of a line before the span, and from it on.
+    const BEFORE: usize = 60;
+    const FROM: usize = 100;
+    let start = text[..span.start].rfind('\n').map_or(0, |i| i + 1);
+    let end = text[span.start..].find('\n').map_or(text.len(), |i| span.start + i);
+    let beginning = |line: &str| line.chars().take(BEFORE + FROM).map(shown).collect::<String>();
+    let above = text[..start].trim_end_matches('\n').rsplit('\n').next().unwrap_or("");
+    let number = text[..start].matches('\n').count();
+    let skipped = text[start..span.start].chars().count().saturating_sub(BEFORE);
+    let before: String = text[start..span.start].chars().skip(skipped).map(shown).collect();
+    let from: String = text[span.start..end].trim_end_matches('\r').chars().take(FROM).map(shown).collect();
+    let below = text.get(end + 1..).and_then(|rest| rest.lines().next());
+    let mut excerpt = "\n".repeat(number.saturating_sub(1));
+    if number > 0 {
+        excerpt += &(beginning(above) + "\n");
+    }
+    excerpt += &before;
+    let at = excerpt.len()..excerpt.len() + from.len();
+    excerpt += &(from + "\n");
+    excerpt.extend(below.map(|line| beginning(line) + "\n"));
+    (excerpt, at)
 }
 
 /// Bytes of a line counted from 1, from a column counted from 1 on.
@@ -95,24 +152,36 @@ impl Ink {
         Self(io::stdout().is_terminal() && std::env::var_os("NO_COLOR").is_none())
     }
 
-    fn paint(self, code: &str, text: &str) -> String {
-        if self.0 { format!("\x1b[{code}m{text}\x1b[0m") } else { text.to_owned() }
+    /// What [`harmless`] makes of the characters that stand for colours until then: of no text's own, and no text can steer by them.
+    fn code(c: char) -> Option<&'static str> {
+        match c {
+            '\u{fdd0}' => Some("\x1b[0m"),
+            '\u{fdd1}' => Some("\x1b[1;31m"),
+            '\u{fdd2}' => Some("\x1b[1;32m"),
+            '\u{fdd3}' => Some("\x1b[1m"),
+            '\u{fdd4}' => Some("\x1b[2m"),
+            _ => None,
+        }
+    }
+
+    fn paint(self, colour: char, text: &str) -> String {
+        if self.0 { format!("{colour}{text}\u{fdd0}") } else { text.to_owned() }
     }
 
     pub fn red(self, text: &str) -> String {
-        self.paint("1;31", text)
+        self.paint('\u{fdd1}', text)
     }
 
     pub fn green(self, text: &str) -> String {
-        self.paint("1;32", text)
+        self.paint('\u{fdd2}', text)
     }
 
     pub fn bold(self, text: &str) -> String {
-        self.paint("1", text)
+        self.paint('\u{fdd3}', text)
     }
 
     pub fn dim(self, text: &str) -> String {
-        self.paint("2", text)
+        self.paint('\u{fdd4}', text)
     }
 }
 
@@ -237,8 +306,10 @@ fn input_rows(report: &Report, volume: Volume, row: &dyn Fn(&str, &str)) {
     for skipped in &input.skipped {
         row("left out", &format!("{} {}: {}", skipped.count, skipped.entity, skipped.why));
     }
+    // What is said of an option (it begins with its dashes) is an answer to the command line, not a remark on the file.
+    let told = |note: &&String| volume == Volume::Verbose || note.starts_with("--");
+    input.notes.iter().filter(told).for_each(|note| row("note", note));
     if volume == Volume::Verbose {
-        input.notes.iter().for_each(|note| row("note", note));
         input.repairs.iter().for_each(|repair| row("repair", &repair_line(repair)));
     } else if !input.repairs.is_empty() {
         row("repairs", &format!("{} (-v lists them)", repair_kinds(&input.repairs)));
@@ -247,14 +318,20 @@ fn input_rows(report: &Report, volume: Volume, row: &dyn Fn(&str, &str)) {
 
 fn excused(report: &Report) -> String {
     let (Some(quality), Some(promise)) = (&report.quality, &report.promise) else { return String::new() };
-    match promise.excused.count {
-        0 => String::new(),
-        n => format!(
-            "; from {:.2}° but for {} at {}",
-            quality.min_unexcused_angle_deg,
-            plural(n, "triangle", "triangles"),
-            plural(promise.excused.by_corner.len(), "sharp corner", "sharp corners"),
-        ),
+    let triangles = |n: usize| plural(n, "triangle", "triangles");
+    let (by_size, corners): (Vec<_>, Vec<_>) = promise.excused.by_corner.iter().partition(|e| e.why == "min_edge");
+    let cells = |excuses: &[&Excuse]| excuses.iter().map(|e| e.cells.len()).sum::<usize>();
+    let mut parts = Vec::new();
+    if !corners.is_empty() {
+        let places = plural(corners.len(), "sharp corner", "sharp corners");
+        parts.push(format!("{} at {places}", triangles(cells(&corners))));
+    }
+    if !by_size.is_empty() {
+        parts.push(format!("{} left alone for --min-edge", triangles(cells(&by_size))));
+    }
+    match parts.is_empty() {
+        true => String::new(),
+        false => format!("; from {:.2}° but for {}", quality.min_unexcused_angle_deg, parts.join(" and ")),
     }
 }
 
@@ -366,6 +443,29 @@ mod tests {
         assert_eq!(&text[span_of_line(text, 3, Some(99))], "");
         assert_eq!(span_of_line(text, 9, None), text.len()..text.len());
         assert_eq!(span_of_line("", 1, Some(3)), 0..0);
+    }
+
+    #[test]
+    fn nothing_of_a_file_steers_the_terminal() {
+        assert_eq!(harmless("a\x1b[2J\tb\r\n\u{9b}c\u{202e}ä翼"), "a\\u{1b}[2J b\\u{d}\\u{a}\\u{9b}c\\u{202e}ä翼");
+        assert_eq!(harmless(&Ink(true).red("x\x1b[0m")), "\x1b[1;31mx\\u{1b}[0m\x1b[0m");
+        let long = harmless(&"ä".repeat(4_000_000));
+        assert!(long.chars().count() < 4000 && long.contains("[…]"));
+        assert_eq!(harmless(&"ä".repeat(3500)), "ä".repeat(3500));
+    }
+
+    #[test]
+    fn an_excerpt_keeps_the_line_number_and_the_span() {
+        let text = "one\ntwo\nth\x1bree four\r\nfive\nsix";
+        let (shown, at) = excerpt(text, 14..18);
+        assert_eq!(shown, "\ntwo\nth\\u{1b}ree four\nfive\n");
+        assert_eq!(&shown[at], " four", "{shown}");
+        let long = format!("first\n{}bad {}\n", "ä".repeat(1_000_000), "z".repeat(1_000_000));
+        let bad = long.find("bad").unwrap();
+        let (shown, at) = excerpt(&long, bad..long.len() - 1);
+        assert!(shown.len() < 500 && shown[at].starts_with("bad z") && shown.starts_with("first\nä"), "{shown}");
+        assert_eq!(excerpt("", 0..0), ("\n".into(), 0..0));
+        assert_eq!(excerpt("a\n", 2..2), ("a\n\n".into(), 2..2));
     }
 
     #[test]

@@ -5,7 +5,7 @@
 use crate::canvas::{Anchor, Canvas, Colour, Frame, Label, Paint, Path, Pixel, Stroke, px, text_width};
 use crate::curve::{Curve, End};
 use crate::domain::{Domain, Drawing, SeedKind};
-use crate::geometry::{Point, Rect, bounds_of};
+use crate::geometry::{Point, Rect, Vec2, bounds_of};
 use crate::ids::{CurveId, NameId, Names, PointId, RegionId, TriangleId};
 use crate::mesh::{BallReason, Mesh};
 use std::collections::{BTreeMap, BTreeSet};
@@ -564,22 +564,31 @@ impl Sheet {
             return;
         }
         let size = self.type_px * 0.85;
-        let (dx, up, down, width) = (self.pen(9.0), self.pen(7.0), self.pen(7.0) + 0.7 * size, text_width(text, size));
+        // A cross, with its rim, reaches farther than a dot.
+        let [beside, above] = if owed { [12.0, 11.0] } else { [9.0, 7.0] };
+        let (dx, up, down, width) =
+            (self.pen(beside), self.pen(above), self.pen(above) + 0.7 * size, text_width(text, size));
         let sheet = Rect::new(0.0, 0.0, self.width, self.legend_top());
         let boxes = [(dx, -up), (-dx - width, -up), (dx, down), (-dx - width, down)]
             .map(|(x, y)| Rect::new(at.x + x, at.y + y - 0.75 * size, at.x + x + width, at.y + y + 0.25 * size));
         let free =
             |b: &&Rect| b.union(sheet) == sheet && self.labels.iter().all(|other| other.intersect(**b).area() == 0.0);
-        let Some(&room) = boxes.iter().find(free).or(owed.then_some(&boxes[0])) else { return };
+        let moved_in = |b: Rect| b - Vec2::new((b.x1 - sheet.x1).max(0.0).min(b.x0), 0.0);
+        let Some(room) = boxes.iter().find(free).copied().or(owed.then(|| moved_in(boxes[0]))) else { return };
         self.labels.push(room);
         self.canvas.text(Label::new(px(room.x0, room.y1 - 0.25 * size), text, size).colour(colour).rim());
     }
 
     fn marks(&mut self, marks: &[(Point, String)]) {
         self.canvas.layer("marks", true);
+        let arm = self.pen(7.0);
+        // No label may hide a cross.
+        for (p, _) in marks {
+            let (at, side) = (self.pixel(*p), 2.0 * arm);
+            self.labels.push(Rect::from_center_size((at.x, at.y), (side, side)));
+        }
         for (p, text) in marks {
             let at = self.pixel(*p);
-            let arm = self.pen(7.0);
             let mut cross = Path::default();
             for (dx, dy) in [(arm, arm), (arm, -arm)] {
                 cross.add([px(at.x - dx, at.y - dy), px(at.x + dx, at.y + dy)], false);

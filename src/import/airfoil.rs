@@ -294,7 +294,7 @@ fn gather(rows: &[Row], start: usize, notes: &mut Vec<String>) -> Result<Vec<Vec
     let mut gap = false;
     // Points of the current element before the last line of text.
     let mut before_text: Option<usize> = None;
-    let (mut extra_columns, mut text_lines) = (false, 0);
+    let (mut extra_columns, mut text_lines) = (false, Vec::new());
     for (i, row) in rows.iter().enumerate().skip(start) {
         let here = elements.len() - 1;
         let beside_point = i > start && rows[i - 1].point().is_some();
@@ -320,21 +320,29 @@ fn gather(rows: &[Row], start: usize, notes: &mut Vec<String>) -> Result<Vec<Vec
             _ => {
                 drop_numbers_in_text(&mut elements[here], before_text);
                 (gap, before_text) = (true, Some(elements[here].len()));
-                text_lines += 1;
+                text_lines.push(i + 1);
             }
         }
     }
     if let Some(last) = elements.last_mut() {
         drop_numbers_in_text(last, before_text);
     }
-    if text_lines > 0 {
-        notes.push(format!("Lines of text among or behind the coordinates, passed over: {text_lines}."));
+    if !text_lines.is_empty() {
+        notes.push(format!("Lines of text among or behind the coordinates, passed over: {}.", few(&text_lines)));
     }
     if extra_columns {
         notes.push("What follows the first two numbers of a line was passed over.".into());
     }
     elements.retain(|e| !e.is_empty());
     if elements.is_empty() { Err(ImportError::new("no coordinates were found", HELP)) } else { Ok(elements) }
+}
+
+/// "12, 40 and 7 more".
+fn few(lines: &[usize]) -> String {
+    const SHOWN: usize = 5;
+    let shown: Vec<String> = lines.iter().take(SHOWN).map(usize::to_string).collect();
+    let more = lines.len().saturating_sub(SHOWN);
+    if more > 0 { format!("{} and {more} more", shown.join(", ")) } else { shown.join(", ") }
 }
 
 /// Fewer than three points behind a line of text make no surface: they are numbers in the text.
@@ -409,8 +417,15 @@ impl Contour {
                 notes.push("The surfaces are given one after the other and were joined at the nose.".into());
                 join(a, b)
             }
-            None => from_trailing_edge(samples.iter().map(|s| s.at).collect(), wide, notes),
+            None => {
+                let points: Vec<Point> = samples.iter().map(|s| s.at).collect();
+                refuse_open(&points, wide, lines)?;
+                from_trailing_edge(points, wide, notes)
+            }
         };
+        if by_surface {
+            refuse_open(&points, wide, lines)?;
+        }
         merge_repeated(&mut points, SAME * wide, notes);
         if doubled_area(&points) < 0.0 {
             points.reverse();
@@ -569,6 +584,29 @@ fn join(mut a: Vec<Point>, mut b: Vec<Point>) -> Vec<Point> {
     }
     a.extend(b);
     a
+}
+
+/// Longest edge along the chord, in chords, that closes a contour without being told.
+const CLOSING: f64 = 0.05;
+
+/// Refuses a contour of which a part is missing, as of a file that was cut short: the edge from its last point to its first lies along the
+/// chord (an upright one is a blunt trailing edge, however thick) and is longer than a twentieth of it and than twice either edge beside it.
+fn refuse_open(points: &[Point], wide: f64, lines: [usize; 2]) -> Result<(), ImportError> {
+    let [first, second, .., before, last] = points else { return Ok(()) };
+    let gap = *first - *last;
+    let beside = (*second - *first).hypot().max((*last - *before).hypot());
+    if gap.x.abs() <= gap.y.abs() || gap.hypot() <= (CLOSING * wide).max(2.0 * beside) {
+        return Ok(());
+    }
+    let what = format!(
+        "the contour stops at ({}, {}), {:.0} % of its width from where it starts on line {}: a part of the section is missing",
+        last.x,
+        last.y,
+        100.0 * gap.hypot() / wide,
+        lines[0]
+    );
+    let help = "complete the file; if the section ends in a straight line there, repeat its first point at the end";
+    Err(ImportError::at(lines[1], what, help))
 }
 
 /// A contour in one go, made to start at the trailing edge.
@@ -885,6 +923,12 @@ fn add_section(section: &Section, suffix: &str, drawing: &mut Drawing) {
     for surface_name in ["upper", "lower"] {
         let name = drawing.names.intern(&format!("{surface_name}{suffix}"));
         drawing.sizes.push(SizeRequest::Boundary { name, edge: surface });
+    }
+    // A flow turns around a blunt end: three edges are the least that show it.
+    let blunt: f64 = section.te.iter().map(Curve::length).sum();
+    if blunt > 0.0 {
+        let name = drawing.names.intern(&format!("te{suffix}"));
+        drawing.sizes.push(SizeRequest::Boundary { name, edge: blunt / 3.0 });
     }
     // Grades were chosen for some ten thousand triangles around one section within 20 chords.
     for end in [section.nose, section.tail] {

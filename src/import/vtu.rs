@@ -53,6 +53,12 @@ fn unsupported(what: impl Into<String>, help: &str) -> VtuError {
     VtuError { what: what.into(), help: help.into() }
 }
 
+/// Whether bytes begin as a VTK XML file does.
+pub fn sniff(bytes: &[u8]) -> bool {
+    let start = &bytes[..bytes.len().min(1024)]; // an XML declaration and a comment may come first
+    start.trim_ascii_start().starts_with(b"<") && start.windows(8).any(|word| word == b"<VTKFile")
+}
+
 /// Reads a mesh of triangles from the bytes of a `.vtu` file.
 pub fn read(bytes: &[u8]) -> Result<MeshFile> {
     let file = File::parse(bytes)?;

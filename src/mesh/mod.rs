@@ -91,6 +91,14 @@ impl Mesh {
         self.triangles[t].map(|v| self.nodes[v])
     }
 
+    /// The mesh without what ties it to a domain: links, points and balls.
+    pub fn untied(mut self) -> Self {
+        self.edges.iter_mut().for_each(|edge| edge.link = None);
+        self.points.clear();
+        self.balls.clear();
+        self
+    }
+
     /// All coordinates and radii times a power of two: exact.
     pub fn scaled(mut self, factor: f64) -> Self {
         for p in self.nodes.iter_mut() {

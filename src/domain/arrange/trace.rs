@@ -282,7 +282,7 @@ pub(super) fn keep(
         kept[face] &= !(holes && *said == Some(Said::Hole));
     }
     if !kept.contains(&true) {
-        return Err(nothing_to_mesh(network, faces));
+        return Err(nothing_to_mesh(network, domain, faces, rule));
     }
     let areas = face_areas(faces);
     let named = |face: usize| match said[face] {
@@ -313,7 +313,8 @@ fn read_seeds(drawing: &Drawing, domain: &mut Domain, faces: &Faces, tolerance: 
             let what = format!("{} {why}", seed.entity);
             repairs.push(Repair { kind: RepairKind::Seed, at: [seed.at.x, seed.at.y], size: 0.0, what });
         };
-        if sight.is_some_and(|s| s.distance <= tolerance) {
+        let on_curve = sight.is_some_and(|s| s.distance <= tolerance);
+        if on_curve && face.is_some() {
             note("lies on a curve, and was taken for the face on one of its sides");
         }
         let new = match seed.kind {
@@ -321,6 +322,7 @@ fn read_seeds(drawing: &Drawing, domain: &mut Domain, faces: &Faces, tolerance: 
             SeedKind::Region { name, max_area } => Said::Region(name, max_area),
         };
         match face.map(|f| (f, said[f])) {
+            None if on_curve => note("lies on a curve beside no bounded face and was not used"),
             None => note("lies in no bounded face and was not used"),
             Some((f, None)) => said[f] = Some(new),
             Some((_, Some(old))) if old == new => note("lies in a face that already has such a point"),
@@ -387,15 +389,11 @@ fn name_regions(
 }
 
 /// Says why no face is kept, at the first free end if that is why.
-fn nothing_to_mesh(network: &Network, faces: &Faces) -> ArrangeError {
+fn nothing_to_mesh(network: &Network, domain: &Domain, faces: &Faces, rule: FillRule) -> ArrangeError {
     let has_faces = faces.cycles.len() > faces.outer.len();
     let first = network.drawing.curves.first().map_or(Point::ORIGIN, |c| c.curve.start());
     if has_faces {
-        return ArrangeError {
-            what: "nothing to mesh: every closed region is a hole or outside by the fill rule".into(),
-            at: first,
-            help: "choose another fill rule (`regions` keeps every bounded face), or remove hole points".into(),
-        };
+        return all_outside(network, rule, first);
     }
     let free = network.free_ends();
     let Some(&end) = free.first() else {
@@ -407,13 +405,44 @@ fn nothing_to_mesh(network: &Network, faces: &Faces) -> ArrangeError {
     };
     let at = network.nodes[end].at;
     let gap = free[1..].iter().map(|&n| network.nodes[n].at.distance(at)).fold(f64::INFINITY, f64::min);
-    let gap = gap * network.tolerances.unit;
-    ArrangeError {
-        what: format!(
-            "nothing to mesh: no closed region; {} ends freely",
-            network.nodes[end].origin.text(network.drawing)
+    let across = extent(domain.bounds());
+    let away = gap * network.tolerances.unit;
+    let help = if gap <= MENDED_BY_TOLERANCE * across {
+        format!("the nearest other free end is {away} away: close the outline, or raise the tolerance above that")
+    } else if gap.is_finite() {
+        format!("the nearest other free end is {away} away: close the outline by another curve")
+    } else {
+        "close the outline by another curve".into()
+    };
+    let what =
+        format!("nothing to mesh: no closed region; {} ends freely", network.nodes[end].origin.text(network.drawing));
+    ArrangeError { what, at, help }
+}
+
+/// Widest gap, as part of the drawing, that a tolerance is to close: a larger one would weld what is drawn.
+const MENDED_BY_TOLERANCE: f64 = 1e-3;
+
+/// Why no face of a drawing that has some is kept.
+fn all_outside(network: &Network, rule: FillRule, at: Point) -> ArrangeError {
+    let error =
+        |what: &str, help: &str| ArrangeError { what: format!("nothing to mesh: {what}"), at, help: help.into() };
+    let mut repeated: Vec<u32> =
+        network.pieces.iter().flat_map(|p| p.merged.iter().map(|&(source, _)| source)).collect();
+    repeated.sort_unstable();
+    repeated.dedup();
+    match (rule, repeated.len()) {
+        (FillRule::Regions, _) => error("a hole point lies in every closed region", "remove hole points"),
+        (FillRule::EvenOdd, 1..) => {
+            let drawn =
+                if repeated.len() == 1 { "1 curve is".into() } else { format!("{} curves are", repeated.len()) };
+            error(
+                &format!("{drawn} drawn twice, so that by the even-odd rule nothing is inside"),
+                "remove what is repeated; --fill-rule nonzero keeps all that is enclosed",
+            )
+        }
+        _ => error(
+            "every closed region is a hole or outside by the fill rule",
+            "choose another fill rule (`regions` keeps every bounded face), or remove hole points",
         ),
-        at,
-        help: format!("the nearest other free end is {gap} away: close the outline, or raise the tolerance above that"),
     }
 }

@@ -129,8 +129,7 @@ impl Classes {
         names.dedup();
         // A file of a format without names: everything in it is one class, or nothing could be compared.
         let unknown = |n: &&str| !in_domain.contains(n);
-        let all_unknown = domain.is_some() && !in_mesh.is_empty() && in_mesh.iter().all(unknown);
-        let nameless = all_unknown || foreign && in_mesh.iter().any(unknown);
+        let nameless = foreign && in_mesh.iter().any(unknown);
         let class = |n: &&str| if nameless { 0 } else { names.binary_search(n).unwrap_or(0) as u32 };
         let (of_mesh, of_domain) = (in_mesh.iter().map(class).collect(), in_domain.iter().map(class).collect());
         let names =

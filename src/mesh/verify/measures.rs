@@ -1,11 +1,11 @@
 //! Sizes, areas and names.
 
-use super::evidence::{Evidence, is_kept};
+use super::evidence::{Evidence, Piece, is_kept};
 use super::tally::Tally;
 use super::{Check, Status};
 use crate::domain::Domain;
 use crate::geometry::Point;
-use crate::ids::{Id, NameId, RegionId};
+use crate::ids::{Id, NameId, RegionId, VertexId};
 use crate::mesh::quality;
 use crate::size::{SizeField, Source};
 
@@ -181,41 +181,104 @@ fn add_lenses(ev: &Evidence, domain: &Domain, sums: &mut [Sums]) {
 }
 
 /// Every region name and every name of a curve with a kept side is in the mesh, and each edge on a curve has the
-/// curve's name. n/a of a foreign mesh without names. Checked: names and edges.
+/// curve's name. A foreign mesh is asked only for the kind of names, of regions or of boundaries, that it kept; n/a
+/// where it kept neither. Checked: names and edges.
 pub fn names(ev: &Evidence, domain: &Domain) -> Check {
     let mesh = ev.mesh;
-    if ev.promise.foreign && mesh.edges.is_empty() && mesh.regions.len() <= 1 {
+    let (regions, boundaries) = (kept_regions(ev, domain), kept_boundaries(ev, domain));
+    if !regions && !boundaries {
         return Check::not_asked("names");
     }
     let mut tally = Tally::highest("names");
-    let mut has_cells = vec![false; mesh.names.iter().count()];
-    mesh.triangle_regions.iter().for_each(|&r| has_cells[mesh.regions[r].index()] = true);
-    let mut has_edges = vec![false; has_cells.len()];
-    mesh.edges.iter().for_each(|e| has_edges[e.name.index()] = true);
-    let is_in = |list: &[bool], text: &str| mesh.names.find(text).is_some_and(|id| list[id.index()]);
-    for name in distinct(domain.regions().iter().map(|r| r.name)) {
+    if regions {
+        let has_cells = in_use(ev, mesh.triangle_regions.iter().map(|&r| mesh.regions[r]));
+        every_name(domain, domain.regions().iter().map(|r| r.name), &has_cells, &mut tally, |name| {
+            format!("no triangle is of the region \"{name}\"")
+        });
+    }
+    if boundaries {
+        let has_edges = in_use(ev, mesh.edges.iter().map(|e| e.name));
+        every_name(domain, names_of_boundaries(domain), &has_edges, &mut tally, |name| {
+            format!("no edge is of the boundary \"{name}\"")
+        });
+        names_of_edges(ev, domain, &mut tally);
+    }
+    tally.finish(Status::Proven)
+}
+
+fn names_of_boundaries(domain: &Domain) -> impl Iterator<Item = NameId> {
+    domain.curves().iter().filter(|c| is_kept(c.sides)).map(|c| c.name)
+}
+
+/// Distinct names of the mesh.
+fn in_use<'a>(ev: &Evidence<'a>, names: impl Iterator<Item = NameId>) -> Vec<&'a str> {
+    distinct(names).into_iter().map(|name| ev.mesh.names.text(name)).collect()
+}
+
+fn every_name(
+    domain: &Domain,
+    asked: impl Iterator<Item = NameId>,
+    has: &[&str],
+    tally: &mut Tally,
+    sentence: impl Fn(&str) -> String,
+) {
+    for name in distinct(asked).into_iter().map(|name| domain.name(name)) {
         tally.count();
-        let name = domain.name(name);
-        if !is_in(&has_cells, name) {
-            tally.flaw(|| format!("no triangle is of the region \"{name}\""));
+        if !has.contains(&name) {
+            tally.flaw(|| sentence(name));
         }
     }
-    for name in distinct(domain.curves().iter().filter(|c| is_kept(c.sides)).map(|c| c.name)) {
-        tally.count();
-        let name = domain.name(name);
-        if !is_in(&has_edges, name) {
-            tally.flaw(|| format!("no edge is of the boundary \"{name}\""));
-        }
-    }
+}
+
+/// Whether a mesh calls any region as the domain does.
+fn kept_regions(ev: &Evidence, domain: &Domain) -> bool {
+    let known = |name: &&str| domain.regions().iter().any(|r| domain.name(r.name) == *name);
+    !ev.promise.foreign || in_use(ev, ev.mesh.triangle_regions.iter().map(|&r| ev.mesh.regions[r])).iter().any(known)
+}
+
+/// Whether a mesh calls any boundary as the domain does. Numbers that do not fit are another program's numbers: formats without
+/// names have nothing else.
+fn kept_boundaries(ev: &Evidence, domain: &Domain) -> bool {
+    let asked = in_domain(domain, names_of_boundaries(domain));
+    let has = in_use(ev, ev.mesh.edges.iter().map(|e| e.name));
+    let are_numbers = has.iter().all(|name| name.parse::<i64>().is_ok());
+    let fits = |p: &Piece| p.name.is_none_or(|name| ev.mesh.names.text(name) == name_asked(domain, p));
+    let known = has.iter().any(|name| asked.contains(name));
+    !ev.promise.foreign || known && (!are_numbers || ev.pieces.iter().all(fits))
+}
+
+fn in_domain(domain: &Domain, names: impl Iterator<Item = NameId>) -> Vec<&str> {
+    distinct(names).into_iter().map(|name| domain.name(name)).collect()
+}
+
+fn name_asked<'a>(domain: &'a Domain, piece: &Piece) -> &'a str {
+    domain.name(domain.curves()[piece.curve].name)
+}
+
+/// Each edge on a curve has its name, and (of a foreign mesh) no other edge has one.
+fn names_of_edges(ev: &Evidence, domain: &Domain, tally: &mut Tally) {
     for piece in &ev.pieces {
-        let asked = domain.name(domain.curves()[piece.curve].name);
-        let Some(has) = piece.name.map(|n| mesh.names.text(n)) else { continue };
+        let Some(has) = piece.name.map(|n| ev.mesh.names.text(n)) else { continue };
         tally.count();
+        let asked = name_asked(domain, piece);
         if has != asked {
             tally.flaw(|| format!("{} is of \"{has}\", its curve of \"{asked}\"", ev.tell_edge(piece.nodes)));
         }
     }
-    tally.finish(Status::Proven)
+    if !ev.promise.foreign {
+        return;
+    }
+    let ascending = |[a, b]: [VertexId; 2]| [a.min(b), a.max(b)];
+    let mut on_curves: Vec<_> = ev.pieces.iter().map(|p| ascending(p.nodes)).collect();
+    on_curves.sort_unstable();
+    let asked = in_domain(domain, names_of_boundaries(domain));
+    for edge in ev.mesh.edges.iter().filter(|e| on_curves.binary_search(&ascending(e.nodes)).is_err()) {
+        let has = ev.mesh.names.text(edge.name);
+        if asked.contains(&has) {
+            tally.count();
+            tally.flaw(|| format!("{} is of \"{has}\", but lies on no curve", ev.tell_edge(edge.nodes)));
+        }
+    }
 }
 
 fn distinct(names: impl Iterator<Item = NameId>) -> Vec<NameId> {
