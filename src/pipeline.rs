@@ -4,13 +4,14 @@ use crate::domain::{ArrangeError, ArrangeOptions, Domain, Drawing, DrawnCurve, S
 use crate::geometry::Point;
 use crate::import::{self, AirfoilOptions, Format, ImportError};
 use crate::mesh::Mesh;
+use crate::mesh::elevate::elevate;
 use crate::mesh::quality::Quality;
 use crate::mesh::verify::{Status, Verdict, verify};
 use crate::plane;
 use crate::plane::lopping::{self, Lopping, RefineError, Refined, Shrinking};
 use crate::refine::{Progress, Stop, StopReason};
 use crate::report::{FailureKind, FailureReport, MeshReport, PromiseReport, Report, StopReport};
-use crate::request::{BallShrinking, Keep, Midpoint, Request, SizeOf, TrailingEdge, metres};
+use crate::request::{BallShrinking, Keep, Midpoint, Order, Request, SizeOf, TrailingEdge, metres};
 use crate::size::{Sizing, Source as SizeSource};
 use kurbo::Affine;
 use std::collections::BTreeSet;
@@ -132,9 +133,14 @@ impl Outcome {
         let mut mesh = mesh.ok_or_else(|| no_mesh(&stop, more))?;
         mesh.unit = drawing.unit.as_ref().map(|(unit, _)| unit.clone());
         mesh.frame = drawing.frame;
+        let straightened = match request.order {
+            Order::First => Vec::new(),
+            Order::Second => elevate(&mut mesh, &domain),
+        };
+        self.report.seconds.mesh += clock.lap();
 
         let verdict = plan.judge(Some(&domain), &mesh);
-        self.report.mesh = Some(MeshReport::new(&mesh));
+        self.report.mesh = Some(MeshReport::new(&mesh).with_straightened(&mesh, &straightened));
         self.report.quality = Some(Quality::of(Some(&domain), &mesh, &verdict));
         self.report.promise = Some(PromiseReport::new(&verdict));
         self.report.seconds.verify = clock.lap();

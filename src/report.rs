@@ -167,6 +167,17 @@ pub struct MeshReport {
     pub boundary_edges: usize,
     pub regions: Vec<RegionMeasure>,
     pub boundaries: Vec<BoundaryMeasure>,
+    /// Polynomial order of the cells.
+    pub order: u8,
+    /// Of order 2: curved sides that had to stay straight, or a cell would fold.
+    pub straightened: Vec<StraightenedReport>,
+}
+
+/// A curved side that is straight in the mesh: the name of its boundary, and its middle.
+#[derive(Clone, Debug, Serialize)]
+pub struct StraightenedReport {
+    pub boundary: String,
+    pub at: [f64; 2],
 }
 
 impl MeshReport {
@@ -178,7 +189,19 @@ impl MeshReport {
             boundary_edges: mesh.edges.len(),
             regions: region_measures(mesh),
             boundaries: boundary_measures(mesh),
+            order: mesh.order(),
+            straightened: Vec::new(),
         }
+    }
+
+    /// With the straightened sides, as places in `Mesh::edges`.
+    pub fn with_straightened(mut self, mesh: &Mesh, sides: &[usize]) -> Self {
+        let tell = |&side: &usize| {
+            let at = mesh.nodes[mesh.edge_mids[side]];
+            StraightenedReport { boundary: mesh.names.text(mesh.edges[side].name).to_owned(), at: [at.x, at.y] }
+        };
+        self.straightened = sides.iter().map(tell).collect();
+        self
     }
 }
 

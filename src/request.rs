@@ -229,6 +229,8 @@ impl FromStr for Engine {
 #[serde(try_from = "u64", into = "u64")]
 pub enum Order {
     First,
+    /// A node within every edge, on the curve.
+    Second,
 }
 
 impl TryFrom<u64> for Order {
@@ -236,8 +238,8 @@ impl TryFrom<u64> for Order {
     fn try_from(order: u64) -> Result<Self, String> {
         match order {
             1 => Ok(Self::First),
-            2 => Err("order 2 is not in this version; order 1 is".into()),
-            _ => Err("1 is expected".into()),
+            2 => Ok(Self::Second),
+            _ => Err("1 or 2 is expected".into()),
         }
     }
 }
@@ -246,6 +248,7 @@ impl From<Order> for u64 {
     fn from(order: Order) -> Self {
         match order {
             Order::First => 1,
+            Order::Second => 2,
         }
     }
 }

@@ -1,6 +1,7 @@
 //! The mesh: plain data, whoever made it. Nodes, cells, regions, boundaries, links back to curves, and the balls that
 //! excuse cells.
 
+pub mod elevate;
 pub mod quality;
 pub mod verify;
 

@@ -4,7 +4,7 @@ use super::Mesh;
 use super::verify::Verdict;
 use crate::domain::Domain;
 use crate::geometry::{Point, Vec2};
-use crate::ids::{Id, TriangleId};
+use crate::ids::{Id, TriangleId, VertexId};
 use serde::{Serialize, Serializer};
 
 /// What a mesh measures; angles in degrees, the rest in the drawing's units. Angles of a mesh without triangles: the
@@ -64,7 +64,7 @@ impl Quality {
         };
         for t in mesh.triangles.ids() {
             let corners = mesh.corners(t);
-            quality.measure += area(corners);
+            quality.measure += cell_area(mesh, t);
             quality.add_angles(angle_range(corners), excused[t.index()]);
         }
         quality
@@ -105,7 +105,7 @@ pub fn region_measures(mesh: &Mesh) -> Vec<RegionMeasure> {
     for (t, region) in mesh.triangle_regions.enumerate() {
         if let Some(entry) = &mut by_name[mesh.regions[*region].index()] {
             entry.cells += 1;
-            entry.measure += area(mesh.corners(t));
+            entry.measure += cell_area(mesh, t);
         }
     }
     mesh.regions.iter().filter_map(|name| by_name[name.index()].take()).collect()
@@ -115,10 +115,16 @@ pub fn region_measures(mesh: &Mesh) -> Vec<RegionMeasure> {
 pub fn boundary_measures(mesh: &Mesh) -> Vec<BoundaryMeasure> {
     let mut by_name: Vec<BoundaryMeasure> =
         mesh.names.iter().map(|(_, text)| BoundaryMeasure { name: text.to_owned(), edges: 0, length: 0.0 }).collect();
-    for edge in &mesh.edges {
+    for (i, edge) in mesh.edges.iter().enumerate() {
         let entry = &mut by_name[edge.name.index()];
         entry.edges += 1;
-        entry.length += mesh.nodes[edge.nodes[0]].distance(mesh.nodes[edge.nodes[1]]);
+        let [a, b] = edge.nodes.map(|v| mesh.nodes[v]);
+        let chord = a.distance(b);
+        // Of order 2, two chords cut the error of one to a quarter: extrapolated.
+        entry.length += mesh.edge_mids.get(i).map_or(chord, |&m| {
+            let m = mesh.nodes[m];
+            (4.0 * (a.distance(m) + m.distance(b)) - chord) / 3.0
+        });
     }
     by_name.retain(|b| b.edges > 0);
     by_name
@@ -127,6 +133,90 @@ pub fn boundary_measures(mesh: &Mesh) -> Vec<BoundaryMeasure> {
 /// Signed area of a triangle: positive where it runs counter-clockwise.
 pub fn area([a, b, c]: [Point; 3]) -> f64 {
     0.5 * (b - a).cross(c - a)
+}
+
+/// Signed area of a cell. Of order 2, a side is a parabola through its three nodes, two thirds of the way from the chord to the
+/// parallelogram around it.
+pub fn cell_area(mesh: &Mesh, t: TriangleId) -> f64 {
+    let corners = mesh.corners(t);
+    let bulge = |mids: &[VertexId; 3]| -> f64 {
+        let bulge = |i: usize| (mesh.nodes[mids[i]] - corners[i]).cross(corners[(i + 1) % 3] - corners[i]);
+        (0..3).map(bulge).sum()
+    };
+    area(corners) + mesh.triangle_mids.get(t).map_or(0.0, |mids| bulge(mids) * 2.0 / 3.0)
+}
+
+/// Whether the Jacobian determinant of a cell is positive throughout: proven by bounds, never by samples, so that a doubtful cell
+/// counts as not valid. Of order 1: whether it runs counter-clockwise.
+pub fn is_valid(mesh: &Mesh, t: TriangleId) -> bool {
+    let corners = mesh.corners(t);
+    match mesh.triangle_mids.get(t) {
+        None => area(corners) > 0.0,
+        Some(mids) => Jacobian::new(corners, mids.map(|v| mesh.nodes[v])).is_positive(),
+    }
+}
+
+/// The Jacobian determinant of a cell of order 2, as a polynomial of degree 2 in Bézier form over the triangle.
+struct Jacobian {
+    /// At the corners: its values there.
+    at: [f64; 3],
+    /// Within the sides 0–1, 1–2, 2–0.
+    within: [f64; 3],
+    /// What rounding can do to a coefficient.
+    noise: f64,
+}
+
+/// Barycentric coordinates.
+type Place = [f64; 3];
+
+impl Jacobian {
+    fn new(corners: [Point; 3], mids: [Point; 3]) -> Self {
+        let p = corners.map(|c| c - corners[0]);
+        let m = mids.map(|m| m - corners[0]);
+        // Control points of the sides as parabolas.
+        let control = |i: usize| 2.0 * m[i] - 0.5 * (p[i] + p[(i + 1) % 3]);
+        let (e01, e12, e20) = (control(0), control(1), control(2));
+        // Derivatives towards corner 1 and towards corner 2, at each corner: both are linear.
+        let (u, v) = ([e01 - p[0], p[1] - e01, e12 - e20], [e20 - p[0], e12 - e01, p[2] - e20]);
+        let product = |i: usize, j: usize| 2.0 * (u[i].cross(v[j]) + u[j].cross(v[i]));
+        let largest = u.iter().chain(&v).map(|w| w.hypot2()).fold(0.0, f64::max);
+        Self {
+            at: [product(0, 0), product(1, 1), product(2, 2)],
+            within: [product(0, 1), product(1, 2), product(2, 0)],
+            noise: 64.0 * f64::EPSILON * largest,
+        }
+    }
+
+    /// The polar form: the value at `a` where both are the same, a coefficient over a part of the triangle where they are two of its
+    /// corners.
+    fn polar(&self, a: Place, b: Place) -> f64 {
+        let diagonal: f64 = (0..3).map(|i| self.at[i] * a[i] * b[i]).sum();
+        let mixed = |i: usize, j: usize| self.within[i] * (a[i] * b[j] + a[j] * b[i]);
+        diagonal + mixed(0, 1) + mixed(1, 2) + mixed(2, 0)
+    }
+
+    /// Cuts the triangle into four until each part has positive coefficients, or a value that is not.
+    fn is_positive(&self) -> bool {
+        /// Each cut brings coefficients four times nearer to values; 4^6 to one is as near to zero as is of any use.
+        const CUTS: u32 = 6;
+        let mut parts = vec![([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], CUTS)];
+        while let Some(([a, b, c], cuts)) = parts.pop() {
+            let positive = |a: Place, b: Place| self.polar(a, b) > self.noise;
+            if !(positive(a, a) && positive(b, b) && positive(c, c)) {
+                return false;
+            }
+            if positive(a, b) && positive(b, c) && positive(c, a) {
+                continue;
+            }
+            if cuts == 0 {
+                return false;
+            }
+            let middle = |a: Place, b: Place| std::array::from_fn(|i| 0.5 * (a[i] + b[i]));
+            let (ab, bc, ca) = (middle(a, b), middle(b, c), middle(c, a));
+            parts.extend([[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]].map(|part| (part, cuts - 1)));
+        }
+        true
+    }
 }
 
 /// The smallest and the largest angle of a triangle, in radians; both negative where it runs clockwise.
@@ -148,6 +238,62 @@ fn dots([a, b, c]: [Point; 3]) -> [f64; 3] {
 mod tests {
     use super::*;
     use std::f64::consts::{FRAC_PI_2, FRAC_PI_6};
+
+    /// The value by the definition, from the derivatives of the six shape functions.
+    fn jacobian_at(corners: [Point; 3], mids: [Point; 3], [l0, l1, l2]: [f64; 3]) -> f64 {
+        let d = [4.0 * l0 - 1.0, 4.0 * l1 - 1.0, 4.0 * l2 - 1.0];
+        let derivative = |towards: usize| {
+            let along = |i: usize| {
+                if i == towards {
+                    1.0
+                } else if i == 0 {
+                    -1.0
+                } else {
+                    0.0
+                }
+            };
+            let l = [l0, l1, l2];
+            let corner = (0..3).map(|i| corners[i].to_vec2() * d[i] * along(i));
+            let mid = (0..3).map(|i| {
+                let j = (i + 1) % 3;
+                mids[i].to_vec2() * 4.0 * (along(i) * l[j] + l[i] * along(j))
+            });
+            corner.chain(mid).fold(Vec2::ZERO, |sum, v| sum + v)
+        };
+        derivative(1).cross(derivative(2))
+    }
+
+    #[test]
+    fn the_jacobians_bezier_form_has_the_values_of_its_definition_and_its_sign_is_told() {
+        let mut state = 1u64;
+        let mut number = || {
+            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            (state >> 40) as f64 / (1u64 << 24) as f64 - 0.5
+        };
+        let (mut valid, mut folded) = (0, 0);
+        for _ in 0..2000 {
+            let corners = [Point::new(0.0, 0.0), Point::new(1.0, 0.1), Point::new(0.3, 0.9)];
+            let mids = [0, 1, 2]
+                .map(|i: usize| corners[i].midpoint(corners[(i + 1) % 3]) + 0.5 * Vec2::new(number(), number()));
+            let jacobian = Jacobian::new(corners, mids);
+            let places =
+                (0..=40).flat_map(|i| (0..=40 - i).map(move |j| [i, j, 40 - i - j].map(|k| f64::from(k) / 40.0)));
+            let mut least = f64::INFINITY;
+            for place in places {
+                let value = jacobian_at(corners, mids, place);
+                approx::assert_abs_diff_eq!(jacobian.polar(place, place), value, epsilon = 1e-12);
+                least = least.min(value);
+            }
+            if jacobian.is_positive() {
+                valid += 1;
+                assert!(least > 0.0);
+            } else {
+                folded += 1;
+                assert!(least < 0.01, "refused, but its least sample is {least}");
+            }
+        }
+        assert!(valid > 200 && folded > 200, "{valid} valid, {folded} folded");
+    }
 
     #[test]
     fn angles_and_area_of_half_an_equilateral_triangle_at_any_scale_and_offset() {

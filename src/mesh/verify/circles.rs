@@ -32,7 +32,7 @@ impl Circles {
         let balls = ball_at_nodes(ev, domain);
         let at_node = PiecesAtNodes::new(ev);
         let boxes = BoxHierarchy::new(ev.pieces.iter().map(|p| box_of_circle(ev, p)));
-        (0..ev.mesh.nodes.len()).into_par_iter().map(VertexId::from_index).for_each(|v| {
+        (0..ev.mesh.nodes.len()).into_par_iter().map(VertexId::from_index).filter(|&v| !ev.within[v]).for_each(|v| {
             let at = ev.node(v);
             boxes.meeting(Rect::from_points(at, at), |i| {
                 circles.note(ev, &balls, &at_node, i, v);

@@ -1,5 +1,6 @@
 //! What the curves of the domain ask of the mesh: nodes on them, chains of edges along them, small errors.
 
+use super::elevation::mids_on_curves;
 use super::evidence::{Evidence, Piece, is_kept, place};
 use super::tally::Tally;
 use super::topology::{ends_a_region, nodes_of_points};
@@ -33,6 +34,7 @@ pub fn on_curve(ev: &Evidence, domain: &Domain) -> Check {
             }
         }
     }
+    mids_on_curves(ev, domain, reach, &mut tally);
     for &i in &ev.unlinked {
         tally.count();
         tally.flaw(|| format!("{} is listed, but has no place on a curve", ev.tell_edge(ev.mesh.edges[i].nodes)));

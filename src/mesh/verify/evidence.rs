@@ -32,6 +32,8 @@ pub struct Evidence<'a> {
     pub domain: Option<&'a Domain>,
     pub mesh: &'a Mesh,
     pub promise: &'a Promise,
+    /// Which nodes are no corners, but lie within edges of order 2.
+    pub within: IdVec<VertexId, bool>,
     /// The nodes times a power of two, for exact signs.
     pub signs: IdVec<VertexId, Point>,
     pub edges: EdgeTable,
@@ -55,8 +57,12 @@ impl<'a> Evidence<'a> {
         let edges = EdgeTable::new(mesh.nodes.len(), &mesh.triangles);
         // An ulp of a number in [2^e, 2^(e+1)) is ε·2^e; ε times the magnitude is one to two of them.
         let rounding = 4.0 * f64::EPSILON * magnitude;
+        let mut within: IdVec<VertexId, bool> = vec![false; mesh.nodes.len()].into();
+        mesh.triangle_mids.iter().flatten().for_each(|&v| within[v] = true);
         let (mut pieces, unlinked) = match domain {
-            Some(domain) if promise.foreign => (recovered(domain, mesh, domain.tolerance() + rounding), Vec::new()),
+            Some(domain) if promise.foreign => {
+                (recovered(domain, mesh, &within, domain.tolerance() + rounding), Vec::new())
+            }
             Some(_) => linked(mesh),
             None => (Vec::new(), Vec::new()),
         };
@@ -67,6 +73,7 @@ impl<'a> Evidence<'a> {
             domain,
             mesh,
             promise,
+            within,
             signs: mesh.nodes.iter().map(|&p| geometry::scaled(p, factor)).collect(),
             edges,
             pieces,
@@ -156,8 +163,8 @@ fn linked(mesh: &Mesh) -> (Vec<Piece>, Vec<usize>) {
 /// Boxes a curve is searched by: a mesh has many nodes near few curves, and a small box is cheap to miss.
 const SEARCH_PARTS: usize = 16;
 
-/// Stretches of the kept curves between the nodes that lie on them within `reach`.
-fn recovered(domain: &Domain, mesh: &Mesh, reach: f64) -> Vec<Piece> {
+/// Stretches of the kept curves between the corners of cells that lie on them within `reach`.
+fn recovered(domain: &Domain, mesh: &Mesh, within: &IdVec<VertexId, bool>, reach: f64) -> Vec<Piece> {
     let kept: Vec<CurveId> = domain.curves().enumerate().filter(|(_, c)| is_kept(c.sides)).map(|(id, _)| id).collect();
     let range = |part: usize| {
         let (k, n) = (part % SEARCH_PARTS, SEARCH_PARTS as f64);
@@ -169,7 +176,7 @@ fn recovered(domain: &Domain, mesh: &Mesh, reach: f64) -> Vec<Piece> {
     });
     let hierarchy = BoxHierarchy::new(boxes);
     let mut found: Vec<(CurveId, f64, VertexId)> = Vec::new();
-    for (v, &p) in mesh.nodes.enumerate() {
+    for (v, &p) in mesh.nodes.enumerate().filter(|(v, _)| !within[*v]) {
         hierarchy.meeting(Rect::from_points(p, p), |part| {
             let (id, t0, t1) = range(part);
             let curve = &domain.curves()[id].curve;

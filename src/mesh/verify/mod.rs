@@ -22,6 +22,7 @@ mod balls;
 mod circles;
 mod curves;
 mod edges;
+mod elevation;
 mod evidence;
 mod measures;
 mod tally;
@@ -123,7 +124,8 @@ fn is_zero(n: &usize) -> bool {
 /// The checks come in the contract's order, each once, `n/a` included. A mesh whose ids lead nowhere or whose
 /// coordinates are not finite has `manifold` broken, with the culprits, and everything else `n/a`.
 pub fn verify(domain: Option<&Domain>, mesh: &Mesh, promise: &Promise) -> Verdict {
-    let unreadable = evidence::unreadable(domain, mesh);
+    let mut unreadable = evidence::unreadable(domain, mesh);
+    unreadable.extend(elevation::unreadable(mesh));
     if !unreadable.is_empty() {
         return verdict_of_unreadable(unreadable);
     }
@@ -168,7 +170,7 @@ pub fn verify(domain: Option<&Domain>, mesh: &Mesh, promise: &Promise) -> Verdic
         size,
         known(measures::area, "area"),
         known(measures::names, "names"),
-        Check::not_asked("jacobian"),
+        elevation::jacobian(&evidence),
     ];
     Verdict { checks, excused }
 }

@@ -174,7 +174,8 @@ fn covers([a, b, c]: [Point; 3], p: Point) -> bool {
 
 fn idle_nodes(ev: &Evidence, tally: &mut Tally) {
     let mut used = vec![false; ev.mesh.nodes.len()];
-    ev.mesh.triangles.iter().flatten().for_each(|v| used[v.index()] = true);
+    let cells = ev.mesh.triangles.iter().chain(ev.mesh.triangle_mids.iter());
+    cells.flatten().for_each(|v| used[v.index()] = true);
     for v in ev.mesh.nodes.ids().filter(|v| !used[v.index()]) {
         tally.count();
         tally.flaw(|| format!("node {} at {} belongs to no triangle", v.0, place(ev.node(v))));
