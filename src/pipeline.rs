@@ -12,7 +12,7 @@ use crate::plane::lopping::{self, Lopping, RefineError, Refined, Shrinking};
 use crate::refine::{Progress, Stop, StopReason};
 use crate::report::{FailureKind, FailureReport, MeshReport, PromiseReport, Report, StopReport};
 use crate::request::{BallShrinking, Keep, Midpoint, Order, Request, SizeOf, TrailingEdge, metres};
-use crate::size::{Sizing, Source as SizeSource};
+use crate::size::{ByPlace, Given, SAMPLE_GRADE, Sizing, Source as SizeSource};
 use kurbo::Affine;
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -463,7 +463,20 @@ fn plain_sizing(request: &Request, diagonal: Option<f64>) -> Sizing {
         edge_turning_rad: request.edge_turning.deg().map(f64::to_radians),
         grade: request.grade,
         sources: Vec::new(),
+        by_place: match &request.size {
+            Some(Given::Expression(expression)) => Some(ByPlace { expression: expression.clone(), scale: 1.0 }),
+            Some(Given::Samples(_)) | None => None,
+        },
     }
+}
+
+/// The samples of `--size`, which grow by `--grade`.
+fn samples(request: &Request) -> Vec<SizeSource> {
+    let Some(Given::Samples(samples)) = &request.size else { return Vec::new() };
+    let grade = request.grade.unwrap_or(SAMPLE_GRADE);
+    let near =
+        |&[x, y, edge]: &[f64; 3]| SizeSource::Near { from: Point::new(x, y), to: Point::new(x, y), edge, grade };
+    samples.iter().map(near).collect()
 }
 
 /// Sizes of the request and of the drawing.
@@ -471,6 +484,16 @@ fn sizing(drawing: &Drawing, domain: &Domain, request: &Request) -> Result<Sizin
     let diagonal = drawing.bounds().map(|b| libm::hypot(b.width(), b.height()));
     let plain = plain_sizing(request, diagonal);
     let mut sizing = plain.with_requests(&drawing.sizes, |name| drawing.names.text(name).to_owned());
+    sizing.sources.extend(samples(request));
+    let undefined = request.size.as_ref().and_then(|size| size.undefined_at(domain.points().iter().copied()));
+    if let Some(at) = undefined {
+        let what = format!(
+            "--size {} is no positive length",
+            request.size.as_ref().map_or(String::new(), ToString::to_string)
+        );
+        let help = "an expression must be positive all over the drawing: max(h, …) keeps it so";
+        return Err(FailureReport::new(FailureKind::Request, what, help).at(at));
+    }
     let boundaries: BTreeSet<&str> = domain.curves().iter().map(|c| domain.name(c.name)).collect();
     let regions: BTreeSet<&str> = domain.regions().iter().map(|r| domain.name(r.name)).collect();
     for SizeOf { name, edge } in &request.size_of {

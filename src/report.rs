@@ -91,6 +91,8 @@ pub struct RequestReport {
     /// As a length, also where a share of the diagonal was asked for.
     pub chord_error: Option<f64>,
     pub edge_turning_deg: Option<f64>,
+    /// As an expression, or how many places were given.
+    pub size: Option<String>,
     pub grade: Option<f64>,
     pub size_of: BTreeMap<String, f64>,
     pub order: u64,
@@ -124,6 +126,7 @@ impl RequestReport {
             min_edge: request.min_edge,
             chord_error: None,
             edge_turning_deg: request.edge_turning.deg(),
+            size: request.size.as_ref().map(ToString::to_string),
             grade: request.grade,
             size_of: request.size_of.iter().map(|s| (s.name.clone(), s.edge)).collect(),
             order: request.order.into(),

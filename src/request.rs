@@ -6,6 +6,7 @@
 use crate::curve::Curve;
 use crate::domain::FillRule;
 use crate::mesh::verify::guaranteed_angle;
+use crate::size::Given;
 use clap::ValueEnum;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::FRAC_PI_3;
@@ -39,6 +40,9 @@ pub struct Request {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub chord_error: Option<ChordError>,
     pub edge_turning: EdgeTurning,
+    /// Longest edge by place: an expression in x and y, or sizes at places.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub size: Option<Given>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub grade: Option<f64>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -78,6 +82,7 @@ impl Default for Request {
             min_edge: None,
             chord_error: None,
             edge_turning: EdgeTurning::Deg(15.0), // 24 edges a circle; without it a thin airfoil gets 14 edges in all
+            size: None,
             grade: None,
             size_of: Vec::new(),
             order: Order::First,
@@ -146,6 +151,9 @@ impl Request {
         }
         if let Some(size) = self.size_of.iter().find(|s| !(s.edge.is_finite() && s.edge > 0.0)) {
             return refuse("size-of", size, "a positive length is needed");
+        }
+        if let Some((size, flaw)) = self.size.as_ref().and_then(|size| Some((size, size.flaw()?))) {
+            return refuse("size", size, flaw);
         }
         if let Some(tolerance) = self.tolerance.filter(|t| !(t.is_finite() && *t >= 0.0)) {
             return refuse("tolerance", &tolerance, "a length that is not negative is needed");
@@ -585,7 +593,14 @@ mod tests {
         assert_eq!(request.chord_error, Some(ChordError::Percent(2.0)));
         assert_eq!(request.chord_error.unwrap().length(Some(50.0)), Some(1.0));
         assert_eq!(request.edge_turning, EdgeTurning::Deg(7.5));
-        for wrong in ["max-turning = 'much'", "max-trning = 1", "size-of = ['0.1']", "order = 2", "engine = 'gcdr'"] {
+        for wrong in [
+            "max-turning = 'much'",
+            "max-trning = 1",
+            "size-of = ['0.1']",
+            "order = 3",
+            "size = 'x +'",
+            "engine = 'gcdr'",
+        ] {
             assert!(toml::from_str::<Request>(wrong).is_err(), "{wrong}");
         }
     }

@@ -729,3 +729,32 @@ fn an_interrupt_is_130_and_leaves_nothing() {
     assert_eq!(output.status.code(), Some(130), "{}", said(&output));
     assert!(bench.made().is_empty(), "{:?}", bench.made());
 }
+
+/// The status of a check in a report.
+fn status_of<'a>(report: &'a serde_json::Value, check: &str) -> &'a str {
+    let checks = report["promise"]["checks"].as_array().expect("checks");
+    checks.iter().find(|c| c["name"] == check).expect("the check")["status"].as_str().expect("a status")
+}
+
+#[test]
+fn sizes_by_place_come_as_an_expression_or_from_a_file() {
+    let bench = Bench::new("sizes");
+    let triangles = |size: &[&str]| {
+        let line = [&["mesh", "square.poly", "-o", "a.vtu", "--report", "a.json"], size].concat();
+        bench.ends(0, &line);
+        let report = bench.report("a.json");
+        assert_eq!(status_of(&report, "size"), "proven");
+        report["mesh"]["triangles"].as_u64().expect("a count")
+    };
+    let expression = triangles(&["--size", "0.02 + 0.1*hypot(x, y)"]);
+    fs::write(bench.0.join("sizes.txt"), "# one fine corner\n0 0 0.02\n").expect("written");
+    let file = triangles(&["--size", "sizes.txt", "--grade", "0.1"]);
+    assert!(expression > 200 && expression.abs_diff(file) < expression / 5, "{expression} and {file}");
+    // A mesh of ours says what it was asked for, sizes of a file included, and is held to it.
+    bench.ends(0, &["check", "a.vtu", "--against", "square.poly"]);
+    let output = bench.ends(2, &["mesh", "square.poly", "-o", "b.vtu", "--size", "x +"]);
+    assert!(said(&output).contains("a value is missing at the end of 'x +'"), "{}", said(&output));
+    let output = bench.ends(2, &["mesh", "square.poly", "-o", "b.vtu", "--size", "x"]);
+    assert!(said(&output).contains("no positive length"), "{}", said(&output));
+    assert!(!bench.has("b.vtu"));
+}

@@ -10,6 +10,7 @@ use squinch::request::{
     BallShrinking, ChordError, EdgeTurning, Engine, FillChoice, Keep, MaxTurning, Midpoint, Order, Request, SizeOf,
     Switch, TrailingEdge,
 };
+use squinch::size::Given;
 use std::path::{Path, PathBuf};
 
 /// What a run is asked for. An option that is not given keeps its default.
@@ -48,11 +49,15 @@ pub struct Options {
     /// Largest length of an edge on the boundary, or in the region, of this name; may be repeated
     #[arg(long, value_name = "NAME=LENGTH", help_heading = "Bounds")]
     size_of: Option<Vec<SizeOf>>,
+    /// Longest edge by place: an expression in x and y as in "0.1 + 0.05*hypot(x-2, y)", or a file with `x y size` on every line, from
+    /// which the size grows by --grade [default there: 0.3]
+    #[arg(long, value_name = "FILE|EXPR", allow_hyphen_values = true, help_heading = "Bounds")]
+    size: Option<String>,
     /// Growth of a sized boundary's edge length a unit of distance away from it
     #[arg(long, value_name = "G", allow_hyphen_values = true, help_heading = "Bounds")]
     grade: Option<f64>,
-    /// Order of the cells [default: 1]
-    #[arg(long, value_name = "1", allow_hyphen_values = true, help_heading = "Bounds")]
+    /// Order of the cells: 2 puts a node on the curve within every edge [default: 1]
+    #[arg(long, value_name = "1|2", allow_hyphen_values = true, help_heading = "Bounds")]
     order: Option<Order>,
 
     /// Welding distance; 0 heals nothing [default: 1e-9 of the diagonal; ends that meet nothing else: 1e-6 of it]
@@ -130,8 +135,10 @@ impl Options {
             asked.extend(table(&read_config(path)?));
         }
         asked.extend(table(self));
-        let all: Self = toml::Value::Table(asked.clone()).try_into().map_err(usage)?;
-        asked.retain(|key, _| !OUTSIDE.contains(&key));
+        let (outside, mut asked): (toml::Table, toml::Table) =
+            asked.into_iter().partition(|(key, _)| OUTSIDE.contains(&key.as_str()));
+        let all: Self = toml::Value::Table(outside).try_into().map_err(usage)?;
+        read_sizes(&mut asked)?;
         let request: Request = toml::Value::Table(asked).try_into().map_err(usage)?;
         request.validate().map_err(usage)?;
         if let Some(threads) = all.threads {
@@ -144,6 +151,20 @@ impl Options {
         let input_format = all.input_format.as_deref().map(input_format).transpose()?;
         Ok(Resolved { request, input_format })
     }
+}
+
+/// Puts the sizes of a file in the place of its name, so that a recorded run holds them.
+fn read_sizes(asked: &mut toml::Table) -> Result<(), Halt> {
+    let Some(toml::Value::String(path)) =
+        asked.get("size").filter(|v| v.as_str().is_some_and(|s| Path::new(s).is_file()))
+    else {
+        return Ok(());
+    };
+    let wrong = |e: String| Halt::Usage(format!("--size {path}: {e}"));
+    let text = std::fs::read_to_string(path).map_err(|e| wrong(e.to_string()))?;
+    let sizes = toml::Value::try_from(Given::read_samples(&text).map_err(wrong)?).map_err(usage)?;
+    asked.insert("size".into(), sizes);
+    Ok(())
 }
 
 fn usage(error: impl std::fmt::Display) -> Halt {
@@ -196,6 +217,7 @@ mod tests {
         }
         let full = Request {
             max_area: Some(1.0),
+            size: Some("x".parse().unwrap()),
             max_edge: Some(1.0),
             min_edge: Some(1.0),
             chord_error: Some(ChordError::Length(1.0)),

@@ -33,6 +33,11 @@ pub fn scaled(p: Point, factor: f64) -> Point {
     Point::new(p.x * factor, p.y * factor)
 }
 
+/// The unit vector at an angle from the x axis.
+pub fn direction(angle_rad: f64) -> Vec2 {
+    Vec2::new(libm::cos(angle_rad), libm::sin(angle_rad))
+}
+
 /// Angle from `u` counter-clockwise to `v`, in (−π, π].
 pub fn turn_from(u: Vec2, v: Vec2) -> f64 {
     libm::atan2(u.cross(v), u.dot(v))

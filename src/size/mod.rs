@@ -3,6 +3,12 @@
 //! A [`Sizing`] is what is asked; [`SizeField`] is the same, resolved against a domain, and answers at a place. Engine and judge ask
 //! the same field, so that what was asked is what is checked.
 
+mod expression;
+mod given;
+
+pub use expression::Expression;
+pub use given::{Given, SAMPLE_GRADE};
+
 use crate::curve::{Curve, End};
 use crate::domain::{Domain, Incident, SizeRequest};
 use crate::geometry::{self, Point, boxes::BoxHierarchy};
@@ -22,6 +28,23 @@ pub struct Sizing {
     /// Growth of a named boundary's limit, a unit of distance away from it; `None`: the limit acts on the boundary alone.
     pub grade: Option<f64>,
     pub sources: Vec<Source>,
+    /// Edges no longer than the value of an expression at their place.
+    pub by_place: Option<ByPlace>,
+}
+
+/// An expression in coordinates that are those of the field over `scale`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ByPlace {
+    pub expression: Expression,
+    pub scale: f64,
+}
+
+impl ByPlace {
+    /// The limit at a place; none where the expression gives no positive number.
+    fn at(&self, p: Point) -> f64 {
+        let value = self.scale * self.expression.at(geometry::scaled(p, 1.0 / self.scale));
+        if value > 0.0 { value } else { f64::INFINITY }
+    }
 }
 
 /// Where a size is asked for.
@@ -76,6 +99,7 @@ impl Sizing {
             edge_turning_rad: self.edge_turning_rad,
             grade: self.grade,
             sources: self.sources.iter().map(source).collect(),
+            by_place: self.by_place.clone().map(|b| ByPlace { scale: b.scale * factor, ..b }),
         }
     }
 }
@@ -86,12 +110,48 @@ pub struct SizeField {
     curve_edges: IdVec<CurveId, f64>,
     region_edges: IdVec<RegionId, f64>,
     region_areas: IdVec<RegionId, f64>,
-    near: Vec<(Curve, f64, f64)>,
-    /// Named boundaries whose limit grows into the domain, with their boxes.
-    graded: Vec<(Curve, f64)>,
+    /// Limits that grow with the distance, and their boxes.
+    growing: Vec<Growing>,
     boxes: BoxHierarchy,
-    /// Largest growth of the limit a unit of distance.
-    steepest: f64,
+    /// The least of the limits that do not grow.
+    flat: f64,
+    /// Smallest and largest growth of a limit, a unit of distance.
+    grades: (f64, f64),
+}
+
+/// A limit that is `edge` on a carrier, and grows by `grade` a unit of distance from it.
+struct Growing {
+    carrier: Carrier,
+    edge: f64,
+    grade: f64,
+}
+
+enum Carrier {
+    Segment(Point, Point),
+    Curve(Curve),
+}
+
+impl Growing {
+    fn bounds(&self) -> geometry::Rect {
+        match &self.carrier {
+            Carrier::Segment(a, b) => geometry::Rect::from_points(*a, *b),
+            Carrier::Curve(curve) => curve.bounds(),
+        }
+    }
+
+    fn at(&self, p: Point) -> f64 {
+        let away = match &self.carrier {
+            Carrier::Segment(a, b) => distance_to_segment(p, *a, *b),
+            Carrier::Curve(curve) => curve.nearest(p, 0.0, 1.0).1,
+        };
+        self.edge + self.grade * away
+    }
+}
+
+fn distance_to_segment(p: Point, a: Point, b: Point) -> f64 {
+    let (ab, ap) = (b - a, p - a);
+    let share = if ab.hypot2() > 0.0 { (ap.dot(ab) / ab.hypot2()).clamp(0.0, 1.0) } else { 0.0 };
+    (ap - share * ab).hypot()
 }
 
 impl SizeField {
@@ -112,24 +172,19 @@ impl SizeField {
         let curve_edges: IdVec<CurveId, f64> =
             domain.curves().iter().map(|c| named_curve(domain.name(c.name))).collect();
         let everywhere_area = sizing.max_area.unwrap_or(f64::INFINITY);
-        let near: Vec<(Curve, f64, f64)> = sizing
-            .sources
-            .iter()
-            .filter_map(|s| match *s {
-                Source::Near { from, to, edge, grade } => Some((Curve::line(from, to).ok()?, edge, grade)),
-                _ => None,
-            })
-            .collect();
-        let graded: Vec<(Curve, f64)> = match sizing.grade {
-            Some(_) => domain
-                .curves()
-                .enumerate()
-                .filter(|&(id, _)| curve_edges[id] < everywhere)
-                .map(|(id, c)| (c.curve.clone(), curve_edges[id]))
-                .collect(),
-            None => Vec::new(),
-        };
-        let steepest = near.iter().map(|&(_, _, g)| g).chain(sizing.grade).fold(0.0, f64::max);
+        let near = sizing.sources.iter().filter_map(|s| match *s {
+            Source::Near { from, to, edge, grade } => {
+                Some(Growing { carrier: Carrier::Segment(from, to), edge, grade })
+            }
+            Source::Boundary { .. } | Source::Region { .. } => None,
+        });
+        let limited = domain.curves().enumerate().filter(|&(id, _)| curve_edges[id] < everywhere);
+        let graded = limited.filter_map(|(id, c)| {
+            let carrier = Carrier::Curve(c.curve.clone());
+            Some(Growing { carrier, edge: curve_edges[id], grade: sizing.grade? })
+        });
+        let (growing, flat): (Vec<Growing>, Vec<Growing>) = near.chain(graded).partition(|g| g.grade > 0.0);
+        let grades = growing.iter().map(|g| g.grade);
         Self {
             region_edges: domain.regions().iter().map(|r| named_region(domain.name(r.name))).collect(),
             region_areas: domain
@@ -137,12 +192,12 @@ impl SizeField {
                 .iter()
                 .map(|r| r.max_area.unwrap_or(f64::INFINITY).min(everywhere_area))
                 .collect(),
-            boxes: BoxHierarchy::new(graded.iter().map(|(c, _)| c.bounds())),
+            boxes: BoxHierarchy::new(growing.iter().map(Growing::bounds)),
+            flat: flat.iter().map(|g| g.edge).fold(f64::INFINITY, f64::min),
+            grades: (grades.clone().fold(f64::INFINITY, f64::min), grades.fold(0.0, f64::max)),
             sizing: sizing.clone(),
             curve_edges,
-            near,
-            graded,
-            steepest,
+            growing,
         }
     }
 
@@ -152,27 +207,17 @@ impl SizeField {
 
     /// Whether the limit depends on the place.
     pub fn limits_by_place(&self) -> bool {
-        !self.near.is_empty() || !self.graded.is_empty()
+        !self.growing.is_empty() || self.flat.is_finite() || self.sizing.by_place.is_some()
     }
 
     /// Longest edge allowed at a place because of sources nearby; infinite where nothing is asked.
     pub fn limit_at(&self, at: Point) -> f64 {
-        let from_segments = self
-            .near
-            .iter()
-            .map(|(segment, edge, grade)| edge + grade * segment.nearest(at, 0.0, 1.0).1)
-            .fold(f64::INFINITY, f64::min);
-        let Some(grade) = self.sizing.grade else { return from_segments };
-        let limit_of = |i: usize| {
-            let (curve, edge) = &self.graded[i];
-            edge + grade * curve.nearest(at, 0.0, 1.0).1
-        };
-        if grade <= 0.0 {
-            return self.graded.iter().map(|&(_, edge)| edge).fold(from_segments, f64::min);
-        }
-        // An item's limit over the grade is at least its distance, by which the search leaves boxes out.
-        let nearest = self.boxes.nearest(at, from_segments / grade, |i, _| limit_of(i) / grade);
-        nearest.map_or(from_segments, |(i, _)| limit_of(i).min(from_segments))
+        let by_place = self.sizing.by_place.as_ref().map_or(f64::INFINITY, |b| b.at(at));
+        let limit = self.flat.min(by_place);
+        // A limit over the smallest grade is at least the distance, by which the search leaves boxes out.
+        let least = self.grades.0;
+        let nearest = self.boxes.nearest(at, limit / least, |i, _| self.growing[i].at(at) / least);
+        nearest.map_or(limit, |(i, _)| self.growing[i].at(at).min(limit))
     }
 
     /// Longest edge allowed on a curve at a place.
@@ -207,7 +252,8 @@ impl SizeField {
     pub fn largest_ball(&self, domain: &Domain, corner: PointId, most: f64) -> f64 {
         let mut radius = most.min(self.largest_fan(domain, corner));
         for _ in 0..200 {
-            if !domain.star(corner).iter().any(|&at| self.spoke_too_bent(domain, at, radius)) {
+            let too_bent = domain.star(corner).iter().any(|&at| self.spoke_too_bent(domain, at, radius));
+            if !too_bent && !self.fan_too_large(domain.points()[corner], radius) {
                 break;
             }
             radius *= 0.8;
@@ -215,15 +261,24 @@ impl SizeField {
         radius
     }
 
+    /// Whether an expression allows fans of this radius around a corner, by samples: how it varies is not known.
+    fn fan_too_large(&self, at: Point, radius: f64) -> bool {
+        let Some(by_place) = &self.sizing.by_place else { return false };
+        let ring = (0..16).map(|k| geometry::direction(f64::from(k) * std::f64::consts::FRAC_PI_8));
+        let samples = ring.flat_map(|d| [at + radius * d, at + 2.0 * radius * d]);
+        samples.chain([at]).any(|p| 2.0 * radius > by_place.at(p))
+    }
+
     /// The largest radius whose triangles meet the limits. A triangle with its circumcenter in B(p) has a circumradius below d(p), for p
     /// lies not inside its circumcircle: edges below 2d, area below (3√3/4)·d² < 1.3·d², corners within 2d of p.
     fn largest_fan(&self, domain: &Domain, corner: PointId) -> f64 {
         let at = domain.points()[corner];
+        let steepest = self.grades.1;
         let mut radius = f64::INFINITY;
         for incident in domain.star(corner) {
-            radius = radius.min(self.edge_on(incident.curve, at) / (1.0 + self.steepest));
+            radius = radius.min(self.edge_on(incident.curve, at) / (1.0 + steepest));
             for region in domain.curves()[incident.curve].sides.into_iter().flatten() {
-                radius = radius.min(self.edge_in(region, at) / (2.0 * (1.0 + self.steepest)));
+                radius = radius.min(self.edge_in(region, at) / (2.0 * (1.0 + steepest)));
                 radius = radius.min((self.area_in(region) / 1.3).sqrt());
             }
         }
