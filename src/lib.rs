@@ -47,3 +47,4 @@ pub mod refine;
 pub mod report;
 pub mod request;
 pub mod size;
+pub mod watch;

@@ -1,7 +1,8 @@
 //! From bytes to a judged mesh: read → arrange → split to turning → refine → verify. Each stage can be had alone.
 
-use crate::domain::{ArrangeError, ArrangeOptions, Domain, Drawing, DrawnCurve, SizeRequest};
+use crate::domain::{ArrangeError, ArrangeOptions, Domain, DomainCurve, Drawing, DrawnCurve, SizeRequest, Unarranged};
 use crate::geometry::Point;
+use crate::ids::Id;
 use crate::import::{self, AirfoilOptions, Format, ImportError};
 use crate::mesh::Mesh;
 use crate::mesh::elevate::elevate;
@@ -9,10 +10,11 @@ use crate::mesh::quality::Quality;
 use crate::mesh::verify::{Status, Verdict, verify};
 use crate::plane;
 use crate::plane::lopping::{self, Lopping, RefineError, Refined, Shrinking};
-use crate::refine::{Progress, Stop, StopReason};
+use crate::refine::{Stop, StopReason};
 use crate::report::{FailureKind, FailureReport, MeshReport, PromiseReport, Report, StopReport};
 use crate::request::{BallShrinking, Keep, Midpoint, Order, Request, SizeOf, TrailingEdge, metres};
 use crate::size::{ByPlace, Given, SAMPLE_GRADE, Sizing, Source as SizeSource};
+use crate::watch::{Progress, Stopped, Watch};
 use kurbo::Affine;
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -68,11 +70,11 @@ pub struct Outcome {
     pub verdict: Option<Verdict>,
 }
 
-/// How far the engine goes.
+/// How far a run goes.
 pub enum Extent<'a> {
-    /// To its end. The closure is told of the progress now and then; `false` stops as a timeout does.
-    Whole(&'a mut dyn FnMut(&Progress) -> bool),
-    /// So many steps.
+    /// To its end, as long as the watch says to go on and the time asked for lasts.
+    Whole(&'a mut Watch<'a>),
+    /// So many steps of the engine, whatever the time.
     Steps(u64),
 }
 
@@ -83,7 +85,7 @@ pub fn run(source: &Source, request: &Request, extent: Extent) -> Outcome {
     let drawing = read(source, request);
     outcome.report.seconds.read = start.elapsed().as_secs_f64();
     match drawing {
-        Ok(drawing) => outcome.go_on(&drawing, request, extent),
+        Ok(drawing) => outcome.go_on(&drawing, request, extent, start),
         Err(failure) => outcome.fail(failure),
     }
     outcome.report.seconds.total = start.elapsed().as_secs_f64();
@@ -93,7 +95,7 @@ pub fn run(source: &Source, request: &Request, extent: Extent) -> Outcome {
 /// The run from a drawing on.
 pub fn run_drawing(drawing: &Drawing, request: &Request, extent: Extent) -> Outcome {
     let mut outcome = Outcome::begun(&drawing.title, request);
-    outcome.go_on(drawing, request, extent);
+    outcome.go_on(drawing, request, extent, Instant::now());
     outcome
 }
 
@@ -104,27 +106,39 @@ impl Outcome {
 
     fn fail(&mut self, failure: FailureReport) {
         self.exit = failure.kind.exit();
+        self.report.stop = self.report.stop.take().or_else(|| failure.stop.as_deref().cloned());
         self.report.failure = Some(failure);
     }
 
-    fn go_on(&mut self, drawing: &Drawing, request: &Request, extent: Extent) {
-        if let Err(failure) = self.stages(drawing, request, extent) {
+    fn go_on(&mut self, drawing: &Drawing, request: &Request, extent: Extent, begun: Instant) {
+        let mut timer = timer_from(begun, request);
+        let ended = match extent {
+            Extent::Whole(watch) => self.stages(drawing, request, &mut |p| watch(p) && timer(p), None),
+            Extent::Steps(steps) => self.stages(drawing, request, &mut |_| true, Some(steps)),
+        };
+        if let Err(failure) = ended {
             self.fail(failure);
         }
     }
 
-    fn stages(&mut self, drawing: &Drawing, request: &Request, extent: Extent) -> Result<(), FailureReport> {
+    fn stages(
+        &mut self,
+        drawing: &Drawing,
+        request: &Request,
+        watch: &mut Watch,
+        steps: Option<u64>,
+    ) -> Result<(), FailureReport> {
         self.report.input.describe(drawing);
         let mut clock = Clock::start();
-        let arranged = arrange(drawing, request)?;
+        let arranged = arrange(drawing, request, watch)?;
         self.report.input.repairs = arranged.repairs().to_vec();
-        let (domain, plan) = Plan::new(drawing, &arranged, request)?;
+        let (domain, plan) = Plan::new(drawing, &arranged, request, watch)?;
         self.report.request.note_use(drawing, &arranged, &plan);
         self.report.seconds.arrange = clock.lap();
 
-        let (refined, more) = match extent {
-            Extent::Whole(watch) => (plan.refine(&domain, &mut until(request.timeout, watch)), "--timeout"),
-            Extent::Steps(steps) => (plan.refine_steps(&domain, steps), "--until"),
+        let (refined, more) = match steps {
+            None => (plan.refine(&domain, watch), "--timeout"),
+            Some(steps) => (plan.refine_steps(&domain, steps), "--until"),
         };
         self.report.seconds.mesh = clock.lap();
         let Refined { mesh, stop, counters } = refined?;
@@ -139,6 +153,7 @@ impl Outcome {
         };
         self.report.seconds.mesh += clock.lap();
 
+        // Whatever the time: a mesh that nobody judged is worth nothing, and the judge's work is bounded by its size.
         let verdict = plan.judge(Some(&domain), &mesh);
         self.report.mesh = Some(MeshReport::new(&mesh).with_straightened(&mesh, &straightened));
         self.report.quality = Some(Quality::of(Some(&domain), &mesh, &verdict));
@@ -169,11 +184,14 @@ impl Clock {
     }
 }
 
-/// `watch`, which also says stop after `seconds`.
-fn until(seconds: Option<f64>, watch: &mut dyn FnMut(&Progress) -> bool) -> impl FnMut(&Progress) -> bool {
-    let limit = seconds.map(|s| Duration::try_from_secs_f64(s).unwrap_or(Duration::MAX));
-    let start = Instant::now();
-    move |progress| watch(progress) && limit.is_none_or(|limit| start.elapsed() < limit)
+/// A watch that says stop when the request's time, which begins now, is over.
+pub fn timer(request: &Request) -> impl FnMut(&Progress) -> bool + use<> {
+    timer_from(Instant::now(), request)
+}
+
+fn timer_from(begun: Instant, request: &Request) -> impl FnMut(&Progress) -> bool + use<> {
+    let limit = request.timeout.map(|s| Duration::try_from_secs_f64(s).unwrap_or(Duration::MAX));
+    move |_| limit.is_none_or(|limit| begun.elapsed() < limit)
 }
 
 /// Names of the broken checks.
@@ -304,14 +322,14 @@ fn scaled(mut drawing: Drawing, factor: f64) -> Drawing {
     drawing
 }
 
-/// Drawing → domain.
-pub fn arrange(drawing: &Drawing, request: &Request) -> Result<Domain, FailureReport> {
+/// Drawing → domain, as long as `watch` says to go on.
+pub fn arrange(drawing: &Drawing, request: &Request, watch: &mut Watch) -> Result<Domain, FailureReport> {
     let options = ArrangeOptions {
         tolerance: request.tolerance,
         fill: request.fill_rule.rule(),
         keep_all: request.keep == Keep::All,
     };
-    let domain = drawing.arrange(&options)?;
+    let domain = drawing.arrange_watched(&options, watch)?;
     if domain.regions().is_empty() {
         let help = "close the outline, name another --fill-rule, or mesh everything by --keep all";
         return Err(FailureReport::new(
@@ -326,6 +344,21 @@ pub fn arrange(drawing: &Drawing, request: &Request) -> Result<Domain, FailureRe
 impl From<ArrangeError> for FailureReport {
     fn from(error: ArrangeError) -> Self {
         Self::new(FailureKind::Geometry, error.what, error.help).at(error.at)
+    }
+}
+
+impl From<Unarranged> for FailureReport {
+    fn from(why: Unarranged) -> Self {
+        match why {
+            Unarranged::Invalid(error) => error.into(),
+            Unarranged::Stopped(stopped) => stopped.into(),
+        }
+    }
+}
+
+impl From<Stopped> for FailureReport {
+    fn from(Stopped: Stopped) -> Self {
+        no_mesh(&Stop { reason: StopReason::Cancelled, owed: 0, places: Vec::new() }, "--timeout")
     }
 }
 
@@ -347,7 +380,8 @@ pub fn no_mesh(stop: &Stop, more: &str) -> FailureReport {
             "move the drawing nearer to the origin, or weld by a larger --tolerance".into(),
         ),
     };
-    let failure = FailureReport::new(FailureKind::NoMesh, what, help);
+    let mut failure = FailureReport::new(FailureKind::NoMesh, what, help);
+    failure.stop = Some(Box::new(StopReport::new(stop)));
     match stop.places.first() {
         Some(&place) => failure.at(place),
         None => failure,
@@ -366,12 +400,22 @@ impl Plan {
     /// The domain, its curves cut to τ, and what is asked of it: corner arcs as fine as its guarantee needs.
     ///
     /// # Errors
-    /// A `--size-of` whose name the domain does not know.
-    pub fn new(drawing: &Drawing, domain: &Domain, request: &Request) -> Result<(Domain, Self), FailureReport> {
+    /// A `--size-of` whose name the domain does not know, more pieces than the vertex budget, or a watch that says stop.
+    pub fn new(
+        drawing: &Drawing,
+        domain: &Domain,
+        request: &Request,
+        watch: &mut Watch,
+    ) -> Result<(Domain, Self), FailureReport> {
         let mut options = engine_options(request, sizing(drawing, domain, request)?);
         let tau_rad = request.tau_rad(domain.curves().iter().map(|c| &c.curve));
-        let domain = domain.split_to_turning(tau_rad);
-        let lens = domain.curves().iter().map(|c| c.curve.lens_angle(0.0, 1.0)).fold(0.0, f64::max);
+        let domain = split_to_turning(domain, tau_rad, request.max_vertices, watch)?;
+        let mut lens = 0.0f64;
+        for (id, curve) in domain.curves().enumerate() {
+            let queued = domain.curves().len() - id.index();
+            Progress { phase: "measuring", vertices: domain.points().len(), queued }.tell(watch)?;
+            lens = lens.max(curve.curve.lens_angle(0.0, 1.0));
+        }
         let arc_turning = lopping::arc_turning(options.angle_min_rad, lens);
         options.corner_arcs = request.corner_arcs.is_on().then_some(arc_turning);
         Ok((domain, Self { tau_rad, options }))
@@ -392,14 +436,14 @@ impl Plan {
     }
 
     /// Refines a domain whose curves turn at most τ.
-    pub fn refine(&self, domain: &Domain, watch: &mut dyn FnMut(&Progress) -> bool) -> Result<Refined, FailureReport> {
+    pub fn refine(&self, domain: &Domain, watch: &mut Watch) -> Result<Refined, FailureReport> {
         Ok(lopping::refine(domain, &self.options, watch)?)
     }
 
     /// [`Plan::refine`], stopped as soon as every piece of a curve is an edge: the triangulation from which it refines.
-    pub fn conform(&self, domain: &Domain) -> Result<Refined, FailureReport> {
+    pub fn conform(&self, domain: &Domain, watch: &mut Watch) -> Result<Refined, FailureReport> {
         let mut lopping = Lopping::start(domain, &self.options)?;
-        while lopping.progress().phase == "conforming" && lopping.step() {}
+        while lopping.progress().phase == "conforming" && watch(&lopping.progress()) && lopping.step() {}
         lopping.cancel();
         Ok(lopping.finish()?)
     }
@@ -433,6 +477,35 @@ impl Plan {
         let by_place = verify(domain, &untied, &self.options.promise(self.tau_rad, true));
         if flaws(&by_place) < flaws(&by_links) { (by_place, Some(untied)) } else { (by_links, None) }
     }
+}
+
+/// A domain with its curves cut to τ, where that takes no more vertices than the mesh may have.
+fn split_to_turning(
+    domain: &Domain,
+    tau_rad: f64,
+    max_vertices: usize,
+    watch: &mut Watch,
+) -> Result<Domain, FailureReport> {
+    let mut needed = 0;
+    let split = domain.split_to_turning_watched(tau_rad, &mut |progress| {
+        needed = progress.vertices;
+        needed <= max_vertices && watch(progress)
+    });
+    split.map_err(|stopped| {
+        if needed <= max_vertices {
+            return stopped.into();
+        }
+        let turning = |c: &DomainCurve| c.curve.turning(0.0, 1.0);
+        let most = domain.curves().iter().max_by(|a, b| turning(a).total_cmp(&turning(b)));
+        let places = most.map(|c| c.curve.point(0.5)).into_iter().collect();
+        let failure =
+            no_mesh(&Stop { reason: StopReason::VertexBudget, owed: needed - max_vertices, places }, "--max-vertices");
+        FailureReport {
+            what: format!("pieces that turn at most {tau_rad:e} take {needed} vertices or more"),
+            help: "let them turn more by --max-turning, or give more by --max-vertices".into(),
+            ..failure
+        }
+    })
 }
 
 fn engine_options(request: &Request, sizing: Sizing) -> lopping::Options {

@@ -229,7 +229,7 @@ impl PromiseReport {
     }
 }
 
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct StopReport {
     pub reason: StopReason,
     pub owed: usize,
@@ -251,6 +251,9 @@ pub struct FailureReport {
     pub line: Option<usize>,
     pub column: Option<usize>,
     pub help: String,
+    /// The end of the stage that a budget cut short: `stop` of the report.
+    #[serde(skip)]
+    pub stop: Option<Box<StopReport>>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -268,7 +271,7 @@ pub enum FailureKind {
 
 impl FailureReport {
     pub fn new(kind: FailureKind, what: impl Into<String>, help: impl Into<String>) -> Self {
-        Self { kind, what: what.into(), at: None, line: None, column: None, help: help.into() }
+        Self { kind, what: what.into(), at: None, line: None, column: None, help: help.into(), stop: None }
     }
 
     pub fn at(self, place: Point) -> Self {

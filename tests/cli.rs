@@ -758,3 +758,58 @@ fn sizes_by_place_come_as_an_expression_or_from_a_file() {
     assert!(said(&output).contains("no positive length"), "{}", said(&output));
     assert!(!bench.has("b.vtu"));
 }
+
+/// A polygon of so many corners all over the unit square: its sides cross about n²/4.6 times.
+fn scribble(n: usize) -> String {
+    let mut state = 1u64;
+    let mut next = || {
+        state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        (state >> 40) as f64 / (1u64 << 24) as f64
+    };
+    let corners: Vec<[f64; 2]> = (0..n).map(|_| [next(), next()]).collect();
+    serde_json::json!({ "squinch": 1, "curves": [{ "polygon": corners }] }).to_string()
+}
+
+#[test]
+fn the_time_ends_arranging_too() {
+    let bench = Bench::new("timeout-arrange");
+    fs::write(bench.0.join("scribble.json"), scribble(4000)).unwrap();
+    let timed = ["scribble.json", "--timeout", "0.2"];
+    let ended = bench.ends(5, &[&["mesh"], &timed[..], &["-o", "a.vtu", "--report", "r.json"]].concat());
+    assert!(said(&ended).contains("--timeout"), "{}", said(&ended));
+    let report = bench.report("r.json");
+    assert_eq!(report["stop"]["reason"], "timeout");
+    assert_eq!(report["failure"]["kind"], "no_mesh");
+    assert!(!bench.has("a.vtu"));
+    bench.ends(5, &[&["inspect"], &timed[..]].concat());
+    bench.ends(5, &[&["draw"], &timed[..], &["-o", "a.svg"]].concat());
+}
+
+#[test]
+fn a_mesh_that_is_there_when_the_time_ends_is_judged_and_written() {
+    let bench = Bench::new("timeout-refine");
+    bench.ends(5, &with(&["--max-area", "1e-12", "--timeout", "0.5", "--report", "r.json"]));
+    let report = bench.report("r.json");
+    assert_eq!(report["stop"]["reason"], "timeout");
+    assert!(report["stop"]["owed"].as_u64() > Some(0));
+    let broken = report["promise"]["checks"].as_array().unwrap().iter().filter(|check| check["status"] == "broken");
+    assert_eq!(broken.map(|check| &check["name"]).collect::<Vec<_>>(), ["size"]);
+    assert!(bench.has("a.vtu"));
+}
+
+#[test]
+fn more_pieces_than_vertices_are_refused_before_they_are_made() {
+    let bench = Bench::new("pieces");
+    for turning in ["1e-9", "1e-300"] {
+        bench.ends(5, &["mesh", "lens.json", "-o", "a.vtu", "--max-turning", turning, "--report", "r.json"]);
+        let report = bench.report("r.json");
+        assert_eq!(report["stop"]["reason"], "vertex budget");
+        assert!(report["stop"]["owed"].as_u64() > Some(900_000_000));
+        assert!(
+            report["failure"]["at"].is_array() && report["failure"]["help"].as_str().unwrap().contains("--max-turning")
+        );
+    }
+    // What the budget allows is cut.
+    bench.ends(5, &["mesh", "lens.json", "-o", "a.vtu", "--max-turning", "1e-3", "--max-vertices", "500"]);
+    bench.ends(0, &["mesh", "lens.json", "-o", "a.vtu", "--max-turning", "1e-2"]);
+}

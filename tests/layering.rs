@@ -7,7 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Ground that every module stands on.
-const GROUND: &[&str] = &["ids", "geometry", "canvas", "trace"];
+const GROUND: &[&str] = &["ids", "geometry", "canvas", "trace", "watch"];
 
 /// Module, and what it may import besides the ground. `*`: everything.
 const TABLE: &[(&str, &[&str])] = &[
@@ -15,6 +15,7 @@ const TABLE: &[(&str, &[&str])] = &[
     ("geometry", &[]),
     ("canvas", &[]),
     ("trace", &[]),
+    ("watch", &[]),
     ("curve", &[]),
     ("domain", &["curve"]),
     ("size", &["curve", "domain"]),

@@ -9,8 +9,9 @@ use squinch::mesh::verify::{Status, Verdict, guaranteed_angle, verify};
 use squinch::mesh::{BallReason, Mesh, quality};
 use squinch::plane::Midpoint;
 use squinch::plane::lopping::{self, Options, Refined, Shrinking, arc_turning};
-use squinch::refine::{Progress, StopReason};
+use squinch::refine::StopReason;
 use squinch::size::Sizing;
+use squinch::watch::Progress;
 use std::f64::consts::FRAC_PI_3;
 
 fn domain_of(drawing: &Drawing, tau_rad: f64) -> Domain {

@@ -134,3 +134,56 @@ fn areas_of_every_kind_of_curve_are_those_of_closed_forms() {
         }
     }
 }
+
+/// The unit quarter circle as a rational quadratic whose parameter runs at the pace c: the weights of index i times cⁱ.
+fn paced_quarter(c: f64) -> Vec<Result<Curve, CurveError>> {
+    let ring = points(&[(1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]);
+    let arc = Curve::rational_bezier(ring, vec![1.0, FRAC_1_SQRT_2 * c, c * c]);
+    vec![arc, line((0.0, 1.0), (0.0, 0.0)), line((0.0, 0.0), (1.0, 0.0))]
+}
+
+/// The conic from (1, 0) to (0, 1) under the shoulder (1, 1) with the middle weight w, and the area between it and its chord: with
+/// w = cos θ the affine image of a circular segment r²(θ − sin θ cos θ) in a triangle of area r² sin³ θ / cos θ; here that is ½. Beyond
+/// w = 1 the arc cosine turns hyperbolic.
+fn conic_segment(w: f64) -> (Result<Curve, CurveError>, f64) {
+    let arc = Curve::rational_bezier(points(&[(1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]), vec![1.0, w, 1.0]);
+    let square = 1.0 - w * w;
+    let angle = if w < 1.0 { w.acos() / square.sqrt() } else { w.acosh() / (-square).sqrt() };
+    (arc, w / (2.0 * square) * (angle - w))
+}
+
+fn measured(curves: Vec<Result<Curve, CurveError>>) -> squinch::domain::Domain {
+    let mut drawing = Drawing::default();
+    for curve in curves {
+        drawing.add(curve.expect("a sound curve"), "edge", "curve");
+    }
+    drawing.arrange(&ArrangeOptions { tolerance: Some(0.0), ..ArrangeOptions::default() }).expect("a sound drawing")
+}
+
+#[test]
+fn a_circle_is_a_circle_at_every_pace_of_its_parameter() {
+    for exponent in [-12, -6, -3, -1, 1, 3, 6, 12] {
+        let c = 10f64.powi(exponent);
+        let domain = measured(paced_quarter(c));
+        assert!((domain.measure() - PI / 4.0).abs() < 4e-15, "pace {c:e}: {}", domain.measure());
+        let arc = paced_quarter(c).swap_remove(0).expect("an arc");
+        assert!((arc.length() - PI / 2.0).abs() < 4e-15, "pace {c:e}: {}", arc.length());
+        assert!((arc.turning(0.0, 1.0) - PI / 2.0).abs() < 1e-14, "pace {c:e}: {}", arc.turning(0.0, 1.0));
+        let parts = domain.split_to_turning(0.1);
+        let most = parts.curves().iter().map(|c| c.curve.turning(0.0, 1.0)).fold(0.0, f64::max);
+        assert!(most <= 0.1 + 1e-12, "pace {c:e}: a part turns {most}");
+    }
+}
+
+#[test]
+fn conics_of_any_weight_have_the_area_and_turning_of_closed_forms() {
+    for w in [1e-12, 1e-6, 1e-3, 0.1, 1e5, 1e8, 1e12] {
+        let (arc, area) = conic_segment(w);
+        let arc = arc.expect("an arc");
+        // Near the shoulder the radius of curvature is 1/w: coordinates rounded there turn its tangents by some ε·w.
+        let rounding = 1e-12 + 16.0 * f64::EPSILON * w;
+        assert!((arc.turning(0.0, 1.0) - PI / 2.0).abs() < rounding, "weight {w:e}: turns {}", arc.turning(0.0, 1.0));
+        let green = arc.green(Point::new(0.0, 1.0));
+        assert!((green - area).abs() < 1e-14, "weight {w:e}: {green} and not {area}");
+    }
+}

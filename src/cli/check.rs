@@ -93,10 +93,11 @@ impl Check {
 /// The domain that a mesh is to be of, and what is asked of it.
 fn against(input: &Input, request: &Request, report: &mut Report) -> Result<(Domain, Plan), Halt> {
     remember(input, request);
+    let watch = &mut pipeline::timer(request);
     let mut stages = || {
         let drawing = pipeline::read(&input.source(), request)?;
-        let arranged = pipeline::arrange(&drawing, request)?;
-        let (domain, plan) = Plan::new(&drawing, &arranged, request)?;
+        let arranged = pipeline::arrange(&drawing, request, watch)?;
+        let (domain, plan) = Plan::new(&drawing, &arranged, request, watch)?;
         report.input.describe(&drawing);
         report.input.repairs = arranged.repairs().to_vec();
         report.request.note_use(&drawing, &arranged, &plan);

@@ -12,6 +12,7 @@ use squinch::geometry::{Point, Rect};
 use squinch::pipeline::{self, Exit, Plan};
 use squinch::report::FailureReport;
 use squinch::request::Request;
+use squinch::watch::Watch;
 use std::path::PathBuf;
 
 #[derive(Args)]
@@ -97,14 +98,15 @@ impl Draw {
     }
 
     fn stage(&self, input: &Input, request: &Request) -> Result<Canvas, FailureReport> {
+        let watch: &mut Watch = &mut pipeline::timer(request);
         let drawing = pipeline::read(&input.source(), request)?;
-        let arranged = pipeline::arrange(&drawing, request);
+        let arranged = pipeline::arrange(&drawing, request, watch);
         let picture = self.picture(drawing.title.clone(), self.stage != Stage::Mesh);
         if self.stage == Stage::Drawing {
             let marks = arranged.err().and_then(mark).into_iter().collect();
             return Ok(picture_of_drawing(&drawing, &PictureOptions { marks, ..picture }));
         }
-        self.stage_of_domain(&drawing, &arranged?, request, &picture)
+        self.stage_of_domain(&drawing, &arranged?, request, watch, &picture)
     }
 
     fn stage_of_domain(
@@ -112,18 +114,19 @@ impl Draw {
         drawing: &Drawing,
         arranged: &Domain,
         request: &Request,
+        watch: &mut Watch,
         picture: &PictureOptions,
     ) -> Result<Canvas, FailureReport> {
         if self.stage == Stage::Domain {
             return Ok(picture_of_domain(arranged, picture));
         }
-        let (domain, plan) = Plan::new(drawing, arranged, request)?;
+        let (domain, plan) = Plan::new(drawing, arranged, request, watch)?;
         if self.stage == Stage::Subcurves {
             return Ok(picture_of_domain(&domain, picture));
         }
         let refined = match self.stage {
-            Stage::Triangulation => plan.conform(&domain)?,
-            _ => plan.refine(&domain, &mut |_| true)?,
+            Stage::Triangulation => plan.conform(&domain, watch)?,
+            _ => plan.refine(&domain, watch)?,
         };
         let mesh = refined.mesh.ok_or_else(|| pipeline::no_mesh(&refined.stop, "--timeout"))?;
         Ok(picture_of_mesh(&mesh, Some(&domain), self.mesh_colour(), picture))

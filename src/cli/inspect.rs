@@ -34,14 +34,16 @@ impl Inspect {
             Ok(drawing) => drawing,
             Err(failure) => return Err(Halt::Failure(Box::new(failure), Some(Box::new(input)))),
         };
-        let findings = Findings::new(&input.path, &drawing, pipeline::arrange(&drawing, &request));
+        let arranged = pipeline::arrange(&drawing, &request, &mut pipeline::timer(&request));
+        let unarranged = arranged.as_ref().err().map(|failure| failure.kind.exit());
+        let findings = Findings::new(&input.path, &drawing, arranged);
         let text = if self.json {
             serde_json::to_string_pretty(&findings).expect("findings are strings, numbers and lists of them") + "\n"
         } else {
             findings.text(volume)
         };
         files::print(&text)?;
-        Ok(if findings.flaws.is_empty() { Exit::Done } else { Exit::Geometry })
+        Ok(unarranged.unwrap_or(if findings.flaws.is_empty() { Exit::Done } else { Exit::Geometry }))
     }
 }
 

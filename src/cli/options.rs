@@ -89,7 +89,8 @@ pub struct Options {
     /// Vertices after which refinement stops [default: 5000000]
     #[arg(long, value_name = "N", allow_hyphen_values = true, help_heading = "Budget")]
     max_vertices: Option<u64>,
-    /// Seconds after which refinement stops
+    /// Seconds after which arranging, cutting and refining stop. A mesh that is valid by then is still verified and written, which takes
+    /// time in proportion to its size
     #[arg(long, value_name = "S", allow_hyphen_values = true, help_heading = "Budget")]
     timeout: Option<f64>,
 

@@ -7,7 +7,7 @@ use crate::geometry::Vec2;
 use std::borrow::Cow;
 use std::ops::{Add, Mul, Sub};
 
-/// Rows of Pascal's triangle that are kept; longer ones are computed.
+/// Rows of Pascal's triangle that are kept.
 const ROWS: usize = 48;
 /// Coefficients that are collapsed on the stack.
 const SMALL: usize = 16;
@@ -31,16 +31,14 @@ const fn pascal() -> [[f64; ROWS]; ROWS] {
     rows
 }
 
-/// The binomial coefficients of n.
-pub(super) fn binomials(n: usize) -> Cow<'static, [f64]> {
-    if n < ROWS {
-        return Cow::Borrowed(&PASCAL[n][..=n]);
-    }
-    let mut row = vec![1.0; n + 1];
-    for k in 1..=n {
+/// The binomial coefficients of n, times `scale`.
+fn binomials(n: usize, scale: f64) -> Vec<f64> {
+    let mut row = vec![scale; n + 1];
+    for k in 1..=n / 2 {
         row[k] = row[k - 1] * (n + 1 - k) as f64 / k as f64;
+        row[n - k] = row[k];
     }
-    Cow::Owned(row)
+    row
 }
 
 /// What coefficients may be: numbers, vectors, homogeneous points.
@@ -52,7 +50,7 @@ fn lerp<T: Coefficient>(a: T, b: T, t: f64) -> T {
     a * (1.0 - t) + b * t
 }
 
-/// Value at t by de Casteljau's algorithm, of the polynomial with `count` ≥ 1 coefficients.
+/// Value at t of the polynomial with `count` ≥ 1 coefficients: by de Casteljau's algorithm, or, where there are many, in linear time.
 pub(super) fn value_by<T: Coefficient>(count: usize, coefficient: impl Fn(usize) -> T, t: f64) -> T {
     if count <= SMALL {
         let mut b = [coefficient(0); SMALL];
@@ -61,8 +59,26 @@ pub(super) fn value_by<T: Coefficient>(count: usize, coefficient: impl Fn(usize)
         }
         collapse(&mut b[..count], t)
     } else {
-        collapse(&mut (0..count).map(coefficient).collect::<Vec<T>>(), t)
+        mean_from_mode(count - 1, coefficient, t)
     }
+}
+
+/// Value at t as the mean of the coefficients, weighted by the Bernstein polynomials of degree n. Their ratios are followed both ways from
+/// the greatest: the weights are at most 1 and each is right to 3n roundings, as in de Casteljau's algorithm, for n steps instead of n²/2.
+fn mean_from_mode<T: Coefficient>(n: usize, coefficient: impl Fn(usize) -> T, t: f64) -> T {
+    let mode = (((n + 1) as f64 * t) as usize).min(n);
+    let (mut sum, mut total) = (coefficient(mode), 1.0);
+    let mut weight = 1.0;
+    for k in (0..mode).rev() {
+        weight *= (k + 1) as f64 * (1.0 - t) / ((n - k) as f64 * t);
+        (sum, total) = (sum + coefficient(k) * weight, total + weight);
+    }
+    weight = 1.0;
+    for k in mode + 1..=n {
+        weight *= (n + 1 - k) as f64 * t / (k as f64 * (1.0 - t));
+        (sum, total) = (sum + coefficient(k) * weight, total + weight);
+    }
+    sum * (1.0 / total)
 }
 
 pub(super) fn value<T: Coefficient>(c: &[T], t: f64) -> T {
@@ -109,7 +125,10 @@ pub(super) fn derivative<T: Coefficient>(c: &[T]) -> Vec<T> {
 /// The product of two polynomials, where `times` multiplies coefficients (a plain, dot or cross product).
 pub(super) fn product<A: Copy, B: Copy, C: Coefficient>(a: &[A], b: &[B], times: impl Fn(A, B) -> C) -> Vec<C> {
     let (n, m) = (a.len() - 1, b.len() - 1);
-    let (row_a, row_b, row) = (binomials(n), binomials(m), binomials(n + m));
+    if n + m >= ROWS {
+        return long_product(a, b, times);
+    }
+    let (row_a, row_b, row) = (&PASCAL[n], &PASCAL[m], &PASCAL[n + m]);
     (0..=n + m)
         .map(|k| {
             let first = k.saturating_sub(m);
@@ -117,6 +136,23 @@ pub(super) fn product<A: Copy, B: Copy, C: Coefficient>(a: &[A], b: &[B], times:
             (first + 1..=k.min(n)).fold(term(first), |sum, i| sum + term(i))
         })
         .collect()
+}
+
+/// [`product`] where the binomial coefficients are many and large: they are scaled by powers of two about their middle size, and the sums
+/// run side by side.
+fn long_product<A: Copy, B: Copy, C: Coefficient>(a: &[A], b: &[B], times: impl Fn(A, B) -> C) -> Vec<C> {
+    let (n, m) = (a.len() - 1, b.len() - 1);
+    let [scale_a, scale_b] = [n, m].map(|n| libm::exp2(-((n / 2) as f64)));
+    let (row_a, row_b) = (binomials(n, scale_a), binomials(m, scale_b));
+    let term = |i: usize, j: usize| times(a[i], b[j]) * (row_a[i] * row_b[j]);
+    let mut sums: Vec<C> = (0..=m).map(|j| term(0, j)).collect();
+    for i in 1..=n {
+        for (j, sum) in sums[i..].iter_mut().enumerate() {
+            *sum = *sum + term(i, j);
+        }
+        sums.push(term(i, m));
+    }
+    sums.into_iter().zip(binomials(n + m, scale_a * scale_b)).map(|(sum, row)| sum * (1.0 / row)).collect()
 }
 
 /// Divides by t a polynomial that vanishes at 0.
@@ -274,6 +310,37 @@ mod tests {
     }
 
     #[test]
+    fn values_of_high_degree_are_those_of_de_casteljau() {
+        for n in [16, 47, 300] {
+            // Coefficients over thirty orders of magnitude, of both signs.
+            let c: Vec<f64> = (0..=n).map(|k| libm::sin(7.0 * k as f64) * libm::exp10((k * 37 % 31) as f64)).collect();
+            let size: Vec<f64> = c.iter().map(|v| v.abs()).collect();
+            for t in [0.0, 1e-300, 1e-9, 0.1, 0.5, 0.7, 1.0 - 1e-9, 1.0 - f64::EPSILON / 2.0, 1.0] {
+                let slow = collapse(&mut c.clone(), t);
+                // Both are right to so many roundings of the terms that they add up.
+                let slack = 4.0 * n as f64 * f64::EPSILON * collapse(&mut size.clone(), t);
+                assert!((value(&c, t) - slow).abs() <= slack, "degree {n} at {t}");
+            }
+            assert_eq!([value(&c, 0.0), value(&c, 1.0)], [c[0], c[n]]);
+        }
+    }
+
+    #[test]
+    fn products_of_any_degree_have_the_values_of_their_factors() {
+        for (n, m) in [(1, 50), (40, 9), (300, 299), (600, 600)] {
+            let coefficients =
+                |n: usize, pace: f64| (0..=n).map(|k| libm::sin(pace * k as f64) + 1.5).collect::<Vec<_>>();
+            let (a, b) = (coefficients(n, 1.3), coefficients(m, 2.9));
+            let ab = product(&a, &b, |x, y| x * y);
+            assert_eq!(ab.len(), n + m + 1);
+            for t in [0.0, 0.01, 0.37, 0.5, 0.99, 1.0] {
+                let [whole, parts] = [value(&ab, t), value(&a, t) * value(&b, t)];
+                assert!((whole - parts).abs() <= 1e-12 * parts, "{n} × {m} at {t}: {whole} and {parts}");
+            }
+        }
+    }
+
+    #[test]
     fn products_values_and_parts_agree() {
         let (a, b) = ([1.0, -2.0, 3.0, 0.5], [2.0, 1.0, -1.0]);
         let ab = product(&a, &b, |x, y| x * y);
@@ -283,6 +350,6 @@ mod tests {
             assert!((value(&ab, t) - value(&a, t) * value(&b, t)).abs() < 1e-14);
             assert!((value(&part, t) - value(&ab, 0.2 + 0.5 * t)).abs() < 1e-14);
         }
-        assert_eq!(binomials(60)[30].round(), 118_264_581_564_861_424.0);
+        assert_eq!(binomials(60, 0.5)[30].round(), 59_132_290_782_430_712.0);
     }
 }

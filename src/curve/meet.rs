@@ -75,6 +75,8 @@ pub struct MeetingBudget {
 
 /// Pairs of pieces that are compared at most: some 0.1 s of work. Curves that run beside each other at 1e-13 of their size exceed it.
 const PAIRS: usize = 1 << 18;
+/// Control points that are kept at most, some 40 bytes each. Only curves of a degree above ten come to so many before [`PAIRS`] ends it.
+const CONTROL_POINTS: usize = 1 << 22;
 
 /// Every meeting of two curves with a gap of at most `tolerance` (a length; at least a few units in the last place of the
 /// coordinates are allowed in any case). Each connected contact is one meeting: two crossings with a lens between them that is
@@ -139,7 +141,8 @@ impl<'c> Search<'c> {
         let mut compared = 0;
         while let Some([i, j]) = stack.pop() {
             compared += 1;
-            if compared > PAIRS {
+            let kept: usize = self.hulls.iter().map(Hulls::control_points).sum();
+            if compared > PAIRS || kept > CONTROL_POINTS {
                 return Err(MeetingBudget { at: self.hulls[0][i].bounds.center() });
             }
             if self.contacts.same && i == j {

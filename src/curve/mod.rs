@@ -16,6 +16,7 @@ mod quadrature;
 mod spans;
 mod spline;
 mod turning;
+mod weights;
 mod weld;
 
 pub use meet::{Meeting, MeetingBudget, MeetingKind, Meetings, Overlap, meetings, self_meetings};
@@ -189,11 +190,13 @@ impl Curve {
     pub fn bezier(points: Vec<Point>) -> Result<Self, CurveError> {
         Bezier::new(points, None).map(|b| Curve::Bezier(Box::new(b)))
     }
-    /// A rational Bézier curve; all weights positive. Equal weights make it a plain one.
+    /// A rational Bézier curve; all weights positive. Equal weights make it a plain one; weights more than 64 times apart another pace
+    /// of the parameter, or a NURBS of several spans, which is the same curve up to rounding.
     pub fn rational_bezier(points: Vec<Point>, weights: Vec<f64>) -> Result<Self, CurveError> {
-        Bezier::new(points, Some(weights)).map(|b| Curve::Bezier(Box::new(b)))
+        Bezier::new(points, Some(weights)).map(weights::evened)
     }
-    /// B-spline or NURBS with the full knot vector (points.len() + degree + 1 knots); unclamped and periodic vectors are allowed.
+    /// B-spline or NURBS with the full knot vector (points.len() + degree + 1 knots); unclamped and periodic vectors are allowed. Weights
+    /// far apart are evened as in [`Curve::rational_bezier`].
     pub fn nurbs(degree: usize, knots: &[f64], points: &[Point], weights: Option<&[f64]>) -> Result<Self, CurveError> {
         Spline::from_knots(degree, knots, points, weights).map(|s| Curve::Spline(Box::new(s)))
     }
@@ -390,9 +393,13 @@ impl Curve {
     }
     /// Ascending parameters strictly inside at which the curve is to be cut so that every part turns at most `tau`; parts of
     /// (nearly) equal turning, as few as possible (an excess of 1e-12 of `tau` counts as none). Breaks are always cut; never more than
-    /// 10⁶ parts between two of them.
+    /// 10⁸ parts between two of them: ask [`Curve::parts_of_turning`] first.
     pub fn cuts_of_turning(&self, tau: f64) -> Vec<f64> {
         turning::cuts_of_turning(self, tau)
+    }
+    /// How many parts of at most `tau` a curve without breaks turns enough for; `usize::MAX` where no number holds them.
+    pub fn parts_of_turning(&self, tau: f64) -> usize {
+        turning::parts_of_turning(self.turning(0.0, 1.0), tau) as usize
     }
     /// λ ≥ max over z of π − ∠xzy for the part with chord xy (equality for lines and circular arcs: half the turning).
     pub fn lens_angle(&self, t0: f64, t1: f64) -> f64 {

@@ -1,6 +1,7 @@
 //! B-splines and NURBS as their exact Bézier spans, and the interpolating cubic splines.
 
 use super::bezier::check_weights;
+use super::weights::even_spans;
 use super::{Bezier, CurveError, End, Spline, check_finite, check_points, length};
 use crate::geometry::{Point, Vec2, magnitude, unit_scale};
 
@@ -46,8 +47,10 @@ impl Spline {
                 }
                 span.points[0] = joint;
             }
-            starts.push(knots[k]);
-            spans.push(span);
+            let even = even_spans(span);
+            let share = |i: usize| i as f64 / even.len() as f64;
+            starts.extend((0..even.len()).map(|i| knots[k] * (1.0 - share(i)) + knots[k + 1] * share(i)));
+            spans.extend(even);
         }
         if spans.is_empty() {
             return Err(CurveError::Count {

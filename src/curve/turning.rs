@@ -11,8 +11,8 @@ use crate::geometry::{Vec2, turn_from};
 
 /// Relative excess of a part's turning over the limit that passes for rounding: thrice that of a sum of a thousand stretches.
 const COUNT_SLACK: f64 = 1e-12;
-/// Most parts that one curve is cut into, whatever the limit asks.
-const PARTS_MAX: f64 = 1e6;
+/// Most parts that one curve is cut into, whatever the limit asks: more than any mesh that memory holds has edges.
+const PARTS_MAX: f64 = 1e8;
 /// Pieces that the search for half planes may look at: some dozens of cusps, each approached by 48 halvings from both sides.
 const PIECE_BUDGET: usize = 1 << 13;
 
@@ -104,10 +104,14 @@ pub(super) fn cuts_of_turning(curve: &Curve, tau: f64) -> Vec<f64> {
     }
 }
 
+/// How many parts of at most `tau` so much turning asks for.
+pub(super) fn parts_of_turning(total: f64, tau: f64) -> f64 {
+    libm::ceil(total / tau * (1.0 - COUNT_SLACK)).max(1.0)
+}
+
 /// The turnings at which a run of so much turning is cut.
 fn shares(total: f64, tau: f64) -> impl Iterator<Item = f64> {
-    let parts = libm::ceil(total / tau * (1.0 - COUNT_SLACK));
-    let parts = if parts > 1.0 { parts.min(PARTS_MAX) } else { 1.0 };
+    let parts = parts_of_turning(total, tau).min(PARTS_MAX);
     (1..parts as u32).map(move |k| total * (f64::from(k) / parts))
 }
 

@@ -9,6 +9,7 @@ use crate::curve::{Curve, End};
 use crate::geometry::boxes::BoxHierarchy;
 use crate::geometry::{Point, Rect, bounds_of, scaled, turn_from};
 use crate::ids::{CurveId, Id, IdVec, NameId, Names, PointId, RegionId};
+use crate::watch::{Progress, Stopped, Watch};
 use std::f64::consts::FRAC_PI_2;
 
 /// A planar domain. Made by [`super::Drawing::arrange`] only.
@@ -152,6 +153,20 @@ impl Domain {
 
     /// The complex with every curve cut until it turns at most `tau` (≤ π/3); the cuts become points of P.
     pub fn split_to_turning(&self, tau: f64) -> Domain {
+        self.split_to_turning_watched(tau, &mut |_| true).unwrap_or_else(|Stopped| unreachable!("nobody says stop"))
+    }
+
+    /// [`Domain::split_to_turning`], as long as `watch` says to go on. It is told of the points that there will be before any is made:
+    /// a tiny `tau` asks for more than memory holds.
+    ///
+    /// # Errors
+    /// [`Stopped`].
+    pub fn split_to_turning_watched(&self, tau: f64, watch: &mut Watch) -> Result<Domain, Stopped> {
+        let mut told = Progress { phase: "cutting", vertices: self.points.len(), queued: self.curves.len() };
+        for whole in self.curves.iter() {
+            told.vertices = told.vertices.saturating_add(whole.curve.parts_of_turning(tau) - 1);
+            told.tell(watch)?;
+        }
         let mut split = Domain { curves: IdVec::new(), stars: IdVec::new(), ..self.clone() };
         // The parts of each curve: the first starts where it starts, the last ends where it ends.
         let mut parts: IdVec<CurveId, [CurveId; 2]> = IdVec::with_capacity(self.curves.len());
@@ -160,7 +175,9 @@ impl Domain {
             let cuts = whole.curve.cuts_of_turning(tau);
             let first = CurveId::from_index(split.curves.len());
             let (mut from, mut t0) = (whole.ends[0], 0.0);
+            told.queued -= 1;
             for &t1 in &cuts {
+                told.tell(watch)?;
                 let curve = whole.curve.part(t0, t1);
                 let to = split.points.push(curve.end());
                 let id = split.curves.push(DomainCurve { curve, ends: [from, to], ..whole.clone() });
@@ -179,7 +196,7 @@ impl Domain {
             End::Finish => Incident { curve: parts[i.curve][1], end: i.end },
         };
         split.stars = self.stars.iter().map(|star| star.iter().map(renamed).collect()).chain(middles).collect();
-        split
+        Ok(split)
     }
 
     /// All coordinates (areas, tolerances, repairs) times a power of two: exact.

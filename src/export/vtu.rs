@@ -23,7 +23,7 @@ use crate::ids::{Id, NameId};
 use crate::mesh::{BallReason, CurveEdge, Mesh};
 use base64::Engine;
 use rayon::prelude::*;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::io::{self, Write};
 
 /// Bytes of a compressed block: a multiple of every word, large enough to compress well, small enough to share among
@@ -95,10 +95,13 @@ fn write_fields(
         .write_field(out)?;
     }
     // In the order of first use, so that the file is the same whatever the order of the table of names.
-    let mut seen = BTreeSet::new();
-    for &name in mesh.regions.iter().filter(|&&name| seen.insert(name)) {
-        let numbers = mesh.regions.enumerate().filter(|&(_, n)| *n == name).map(|(r, _)| r.index() as i32 + 1);
-        Array::of_i32(&format!("region:{}", mesh.names.text(name)), numbers).write_field(out)?;
+    let mut numbers: BTreeMap<NameId, Vec<i32>> = BTreeMap::new();
+    for (region, &name) in mesh.regions.enumerate() {
+        numbers.entry(name).or_default().push(region.index() as i32 + 1);
+    }
+    for name in mesh.regions.iter() {
+        let Some(numbers) = numbers.remove(name) else { continue };
+        Array::of_i32(&format!("region:{}", mesh.names.text(*name)), numbers).write_field(out)?;
     }
     let mut by_number: Vec<(i32, NameId)> = boundaries.iter().map(|(&name, &number)| (number, name)).collect();
     by_number.sort_unstable();

@@ -4,6 +4,7 @@
 //! "what is nearest to this point" in about O(log n). Recursion depth is O(log n) whatever the input.
 
 use super::{Point, Rect};
+use std::convert::Infallible;
 
 /// Depth first, one sibling waits a level; halving 2^32 items takes 32 levels.
 const WAITING: usize = 34;
@@ -127,8 +128,17 @@ impl BoxHierarchy {
         nearest.map(|item| (item, best))
     }
 
-    /// Every pair of items whose boxes meet, the smaller first, in ascending order of the first.
+    /// Every pair of items whose boxes meet, the smaller first, in ascending order of the first. There may be as many as the square of
+    /// the items: they are never all kept.
     pub fn pairs(&self, mut each: impl FnMut(usize, usize)) {
+        let Ok(()) = self.try_pairs(|i, j| {
+            each(i, j);
+            Ok::<(), Infallible>(())
+        });
+    }
+
+    /// [`BoxHierarchy::pairs`] until the first error of `each`.
+    pub fn try_pairs<E>(&self, mut each: impl FnMut(usize, usize) -> Result<(), E>) -> Result<(), E> {
         let mut partners = Vec::new();
         for i in 0..self.boxes.len() {
             partners.clear();
@@ -139,8 +149,9 @@ impl BoxHierarchy {
                 true
             });
             partners.sort_unstable();
-            partners.iter().for_each(|&j| each(i, j));
+            partners.iter().try_for_each(|&j| each(i, j))?;
         }
+        Ok(())
     }
 }
 

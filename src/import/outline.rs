@@ -533,19 +533,24 @@ fn polyline(points: &[Point], closed: bool) -> Result<Vec<Curve>, String> {
 }
 
 /// A Bézier span. Weights are kept as they are, so that what was written reads back the same, unless they are all equal (and say
-/// nothing) or so far from 1 that products of them would leave the range; `Curve::rational_bezier` sees to both.
-fn span(points: &[Pair], weights: Option<Vec<f64>>) -> Result<Bezier, String> {
-    let made = match weights.clone() {
-        None => Curve::bezier(all(points)),
-        Some(weights) => Curve::rational_bezier(all(points), weights),
-    };
-    let Curve::Bezier(made) = made.map_err(said)? else { return Err("is no Bézier curve".into()) };
-    let tame = |w: &Vec<f64>| made.weights.is_some() && w.iter().all(|v| (1e-30..1e30).contains(v));
-    Ok(Bezier { weights: weights.filter(tame).or(made.weights.clone()), ..*made })
+/// nothing), so far from 1 that products of them would leave the range, or so far apart that `Curve::rational_bezier` evens them.
+fn bezier(points: &[Pair], weights: Option<Vec<f64>>) -> Result<Curve, String> {
+    let Some(weights) = weights else { return Curve::bezier(all(points)).map_err(said) };
+    match Curve::rational_bezier(all(points), weights.clone()).map_err(said)? {
+        Curve::Bezier(made) if is_tame(&weights) && made.weights.as_ref().is_some_and(|w| is_multiple(w, &weights)) => {
+            Ok(Curve::Bezier(Box::new(Bezier { weights: Some(weights), ..*made })))
+        }
+        made => Ok(made),
+    }
 }
 
-fn bezier(points: &[Pair], weights: Option<Vec<f64>>) -> Result<Curve, String> {
-    span(points, weights).map(|b| Curve::Bezier(Box::new(b)))
+fn is_tame(weights: &[f64]) -> bool {
+    weights.iter().all(|w| (1e-30..1e30).contains(w))
+}
+
+/// Whether some weights are others times a power of two.
+fn is_multiple(weights: &[f64], others: &[f64]) -> bool {
+    weights.iter().zip(others).all(|(w, v)| w * others[0] == v * weights[0])
 }
 
 /// Start and sweep in radians, from whichever unit is given; `None` where neither is.
@@ -647,17 +652,24 @@ impl PiecewiseForm {
         {
             return Err("needs one knot more than spans, ascending from 0 to 1".into());
         }
-        let mut spans: Vec<Bezier> = Vec::with_capacity(self.spans.len());
+        let (mut starts, mut spans) = (Vec::new(), Vec::<Bezier>::new());
         for (i, form) in self.spans.into_iter().enumerate() {
-            let next = span(&form.points, form.weights).map_err(|e| format!("spans[{i}]: {e}"))?;
-            if spans.last().is_some_and(|before| before.points.last() != next.points.first()) {
+            let next = match bezier(&form.points, form.weights).map_err(|e| format!("spans[{i}]: {e}"))? {
+                Curve::Bezier(span) => vec![*span],
+                Curve::Spline(evened) => evened.spans,
+                other => return Err(format!("spans[{i}]: is no Bézier curve but a {}", other.kind())),
+            };
+            if spans.last().is_some_and(|before| before.points.last() != next[0].points.first()) {
                 return Err(format!("spans[{i}] does not start where the span before it ends"));
             }
-            spans.push(next);
+            let step = (knots[i + 1] - knots[i]) / next.len() as f64;
+            starts.extend((0..next.len()).map(|k| knots[i] + k as f64 * step));
+            spans.extend(next);
         }
         if spans.is_empty() {
             return Err("needs a span".into());
         }
+        let knots = starts.into_iter().chain([1.0]).collect();
         Ok(Curve::Spline(Box::new(Spline { knots, spans })))
     }
 }

@@ -91,14 +91,6 @@ impl Counters {
     }
 }
 
-/// How far a refinement has come.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Progress {
-    pub phase: &'static str,
-    pub vertices: usize,
-    pub queued: usize,
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -98,6 +98,7 @@ pub(super) struct Hulls {
     pub magnitude: f64,
     /// Highest degree of a span.
     pub degree: usize,
+    control_points: usize,
 }
 
 impl std::ops::Index<usize> for Hulls {
@@ -109,7 +110,8 @@ impl std::ops::Index<usize> for Hulls {
 
 impl Hulls {
     pub fn of(curve: &Curve) -> Self {
-        let mut hulls = Self { spans: Vec::new(), pieces: Vec::new(), root: 0, magnitude: 0.0, degree: 1 };
+        let mut hulls =
+            Self { spans: Vec::new(), pieces: Vec::new(), root: 0, magnitude: 0.0, degree: 1, control_points: 0 };
         match curve {
             Curve::Line(line) => hulls.add([0.0, 1.0], Pace::Even, plain(&[line.start, line.end])),
             Curve::Arc(arc) => {
@@ -136,6 +138,11 @@ impl Hulls {
 
     pub fn root(&self) -> usize {
         self.root
+    }
+
+    /// How many control points halving has made so far.
+    pub fn control_points(&self) -> usize {
+        self.control_points
     }
 
     fn add(&mut self, t: [f64; 2], pace: Pace, control: Vec<Homogeneous>) {
@@ -191,6 +198,7 @@ impl Hulls {
         let (span, s, ends, [t0, t1]) = (piece.span, piece.s, piece.span_end, piece.t);
         let left = bezier_piece(left, span, [s[0], middle], [t0, t], [ends[0], false]);
         let right = bezier_piece(right, span, [middle, s[1]], [t, t1], [false, ends[1]]);
+        self.control_points += left.control.len() + right.control.len();
         let children = [self.pieces.len(), self.pieces.len() + 1];
         self.pieces.extend([left, right]);
         self.pieces[i].children = Some(children);

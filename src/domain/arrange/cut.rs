@@ -1,11 +1,15 @@
 //! The network: drawn curves cut into pieces at their breaks and self-meetings, and the places where pieces meet.
 
-use super::{ArrangeError, Drawing, Repair, RepairKind, Tolerances};
+use super::{ArrangeError, Drawing, Repair, RepairKind, Tolerances, Unarranged};
 use crate::curve::{BreakKind, Curve, Meetings, meetings, self_meetings};
 use crate::geometry::boxes::BoxHierarchy;
 use crate::geometry::exact::{Orientation, orient};
 use crate::geometry::{Point, Rect};
 use crate::ids::{CurveId, Id, IdVec, PointId};
+use crate::watch::{Progress, Stopped, Watch};
+
+/// Cuts of one round that are kept at most, two a crossing: some gigabytes with the pieces that they make.
+const CUTS_MAX: usize = 1 << 24;
 
 /// What a node or a cut is there for. Earlier ones win where nodes are welded: what was drawn is the truth.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
@@ -105,7 +109,7 @@ pub(super) fn extent(bounds: Rect) -> f64 {
 
 impl<'a> Network<'a> {
     /// The pieces of a drawing, cut at breaks and self-meetings, not yet met with each other.
-    pub fn new(drawing: &'a Drawing, tolerances: Tolerances) -> Result<Self, ArrangeError> {
+    pub fn new(drawing: &'a Drawing, tolerances: Tolerances, watch: &mut Watch) -> Result<Self, Unarranged> {
         let mut network = Network {
             drawing,
             tolerances,
@@ -116,6 +120,7 @@ impl<'a> Network<'a> {
             drawn_points: Vec::new(),
         };
         for source in 0..drawing.curves.len() {
+            network.progress("cutting", drawing.curves.len() - source).tell(watch)?;
             let ends = network.add_curve(source as u32)?;
             network.drawn_ends.push(ends);
         }
@@ -124,6 +129,10 @@ impl<'a> Network<'a> {
             network.drawn_points.push(id);
         }
         Ok(network)
+    }
+
+    fn progress(&self, phase: &'static str, queued: usize) -> Progress {
+        Progress { phase, vertices: self.nodes.len(), queued }
     }
 
     pub fn add_node(&mut self, at: Point, origin: Origin) -> PointId {
@@ -233,25 +242,27 @@ fn split(curve: &Curve, cuts: &[f64]) -> Vec<Curve> {
 // ---- where pieces meet ----
 impl Network<'_> {
     /// Every place where fresh pieces and nodes meet others.
-    pub fn meet(&mut self) -> Result<Found, ArrangeError> {
+    pub fn meet(&mut self, watch: &mut Watch) -> Result<Found, Unarranged> {
         let mut found = Found::default();
         let known = self.nodes.len();
         let grown = self.pieces.iter().map(|p| p.bounds.inflate(self.tolerances.weld, self.tolerances.weld));
         let boxes = BoxHierarchy::new(grown);
-        self.nodes_on_pieces(&boxes, &mut found);
-        let mut pairs = Vec::new();
-        boxes.pairs(|i, j| {
+        self.nodes_on_pieces(&boxes, &mut found, watch)?;
+        boxes.try_pairs(|i, j| {
             let (a, b) = (CurveId::from_index(i), CurveId::from_index(j));
-            if self.pieces[a].fresh || self.pieces[b].fresh {
-                pairs.push((a, b));
+            if !(self.pieces[a].fresh || self.pieces[b].fresh) {
+                return Ok(());
             }
-        });
-        for (a, b) in pairs {
+            self.progress("meeting", self.pieces.len() - i).tell(watch)?;
+            if found.cuts.len() > CUTS_MAX {
+                return Err(too_many_cuts(self.pieces[a].bounds.center()).into());
+            }
             match (&self.pieces[a].curve, &self.pieces[b].curve) {
                 (Curve::Line(_), Curve::Line(_)) => self.cross_lines(a, b, &mut found),
                 _ => self.meet_curves(a, b, &mut found)?,
             }
-        }
+            Ok::<(), Unarranged>(())
+        })?;
         // New nodes are looked at in the next round, when pieces end at them.
         self.nodes.iter_mut().take(known).for_each(|n| n.fresh = false);
         self.pieces.iter_mut().for_each(|p| p.fresh = false);
@@ -259,26 +270,27 @@ impl Network<'_> {
     }
 
     /// Nodes that lie on pieces without being their ends: T-junctions, collinear overlaps, drawn points on curves.
-    fn nodes_on_pieces(&mut self, boxes: &BoxHierarchy, found: &mut Found) {
+    fn nodes_on_pieces(&self, boxes: &BoxHierarchy, found: &mut Found, watch: &mut Watch) -> Result<(), Stopped> {
         let mut near = Vec::new();
         for (id, node) in self.nodes.enumerate() {
+            self.progress("meeting", self.nodes.len() - id.index()).tell(watch)?;
             boxes.meeting(Rect::from_points(node.at, node.at), |i| {
                 let piece = CurveId::from_index(i);
                 if (node.fresh || self.pieces[piece].fresh) && !self.pieces[piece].ends.contains(&id) {
-                    near.push((id, piece));
+                    near.push(piece);
                 }
                 true
             });
-        }
-        near.sort_unstable();
-        for (id, piece) in near {
-            let at = self.nodes[id].at;
-            let (t, distance) = self.pieces[piece].curve.nearest(at, 0.0, 1.0);
-            if distance <= self.tolerances.weld {
-                let site = self.site(piece, t, self.pieces[piece].curve.point(t));
-                join(found, (piece, site), id);
+            near.sort_unstable();
+            for piece in near.drain(..) {
+                let (t, distance) = self.pieces[piece].curve.nearest(node.at, 0.0, 1.0);
+                if distance <= self.tolerances.weld {
+                    let site = self.site(piece, t, self.pieces[piece].curve.point(t));
+                    join(found, (piece, site), id);
+                }
             }
         }
+        Ok(())
     }
 
     /// The proper crossing of two lines. All other ways in which lines meet have an end of one on the other.
@@ -402,6 +414,14 @@ impl Network<'_> {
             Some(end) if self.nodes[end].at.distance(at) <= self.tolerances.weld => Site::End(end),
             _ => Site::Inside(t, at),
         }
+    }
+}
+
+fn too_many_cuts(at: Point) -> ArrangeError {
+    ArrangeError {
+        what: format!("the curves meet in more than {} places", CUTS_MAX / 2),
+        at,
+        help: "such a drawing is noise: leave out the curves that cross most of the others there".into(),
     }
 }
 

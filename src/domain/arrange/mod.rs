@@ -19,6 +19,7 @@ use super::{Domain, DomainCurve, Drawing, FillRule};
 use crate::curve::Curve;
 use crate::geometry::{Point, Rect, magnitude, scaled, unit_scale};
 use crate::ids::{IdVec, PointId};
+use crate::watch::{Stopped, Watch};
 use cut::{Network, extent};
 use std::collections::BTreeMap;
 
@@ -78,6 +79,15 @@ pub struct ArrangeError {
     pub help: String,
 }
 
+/// Why there is no domain.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum Unarranged {
+    #[error(transparent)]
+    Invalid(#[from] ArrangeError),
+    #[error(transparent)]
+    Stopped(#[from] Stopped),
+}
+
 impl Repair {
     /// Place and size times a factor.
     pub(super) fn scale(&mut self, factor: f64) {
@@ -107,12 +117,25 @@ impl Drawing {
     /// Where there is nothing to mesh, a coordinate is not a finite number, or curves run so near to each other that rounded
     /// arithmetic cannot tell how they lie: with the place and the way out.
     pub fn arrange(&self, options: &ArrangeOptions) -> Result<Domain, ArrangeError> {
+        self.arrange_watched(options, &mut |_| true).map_err(|why| match why {
+            Unarranged::Invalid(error) => error,
+            Unarranged::Stopped(Stopped) => unreachable!("nobody says stop"),
+        })
+    }
+
+    /// [`Drawing::arrange`], as long as `watch` says to go on.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Drawing::arrange`], and [`Unarranged::Stopped`].
+    pub fn arrange_watched(&self, options: &ArrangeOptions, watch: &mut Watch) -> Result<Domain, Unarranged> {
         let bounds = self.check_extent()?;
         let factor = unit_scale(magnitude(bounds));
         let (unit, tolerances) = self.in_unit_frame(factor, options)?;
-        match arrange_in_unit_frame(&unit, tolerances, options) {
+        match arrange_in_unit_frame(&unit, tolerances, options, watch) {
             Ok(domain) => Ok(domain.scaled(1.0 / factor)),
-            Err(error) => Err(ArrangeError { at: scaled(error.at, 1.0 / factor), ..error }),
+            Err(Unarranged::Invalid(error)) => Err(ArrangeError { at: scaled(error.at, 1.0 / factor), ..error }.into()),
+            Err(stopped) => Err(stopped),
         }
     }
 
@@ -219,22 +242,23 @@ fn arrange_in_unit_frame(
     drawing: &Drawing,
     tolerances: Tolerances,
     options: &ArrangeOptions,
-) -> Result<Domain, ArrangeError> {
-    let mut network = Network::new(drawing, tolerances)?;
-    network.settle()?;
+    watch: &mut Watch,
+) -> Result<Domain, Unarranged> {
+    let mut network = Network::new(drawing, tolerances, watch)?;
+    network.settle(watch)?;
     if tolerances.gap > 0.0 && network.close_gaps() {
-        network.settle()?;
+        network.settle(watch)?;
     }
-    let mut domain = bare_domain(&mut network)?;
+    let mut domain = bare_domain(&mut network, watch)?;
     // Level lines keep twice the rounding away from ends of curves.
-    let faces = trace::Faces::trace(&domain, 2.0 * tolerances.rounding)?;
+    let faces = trace::Faces::trace(&domain, 2.0 * tolerances.rounding, watch)?;
     let rule = if options.keep_all { FillRule::Regions } else { options.fill.unwrap_or(drawing.fill) };
-    trace::keep(&network, &mut domain, &faces, rule, !options.keep_all)?;
+    trace::keep(&network, &mut domain, &faces, rule, !options.keep_all, watch)?;
     Ok(domain)
 }
 
 /// Points, curves and stars, without regions.
-fn bare_domain(network: &mut Network) -> Result<Domain, ArrangeError> {
+fn bare_domain(network: &mut Network, watch: &mut Watch) -> Result<Domain, Unarranged> {
     let drawing = network.drawing;
     let (points, point_of) = used_points(network);
     let curve = |piece: &cut::Piece| DomainCurve {
@@ -245,7 +269,7 @@ fn bare_domain(network: &mut Network) -> Result<Domain, ArrangeError> {
         source: piece.source,
     };
     let curves = network.pieces.iter().map(curve).collect();
-    let stars = star::stars(&points, &curves)?;
+    let stars = star::stars(&points, &curves, watch)?;
     let mut point_names = BTreeMap::new();
     for (drawn, &node) in drawing.points.iter().zip(&network.drawn_points) {
         if let (Some(name), Some(point)) = (drawn.name, point_of[node]) {

@@ -1,11 +1,12 @@
 //! Stars: the curves at every point, counter-clockwise. The order is topological: where tangents do not tell, it is read off a circle.
 
-use super::ArrangeError;
+use super::{ArrangeError, Unarranged};
 use crate::curve::{Curve, End};
 use crate::domain::{DomainCurve, Incident};
 use crate::geometry::exact::{Orientation, orient};
 use crate::geometry::{Point, Vec2, turn_from};
-use crate::ids::{CurveId, IdVec, PointId};
+use crate::ids::{CurveId, Id, IdVec, PointId};
+use crate::watch::{Progress, Watch};
 use std::cmp::Ordering;
 use std::f64::consts::PI;
 
@@ -20,13 +21,15 @@ const CIRCLES: usize = 24;
 pub(super) fn stars(
     points: &IdVec<PointId, Point>,
     curves: &IdVec<CurveId, DomainCurve>,
-) -> Result<IdVec<PointId, Vec<Incident>>, ArrangeError> {
+    watch: &mut Watch,
+) -> Result<IdVec<PointId, Vec<Incident>>, Unarranged> {
     let mut stars: IdVec<PointId, Vec<Incident>> = vec![Vec::new(); points.len()].into();
     for (id, curve) in curves.enumerate() {
         stars[curve.ends[0]].push(Incident { curve: id, end: End::Start });
         stars[curve.ends[1]].push(Incident { curve: id, end: End::Finish });
     }
-    for (star, &at) in stars.iter_mut().zip(points.iter()) {
+    for (star, (id, &at)) in stars.iter_mut().zip(points.enumerate()) {
+        Progress { phase: "ordering", vertices: points.len(), queued: points.len() - id.index() }.tell(watch)?;
         if star.len() > 1 {
             order(at, star, curves)?;
         }

@@ -2,12 +2,13 @@
 
 use super::cut::{Network, extent};
 use super::fill::Fill;
-use super::{ArrangeError, Drawing, FillRule, Repair, RepairKind};
+use super::{ArrangeError, FillRule, Repair, RepairKind, Unarranged};
 use crate::curve::End;
 use crate::domain::locate::{Axis, Hit, Locator, Side, Sight, left_of};
 use crate::domain::{Domain, Incident, Region, SeedKind};
 use crate::geometry::{Point, Rect};
 use crate::ids::{CurveId, Id, IdVec, NameId, PointId, RegionId};
+use crate::watch::{Progress, Stopped, Watch};
 use std::collections::BTreeSet;
 
 /// Axis-parallel lines tried through a component before its place counts as undecided; each fails only by passing within rounding of
@@ -64,9 +65,9 @@ pub(super) struct Cycle {
 
 impl Faces {
     /// Traces the cycles of a domain whose points, curves and stars stand.
-    pub fn trace(domain: &Domain, margin: f64) -> Result<Self, ArrangeError> {
+    pub fn trace(domain: &Domain, margin: f64, watch: &mut Watch) -> Result<Self, Unarranged> {
         let component_of = components(domain);
-        let (cycle_of, cycles) = cycles(domain, &component_of);
+        let (cycle_of, cycles) = cycles(domain, &component_of, watch)?;
         let count = cycles.iter().map(|c| c.component + 1).max().unwrap_or(0);
         let mut outer: Vec<Option<usize>> = vec![None; count];
         for (i, cycle) in cycles.iter().enumerate() {
@@ -78,7 +79,7 @@ impl Faces {
         }
         let outer = outer.into_iter().flatten().collect();
         let mut faces = Faces { cycle_of, cycles, outer, parent: Vec::new() };
-        faces.parent = faces.nest(domain, margin)?;
+        faces.parent = faces.nest(domain, margin, watch)?;
         Ok(faces)
     }
 
@@ -101,10 +102,11 @@ impl Faces {
     }
 
     /// The face in which every component lies.
-    fn nest(&self, domain: &Domain, margin: f64) -> Result<Vec<Face>, ArrangeError> {
+    fn nest(&self, domain: &Domain, margin: f64, watch: &mut Watch) -> Result<Vec<Face>, Unarranged> {
         let locator = Locator::new(domain);
         let mut seen = Vec::with_capacity(self.outer.len());
         for component in 0..self.outer.len() {
+            tracing(domain, self.outer.len() - component).tell(watch)?;
             seen.push(self.seen_from(component, domain, &locator, margin)?);
         }
         // A component seen from outside lies where that one lies, which is further left (of flat ones: further down). Each is followed
@@ -167,6 +169,10 @@ impl Faces {
     }
 }
 
+fn tracing(domain: &Domain, queued: usize) -> Progress {
+    Progress { phase: "tracing", vertices: domain.points.len(), queued }
+}
+
 fn side_index(hit: &Hit) -> usize {
     Half { curve: hit.curve, side: hit.before }.index()
 }
@@ -203,7 +209,11 @@ fn components(domain: &Domain) -> IdVec<PointId, usize> {
     component
 }
 
-fn cycles(domain: &Domain, component_of: &IdVec<PointId, usize>) -> (Vec<usize>, Vec<Cycle>) {
+fn cycles(
+    domain: &Domain,
+    component_of: &IdVec<PointId, usize>,
+    watch: &mut Watch,
+) -> Result<(Vec<usize>, Vec<Cycle>), Stopped> {
     // Where each side's tail stands in the star of its point.
     let mut place = vec![0; 2 * domain.curves.len()];
     for star in domain.stars.iter() {
@@ -221,6 +231,7 @@ fn cycles(domain: &Domain, component_of: &IdVec<PointId, usize>) -> (Vec<usize>,
     let mut cycles = Vec::new();
     let sides = domain.curves.ids().flat_map(|curve| [Side::Left, Side::Right].map(|side| Half { curve, side }));
     for first in sides {
+        tracing(domain, domain.curves.len() - first.curve.index()).tell(watch)?;
         let mut halves = Vec::new();
         let mut half = first;
         while cycle_of[half.index()] == usize::MAX {
@@ -233,7 +244,7 @@ fn cycles(domain: &Domain, component_of: &IdVec<PointId, usize>) -> (Vec<usize>,
             cycles.push(Cycle { area: area(domain, &halves), halves, component });
         }
     }
-    (cycle_of, cycles)
+    Ok((cycle_of, cycles))
 }
 
 fn tail_point(domain: &Domain, half: Half) -> PointId {
@@ -275,14 +286,15 @@ pub(super) fn keep(
     faces: &Faces,
     rule: FillRule,
     holes: bool,
-) -> Result<(), ArrangeError> {
+    watch: &mut Watch,
+) -> Result<(), Unarranged> {
     let Fill { inside: mut kept, painter } = Fill::new(network, domain, faces, rule);
-    let said = read_seeds(network.drawing, domain, faces, network.tolerances.weld);
+    let said = read_seeds(network, domain, faces, watch)?;
     for (face, said) in said.iter().enumerate() {
         kept[face] &= !(holes && *said == Some(Said::Hole));
     }
     if !kept.contains(&true) {
-        return Err(nothing_to_mesh(network, domain, faces, rule));
+        return Err(nothing_to_mesh(network, domain, faces, rule).into());
     }
     let areas = face_areas(faces);
     let named = |face: usize| match said[face] {
@@ -299,21 +311,27 @@ pub(super) fn keep(
 }
 
 /// What the seeds say, by face. Holes win over region names; of several names the first.
-fn read_seeds(drawing: &Drawing, domain: &mut Domain, faces: &Faces, tolerance: f64) -> Vec<Option<Said>> {
+fn read_seeds(
+    network: &Network,
+    domain: &mut Domain,
+    faces: &Faces,
+    watch: &mut Watch,
+) -> Result<Vec<Option<Said>>, Stopped> {
+    let seeds = &network.drawing.seeds;
     let mut said: Vec<Option<Said>> = vec![None; faces.cycles.len()];
     let mut repairs = Vec::new();
     let locator = Locator::new(domain);
     let is_hole = |k: &SeedKind| matches!(k, SeedKind::Hole);
-    let holes_first =
-        [true, false].into_iter().flat_map(|hole| drawing.seeds.iter().filter(move |s| is_hole(&s.kind) == hole));
-    for seed in holes_first {
+    let holes_first = [true, false].into_iter().flat_map(|hole| seeds.iter().filter(move |s| is_hole(&s.kind) == hole));
+    for (k, seed) in holes_first.enumerate() {
+        tracing(domain, seeds.len() - k).tell(watch)?;
         let sight = locator.sight(seed.at);
         let face = sight.and_then(|Sight { curve, side, .. }| faces.face(Half { curve, side }));
         let mut note = |why: &str| {
             let what = format!("{} {why}", seed.entity);
             repairs.push(Repair { kind: RepairKind::Seed, at: [seed.at.x, seed.at.y], size: 0.0, what });
         };
-        let on_curve = sight.is_some_and(|s| s.distance <= tolerance);
+        let on_curve = sight.is_some_and(|s| s.distance <= network.tolerances.weld);
         if on_curve && face.is_some() {
             note("lies on a curve, and was taken for the face on one of its sides");
         }
@@ -330,7 +348,7 @@ fn read_seeds(drawing: &Drawing, domain: &mut Domain, faces: &Faces, tolerance: 
         }
     }
     domain.repairs.extend(repairs);
-    said
+    Ok(said)
 }
 
 /// The area of every bounded face: its own cycle less the outlines of the components in it.

@@ -1,11 +1,12 @@
 //! Welding: nodes within the tolerance become one, pieces are cut and moved to end at their nodes, repeated pieces become one.
 
 use super::cut::{Cut, Found, Network, Node, Origin, Piece, extent};
-use super::{ArrangeError, RepairKind};
+use super::{ArrangeError, RepairKind, Unarranged};
 use crate::curve::Curve;
 use crate::geometry::boxes::BoxHierarchy;
 use crate::geometry::{Point, Rect};
 use crate::ids::{CurveId, Id, IdVec, PointId};
+use crate::watch::Watch;
 
 /// Rounds of meeting and welding. Each round moves what it welds by a tolerance at most, which seldom makes a new meeting; a drawing
 /// that needs more rounds is one whose features lie as near to each other as its tolerance.
@@ -16,11 +17,11 @@ const SHAPELESS: f64 = 8.0;
 
 impl Network<'_> {
     /// Meets and welds until nothing meets but at common ends.
-    pub fn settle(&mut self) -> Result<(), ArrangeError> {
+    pub fn settle(&mut self, watch: &mut Watch) -> Result<(), Unarranged> {
         self.weld(Found::default());
         let mut at = Point::ORIGIN;
         for _ in 0..ROUNDS {
-            let found = self.meet()?;
+            let found = self.meet(watch)?;
             if found.is_empty() {
                 return Ok(());
             }
@@ -31,7 +32,8 @@ impl Network<'_> {
             what: format!("curves run so near to each other that {ROUNDS} rounds of welding did not part them"),
             at,
             help: "raise the tolerance above the distance of the features there, or remove one of them".into(),
-        })
+        }
+        .into())
     }
 
     /// Closes gaps between ends that meet nothing else, up to the gap tolerance; whether there were any.

@@ -7,6 +7,7 @@ use crate::geometry::boxes::BoxHierarchy;
 use crate::geometry::{self, Point, Rect};
 use crate::ids::{CurveId, Id, IdVec, NameId, PointId, RegionId, TriangleId, VertexId};
 use crate::mesh::{Mesh, RIM_ROUNDING};
+use std::collections::BTreeSet;
 
 /// A stretch of a curve that a mesh edge stands for.
 #[derive(Clone, Copy, Debug)]
@@ -135,7 +136,8 @@ impl Classes {
         names.sort_unstable();
         names.dedup();
         // A file of a format without names: everything in it is one class, or nothing could be compared.
-        let unknown = |n: &&str| !in_domain.contains(n);
+        let known: BTreeSet<&str> = in_domain.iter().copied().collect();
+        let unknown = |n: &&str| !known.contains(n);
         let nameless = foreign && in_mesh.iter().any(unknown);
         let class = |n: &&str| if nameless { 0 } else { names.binary_search(n).unwrap_or(0) as u32 };
         let (of_mesh, of_domain) = (in_mesh.iter().map(class).collect(), in_domain.iter().map(class).collect());

@@ -45,8 +45,9 @@ use crate::geometry::{self, Point};
 use crate::ids::{BallId, CurveId, IdVec, PieceId, PointId, TriangleId, VertexId};
 use crate::mesh::verify::{Promise, guaranteed_angle};
 use crate::mesh::{Mesh, RIM_ROUNDING};
-use crate::refine::{Counters, Progress, Stop, StopReason, WorstFirst};
+use crate::refine::{Counters, Stop, StopReason, WorstFirst};
 use crate::size::{SizeField, Sizing};
+use crate::watch::{Progress, Watch};
 use begin::Beginning;
 use std::collections::VecDeque;
 use std::f64::consts::FRAC_PI_3;
@@ -125,17 +126,15 @@ pub struct RefineError {
     pub help: String,
 }
 
-/// Meshes a domain whose curves turn at most π/3 each. `watch` is told of the progress every few thousand steps; `false` stops.
-pub fn refine(
-    domain: &Domain,
-    options: &Options,
-    watch: &mut dyn FnMut(&Progress) -> bool,
-) -> Result<Refined, RefineError> {
+/// Meshes a domain whose curves turn at most π/3 each, as long as `watch` says to go on; what a valid mesh needs is still done then.
+pub fn refine(domain: &Domain, options: &Options, watch: &mut Watch) -> Result<Refined, RefineError> {
+    /// Steps between two questions: of microseconds on lines, of milliseconds on curves of high degree.
+    const STEPS: u64 = 64;
     let mut lopping = Lopping::start(domain, options)?;
     let mut steps = 0u64;
     while lopping.step() {
         steps += 1;
-        if steps.is_multiple_of(4096) && !watch(&lopping.progress()) {
+        if steps.is_multiple_of(STEPS) && !watch(&lopping.progress()) {
             lopping.cancel();
         }
     }
