@@ -91,10 +91,14 @@ impl Limits {
 
     /// The drawing's own area limits; of several regions of one name, the largest holds.
     fn add_areas_of_regions(&mut self, ev: &Evidence, domain: &Domain) {
+        let mut largest: Vec<Option<f64>> = vec![None; ev.classes.names.len()];
+        for (id, region) in domain.regions().enumerate() {
+            let limit = &mut largest[ev.classes.of_domain[id] as usize];
+            let own = region.max_area.unwrap_or(f64::INFINITY);
+            *limit = Some(limit.map_or(own, |other| own.max(other)));
+        }
         for (limit, &class) in self.region.iter_mut().zip(ev.classes.of_mesh.iter()) {
-            let same = domain.regions().enumerate().filter(|(id, _)| ev.classes.of_domain[*id] == class);
-            let largest = same.map(|(_, r)| r.max_area.unwrap_or(f64::INFINITY)).reduce(f64::max);
-            limit.1 = limit.1.min(largest.unwrap_or(f64::INFINITY));
+            limit.1 = limit.1.min(largest[class as usize].unwrap_or(f64::INFINITY));
         }
     }
 

@@ -95,7 +95,9 @@ fn chord(ev: &Evidence, domain: &Domain, piece: &Piece, on_curve: &mut [bool], t
 fn crossing_chords(ev: &Evidence, tally: &mut Tally) {
     let ends = |i: usize| ev.pieces[i].nodes.map(|v| ev.signs[v]);
     let boxes = BoxHierarchy::new((0..ev.pieces.len()).map(|i| Rect::from_points(ends(i)[0], ends(i)[1])));
-    boxes.pairs(|i, j| {
+    // Chords with a common node cannot cross.
+    let nodes = |i: usize| ev.pieces[i].nodes.map(|v| Some(v.0));
+    boxes.pairs(nodes, |i, j| {
         if part(ends(i), ends(j)) && part(ends(j), ends(i)) {
             let [first, second] = [i, j].map(|k| ev.tell_edge(ev.pieces[k].nodes));
             tally.flaw(|| format!("{first} crosses {second}"));
