@@ -281,7 +281,7 @@ mod tests {
         for n in [0, 1, 5, 300] {
             let boxes = some_boxes(n);
             let hierarchy = BoxHierarchy::new(boxes.clone());
-            let few = |i: usize| [(i % 3 > 0).then_some(i as u32 % 7), (i % 5 > 0).then_some(i as u32 % 11)];
+            let few = |i: usize| [(i % 3 != 1).then_some(i as u32 % 7), (i % 5 != 1).then_some(i as u32 % 11)];
             let unlabelled = |_: usize| Labels::default();
             for labels in [&few as &dyn Fn(usize) -> Labels, &unlabelled] {
                 let apart = |i: usize, j: usize| {

@@ -169,7 +169,7 @@ impl<'a> View<'a> {
         let (bounds, axis) = (self.bounds[component], self.axis(component));
         let [low, high] = along(axis, bounds);
         for level in levels(bounds, axis) {
-            let mut reach = extent(bounds);
+            let mut reach = 4.0 * extent(bounds);
             // Looks ever further back: most components have a neighbour nearby. The unit frame ends within a few units.
             while self.seen[component].is_none() {
                 let Some(hits) = self.locator.hits(axis, level, [low - reach, high], self.margin) else { break };
