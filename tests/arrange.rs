@@ -426,6 +426,176 @@ fn nearly_closed_arcs_close_without_losing_their_shape() {
     }
 }
 
+// ---- coarse tolerances ----
+
+/// Closed outlines of every kind around (50, 50), `width` across where they are narrowest, with their areas.
+fn outlines(width: f64) -> Vec<(&'static str, Vec<Curve>, f64)> {
+    let (r, o) = (width / 2.0, 50.0);
+    let around = |turn: f64, r: f64| p(o, o) + Vec2::from_angle(turn) * r;
+    let spline =
+        Curve::periodic_spline(&(0..8).map(|i| around(f64::from(i) * TAU / 8.0, r)).collect::<Vec<_>>()).unwrap();
+    let ellipse = |start: f64| Curve::ellipse(p(o, o), Vec2::new(3.0 * r, 0.0), Vec2::new(0.0, r), start, TAU).unwrap();
+    let tear = Curve::bezier(vec![p(o - r, o), p(o + 4.0 * r, o - 4.0 * r), p(o + 4.0 * r, o + 4.0 * r), p(o - r, o)])
+        .unwrap();
+    let (west, east) = (around(PI, r), around(0.0, r));
+    let halves = [Curve::bulge(west, east, 1.0).unwrap(), Curve::bulge(east, west, 1.0).unwrap()];
+    let (low, high) = (around(PI, width), around(0.0, width));
+    let cap = vec![Curve::line(low, high).unwrap(), Curve::bulge(high, low, 1.0).unwrap()];
+    let (spline_area, tear_area) = (spline.green(p(o, o)), tear.green(p(o, o)));
+    vec![
+        ("circle", vec![circle(o, o, r)], PI * r * r),
+        ("ellipse", vec![ellipse(0.0)], 3.0 * PI * r * r),
+        ("ellipse from its flat side", vec![ellipse(PI / 2.0)], 3.0 * PI * r * r),
+        ("bezier", vec![tear], tear_area),
+        ("spline", vec![spline], spline_area),
+        ("arcs", halves.to_vec(), PI * r * r),
+        ("arc and line", cap, PI * width * width / 2.0),
+        ("square", square(o - r, o - r, width), width * width),
+    ]
+}
+
+fn in_a_plate(outline: &[Curve]) -> Drawing {
+    drawing(square(0.0, 0.0, 100.0).into_iter().chain(outline.iter().cloned()))
+}
+
+#[test]
+fn what_is_wider_than_the_tolerance_keeps_its_shape() {
+    let tolerance = 0.25;
+    for ratio in [1.05, 1.2, 1.42, 1.6, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 16.0, 25.0, 50.0] {
+        for (kind, outline, area) in outlines(ratio * tolerance) {
+            let options = ArrangeOptions { tolerance: Some(tolerance), fill: Some(FillRule::Regions), keep_all: false };
+            let domain = in_a_plate(&outline).arrange(&options).unwrap();
+            assert_eq!(domain.flaws(), [""; 0], "{kind} {ratio}");
+            let found = areas(&domain);
+            assert_eq!(found.len(), 2, "{kind} {ratio} {:?}", domain.repairs());
+            assert!((found[1] - area).abs() <= 1e-9 * area, "{kind} {ratio}: {} instead of {area}", found[1]);
+            // A closed curve may be told to meet itself where it was closed; nothing else happens to it.
+            let other = domain.repairs().iter().filter(|r| r.kind != RepairKind::SelfSplit).count();
+            assert_eq!(other, 0, "{kind} {ratio} {:?}", domain.repairs());
+        }
+    }
+}
+
+#[test]
+fn what_fits_within_the_tolerance_is_itemised_with_place_and_size() {
+    let tolerance = 2.0;
+    for ratio in [0.05, 0.3, 0.5, 0.7, 0.8, 0.9, 0.99] {
+        for (kind, outline, area) in outlines(ratio * tolerance) {
+            let options = ArrangeOptions { tolerance: Some(tolerance), fill: Some(FillRule::Regions), keep_all: false };
+            let domain = in_a_plate(&outline).arrange(&options).unwrap();
+            assert_eq!(domain.flaws(), [""; 0], "{kind} {ratio}");
+            let told =
+                domain.repairs().iter().filter(|r| p(r.at[0], r.at[1]).distance(p(50.0, 50.0)) < 4.0 * tolerance);
+            let lost = [RepairKind::Collapsed, RepairKind::ZeroLength, RepairKind::Overlap, RepairKind::Duplicate];
+            let told = told.filter(|r| lost.contains(&r.kind) && r.size > 0.0).count();
+            // A loop that is left all the same is no smaller than it was.
+            let kept = areas(&domain).get(1).is_some_and(|a| *a > 0.5 * area);
+            assert!(kept || told > 0, "{kind} {ratio} {:?}", domain.repairs());
+        }
+    }
+}
+
+#[test]
+fn a_ring_of_lines_shorter_than_the_tolerance_is_thinned_not_lost() {
+    for ratio in [3.0, 5.0, 10.0, 40.0] {
+        let n = 400;
+        let around = |i: i32| {
+            (50.0 + ratio * libm::cos(TAU * f64::from(i) / 400.0), 50.0 + ratio * libm::sin(TAU * f64::from(i) / 400.0))
+        };
+        let ring = polygon(&(0..n).map(around).collect::<Vec<_>>());
+        let options = ArrangeOptions { tolerance: Some(2.0), fill: Some(FillRule::Regions), keep_all: false };
+        let domain = in_a_plate(&ring).arrange(&options).unwrap();
+        assert_eq!(domain.flaws(), [""; 0]);
+        let found = areas(&domain);
+        assert_eq!(found.len(), 2, "{ratio}");
+        let hole = found.iter().fold(f64::INFINITY, |a, b| a.min(*b)).min(PI * ratio * ratio);
+        // A step of two tolerances cuts a chord of this depth at most.
+        let depth = ratio - (ratio * ratio - 4.0).sqrt();
+        assert!(hole >= PI * (ratio - depth) * (ratio - depth) * 0.5, "{ratio}: {hole}");
+    }
+}
+
+#[test]
+fn a_stub_shorter_than_a_gap_is_not_folded() {
+    let mut curves = square(0.0, 0.0, 1.0);
+    curves.extend([
+        line((0.5, 0.5), (0.5 + 3e-7, 0.5)),
+        line((0.2, 0.5), (0.2, 0.5 + 2e-7)),
+        line((0.2, 0.5), (0.2 + 1e-7, 0.5)),
+    ]);
+    let domain = regions(&drawing(curves));
+    assert_eq!((domain.curves().len(), domain.points().len()), (7, 9));
+    assert!(domain.repairs().is_empty(), "{:?}", domain.repairs());
+}
+
+#[test]
+fn a_point_far_from_all_curves_is_refused_at_its_place() {
+    let mut drawn = drawing(square(0.0, 0.0, 1.0));
+    drawn.points.push(DrawnPoint { at: p(0.0, 1e15), name: None, entity: "point 7".into() });
+    let error = drawn.arrange(&ArrangeOptions::default()).unwrap_err();
+    assert!(error.what.contains("point 7") && error.at == p(0.0, 1e15), "{error}");
+}
+
+// ---- hubs ----
+
+#[test]
+fn spokes_that_lie_on_each_other_become_one() {
+    let n = 50;
+    let spoke = |k: i32, r: f64| {
+        let turn = TAU * f64::from(k) / f64::from(n);
+        line((0.0, 0.0), (r * libm::cos(turn), r * libm::sin(turn)))
+    };
+    let domain = drawing((0..n).flat_map(|k| [spoke(k, 2.0), spoke(k, 1.0).reversed()]).chain(square(-3.0, -3.0, 6.0)));
+    let domain = regions(&domain);
+    assert_eq!(domain.curves().len(), 2 * n as usize + 4);
+    assert_eq!(repairs(&domain, RepairKind::Overlap), n as usize);
+}
+
+/// Points less curves plus faces, the unbounded one included, against one more than the connected parts.
+fn euler(domain: &Domain) -> (usize, usize) {
+    let mut root: Vec<usize> = (0..domain.points().len()).collect();
+    let find = |root: &Vec<usize>, mut i: usize| {
+        while root[i] != i {
+            i = root[i];
+        }
+        i
+    };
+    let mut parts = domain.points().len();
+    for curve in domain.curves().iter() {
+        let [a, b] = curve.ends.map(|end| find(&root, end.index()));
+        parts -= usize::from(a != b);
+        root[a] = b;
+    }
+    (domain.points().len() + domain.regions().len() + 1, 1 + parts + domain.curves().len())
+}
+
+#[test]
+fn every_map_obeys_euler_and_no_two_lines_of_it_cross() {
+    for seed in 0..12 {
+        let mut number = numbers(seed + 100);
+        let mut places: Vec<(f64, f64)> = (0..60).map(|_| (number(), number())).collect();
+        // Two hubs, one of them on a line.
+        places.extend([(0.5, 0.5), (0.25, 0.75)]);
+        let mut curves = square(-1.0, -1.0, 3.0);
+        curves.extend((0..60).map(|i| line(places[i], places[60 + i % 2])));
+        curves.extend((0..40).map(|i| line(places[i], places[i + 20])));
+        let lines = regions(&drawing(curves));
+        let (left, right) = euler(&lines);
+        assert_eq!(left, right, "lines, seed {seed}");
+        let ends: Vec<_> = lines.curves().iter().map(|c| (c.curve.start(), c.curve.end(), c.ends)).collect();
+        // What rounding leaves of a line's end on another is no crossing.
+        let side = |a: Point, b: Point, q: Point| Some((b - a).cross(q - a)).filter(|s| s.abs() > 1e-14).unwrap_or(0.0);
+        for (i, &(a, b, ab)) in ends.iter().enumerate() {
+            for &(c, d, cd) in ends[i + 1..].iter().filter(|o| !o.2.iter().any(|e| ab.contains(e))) {
+                let parted = side(a, b, c) * side(a, b, d) < 0.0 && side(c, d, a) * side(c, d, b) < 0.0;
+                assert!(!parted, "{ab:?} and {cd:?} cross, seed {seed}");
+            }
+        }
+        let (left, right) = euler(&regions(&drawing(heap(seed, seed % 2 == 0))));
+        assert_eq!(left, right, "heap, seed {seed}");
+    }
+}
+
 // ---- laws ----
 
 /// A drawing with something of everything, scaled and moved.

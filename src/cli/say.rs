@@ -247,6 +247,7 @@ pub fn repair_kinds(repairs: &[Repair]) -> String {
         RepairKind::Corner => ["corner found", "corners found"],
         RepairKind::Duplicate => ["duplicate dropped", "duplicates dropped"],
         RepairKind::Overlap => ["overlap merged", "overlaps merged"],
+        RepairKind::Collapsed => ["feature within the tolerance lost", "features within the tolerance lost"],
         RepairKind::ZeroLength => ["curve of no length dropped", "curves of no length dropped"],
         RepairKind::Seed => ["seed without a face", "seeds without a face"],
     };

@@ -3,7 +3,7 @@
 use super::locate::{Axis, Hit, Locator, gap_between, left_of};
 use super::{Domain, Incident};
 use crate::curve::{Curve, End, meetings, self_meetings};
-use crate::geometry::boxes::BoxHierarchy;
+use crate::geometry::boxes::{BoxHierarchy, Labels};
 use crate::geometry::exact::orient;
 use crate::geometry::{Rect, magnitude};
 use crate::ids::{CurveId, Id, IdVec, PointId, RegionId};
@@ -130,14 +130,19 @@ impl Domain {
         let rounding = self.rounding();
         let boxes = BoxHierarchy::new(self.curves.iter().map(|c| c.curve.bounds()));
         let mut pairs = Vec::new();
-        boxes.pairs(|i, j| pairs.push([i, j].map(CurveId::from_index)));
+        // Lines with a common end do not cross; that no other end lies on them is asked of the points.
+        let labels = |i: usize| match &self.curves[CurveId::from_index(i)] {
+            line if matches!(line.curve, Curve::Line(_)) => line.ends.map(|end| Some(end.0)),
+            _ => Labels::default(),
+        };
+        boxes.pairs(labels, |i, j| pairs.push([i, j].map(CurveId::from_index)));
+        pairs.sort_unstable();
         for ids in pairs {
             let [p, q] = ids.map(|id| &self.curves[id].curve);
             if let (Curve::Line(p), Curve::Line(q)) = (p, q) {
-                let shared = self.curves[ids[0]].ends.iter().any(|end| self.curves[ids[1]].ends.contains(end));
                 let parted = orient(p.start, p.end, q.start) == orient(p.start, p.end, q.end)
                     || orient(q.start, q.end, p.start) == orient(q.start, q.end, p.end);
-                if !shared && !parted {
+                if !parted {
                     flaws.push(format!("{:?} and {:?} cross", ids[0], ids[1]));
                 }
                 continue;
@@ -162,7 +167,8 @@ impl Domain {
     /// Whether a meeting is the contact at a common end: from there to the meeting the curves are not apart by more than rounding.
     fn at_common_end(&self, ids: [CurveId; 2], ts: [f64; 2], rounding: f64) -> bool {
         let [p, q] = ids.map(|id| &self.curves[id]);
-        let rounding = 4.0 * rounding;
+        // As deep as the arrangement lets curves that touch lie in each other.
+        let rounding = 16.0 * rounding;
         (0..2).flat_map(|i| (0..2).map(move |j| (i, j))).filter(|&(i, j)| p.ends[i] == q.ends[j]).any(|(i, j)| {
             let near = |t: f64, end: usize, from: &Curve, to: &Curve| {
                 (1..4).all(|k| {

@@ -68,6 +68,10 @@ impl BoxHierarchy {
         self.boxes.is_empty()
     }
 
+    pub fn boxes(&self) -> &[Rect] {
+        &self.boxes
+    }
+
     /// Calls `each` with every item whose box meets `query`, borders included; stops when `each` says so (`false`).
     pub fn meeting(&self, query: Rect, mut each: impl FnMut(usize) -> bool) {
         let mut stack = [0u32; WAITING];
@@ -84,7 +88,7 @@ impl BoxHierarchy {
                 waiting += 2;
                 continue;
             }
-            for &item in &self.order[node.first as usize..][..node.len as usize] {
+            for &item in self.items(node) {
                 if touches(self.boxes[item as usize], query) && !each(item as usize) {
                     return;
                 }
@@ -115,7 +119,7 @@ impl BoxHierarchy {
                 waiting += 2;
                 continue;
             }
-            for &item in &self.order[node.first as usize..][..node.len as usize] {
+            for &item in self.items(node) {
                 if distance_to_box(p, self.boxes[item as usize]) <= best {
                     let d = distance(item as usize, best);
                     let wins = d < best || (d == best && nearest.is_some_and(|n| (item as usize) < n));
@@ -128,31 +132,122 @@ impl BoxHierarchy {
         nearest.map(|item| (item, best))
     }
 
-    /// Every pair of items whose boxes meet, the smaller first, in ascending order of the first. There may be as many as the square of
-    /// the items: they are never all kept.
-    pub fn pairs(&self, mut each: impl FnMut(usize, usize)) {
-        let Ok(()) = self.try_pairs(|i, j| {
+    /// Calls `each` with every pair of items whose boxes meet and that bear no common label, the smaller first, in a fixed order. Groups
+    /// whose items all bear one label are passed over at once: n segments around a point, labelled by their ends, cost n log n, not n²/2.
+    pub fn pairs(&self, labels: impl Fn(usize) -> Labels, mut each: impl FnMut(usize, usize)) {
+        let Ok(()) = self.try_pairs(labels, |i, j| {
             each(i, j);
             Ok::<(), Infallible>(())
         });
     }
 
     /// [`BoxHierarchy::pairs`] until the first error of `each`.
-    pub fn try_pairs<E>(&self, mut each: impl FnMut(usize, usize) -> Result<(), E>) -> Result<(), E> {
-        let mut partners = Vec::new();
-        for i in 0..self.boxes.len() {
-            partners.clear();
-            self.meeting(self.boxes[i], |j| {
-                if j > i {
-                    partners.push(j);
+    pub fn try_pairs<E>(
+        &self,
+        labels: impl Fn(usize) -> Labels,
+        mut each: impl FnMut(usize, usize) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let labelled = Labelled::new(self, labels);
+        labelled.try_pairs(&labelled, true, |i, j| each(i.min(j), i.max(j)))
+    }
+
+    /// The same of every item here and item of another hierarchy.
+    pub fn try_pairs_with<E>(
+        &self,
+        labels: impl Fn(usize) -> Labels,
+        other: &Self,
+        of_other: impl Fn(usize) -> Labels,
+        each: impl FnMut(usize, usize) -> Result<(), E>,
+    ) -> Result<(), E> {
+        Labelled::new(self, labels).try_pairs(&Labelled::new(other, of_other), false, each)
+    }
+
+    /// The items of a leaf; none of other nodes.
+    fn items(&self, node: &Node) -> &[u32] {
+        &self.order[node.first as usize..][..node.len as usize]
+    }
+}
+
+/// What items are told apart by in [`BoxHierarchy::pairs`].
+pub type Labels = [Option<u32>; 2];
+
+fn share(a: Labels, b: Labels) -> bool {
+    a.iter().any(|label| label.is_some() && b.contains(label))
+}
+
+/// A hierarchy with labels of its items.
+struct Labelled<'a> {
+    tree: &'a BoxHierarchy,
+    labels: Vec<Labels>,
+    /// By node: the labels that all items below it bear.
+    common: Vec<Labels>,
+}
+
+impl<'a> Labelled<'a> {
+    fn new(tree: &'a BoxHierarchy, labels: impl Fn(usize) -> Labels) -> Self {
+        let labels: Vec<Labels> = (0..tree.boxes.len()).map(labels).collect();
+        let both = |a: Labels, b: Labels| a.map(|label| label.filter(|_| b.contains(&label)));
+        let mut common = vec![Labels::default(); tree.nodes.len()];
+        for (here, node) in tree.nodes.iter().enumerate().rev() {
+            let of_items = tree.items(node).iter().map(|&i| labels[i as usize]).reduce(both);
+            common[here] = of_items.unwrap_or_else(|| both(common[here + 1], common[node.first as usize]));
+        }
+        Self { tree, labels, common }
+    }
+
+    /// Pairs of an item here and one of `other`, which is `same`: the one and the same hierarchy, of which each pair is told once.
+    fn try_pairs<E>(
+        &self,
+        other: &Self,
+        same: bool,
+        mut each: impl FnMut(usize, usize) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let mut stack = match self.tree.is_empty() || other.tree.is_empty() {
+            true => Vec::new(),
+            false => vec![[0, 0]],
+        };
+        while let Some([a, b]) = stack.pop() {
+            let (m, n) = (&self.tree.nodes[a], &other.tree.nodes[b]);
+            if !touches(m.bounds, n.bounds) || share(self.common[a], other.common[b]) {
+                continue;
+            }
+            let (of_m, of_n) = ([a + 1, m.first as usize], [b + 1, n.first as usize]);
+            match (m.len > 0, n.len > 0) {
+                (false, _) if same && a == b => {
+                    stack.extend([[of_m[0], of_m[0]], [of_m[0], of_m[1]], [of_m[1], of_m[1]]]);
                 }
-                true
-            });
-            partners.sort_unstable();
-            partners.iter().try_for_each(|&j| each(i, j))?;
+                (true, true) => self.pairs_of_leaves(other, [m, n], same && a == b, &mut each)?,
+                (leaf, other_leaf) if leaf || (!other_leaf && is_larger(n.bounds, m.bounds)) => {
+                    stack.extend(of_n.map(|child| [a, child]));
+                }
+                _ => stack.extend(of_m.map(|child| [child, b])),
+            }
         }
         Ok(())
     }
+
+    fn pairs_of_leaves<E>(
+        &self,
+        other: &Self,
+        [m, n]: [&Node; 2],
+        same: bool,
+        each: &mut impl FnMut(usize, usize) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let second = other.tree.items(n);
+        for (k, &i) in self.tree.items(m).iter().enumerate() {
+            for &j in if same { &second[k + 1..] } else { second } {
+                let (i, j) = (i as usize, j as usize);
+                if touches(self.tree.boxes[i], other.tree.boxes[j]) && !share(self.labels[i], other.labels[j]) {
+                    each(i, j)?;
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+fn is_larger(a: Rect, b: Rect) -> bool {
+    a.width() + a.height() > b.width() + b.height()
 }
 
 fn touches(a: Rect, b: Rect) -> bool {
@@ -205,6 +300,49 @@ mod tests {
                 assert_eq!(found, scan);
             }
         }
+    }
+
+    #[test]
+    fn pairs_agree_with_a_scan() {
+        for n in [0, 1, 5, 300] {
+            let boxes = some_boxes(n);
+            let hierarchy = BoxHierarchy::new(boxes.clone());
+            let few = |i: usize| [(i % 3 != 1).then_some(i as u32 % 7), (i % 5 != 1).then_some(i as u32 % 11)];
+            let unlabelled = |_: usize| Labels::default();
+            for labels in [&few as &dyn Fn(usize) -> Labels, &unlabelled] {
+                let apart = |i: usize, j: usize| {
+                    labels(i).iter().flatten().all(|label| labels(j).iter().flatten().all(|other| label != other))
+                };
+                let all = (0..n).flat_map(|i| (i + 1..n).map(move |j| (i, j)));
+                let scan: Vec<_> = all.filter(|&(i, j)| touches(boxes[i], boxes[j]) && apart(i, j)).collect();
+                let mut found = Vec::new();
+                hierarchy.pairs(labels, |i, j| found.push((i, j)));
+                found.sort_unstable();
+                assert_eq!(found, scan);
+            }
+        }
+    }
+
+    #[test]
+    fn pairs_of_two_hierarchies_agree_with_a_scan() {
+        let (boxes, others) = (some_boxes(70), some_boxes(150).split_off(80));
+        let labels = |i: usize| [Some(i as u32 % 5), None];
+        let mut found = Vec::new();
+        let (first, second) = (BoxHierarchy::new(boxes.clone()), BoxHierarchy::new(others.clone()));
+        let Ok(()) = first.try_pairs_with(labels, &second, labels, |i, j| {
+            found.push((i, j));
+            Ok::<(), Infallible>(())
+        });
+        found.sort_unstable();
+        let all = (0..70).flat_map(|i| (0..70).map(move |j| (i, j)));
+        let scan: Vec<_> = all.filter(|&(i, j)| touches(boxes[i], others[j]) && i % 5 != j % 5).collect();
+        assert_eq!(found, scan);
+    }
+
+    #[test]
+    fn many_boxes_with_one_label_are_no_pairs_and_cost_little() {
+        let hierarchy = BoxHierarchy::new(vec![Rect::new(0.0, 0.0, 1.0, 1.0); 200_000]);
+        hierarchy.pairs(|i| [Some(i as u32 + 1), Some(0)], |i, j| panic!("{i} and {j} are a pair"));
     }
 
     #[test]

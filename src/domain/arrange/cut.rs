@@ -2,14 +2,18 @@
 
 use super::{ArrangeError, Drawing, Repair, RepairKind, Tolerances, Unarranged};
 use crate::curve::{BreakKind, Curve, Meetings, meetings, self_meetings};
-use crate::geometry::boxes::BoxHierarchy;
+use crate::geometry::boxes::{BoxHierarchy, Labels};
 use crate::geometry::exact::{Orientation, orient};
 use crate::geometry::{Point, Rect};
 use crate::ids::{CurveId, Id, IdVec, PointId};
-use crate::watch::{Progress, Stopped, Watch};
+use crate::watch::{Progress, Watch};
+use std::f64::consts::TAU;
 
 /// Cuts of one round that are kept at most, two a crossing: some gigabytes with the pieces that they make.
 const CUTS_MAX: usize = 1 << 24;
+
+/// Pairs of curves, or of a node and a curve, that are kept at most while it is looked for where they meet: half a gigabyte.
+const PAIRS_MAX: usize = 1 << 26;
 
 /// What a node or a cut is there for. Earlier ones win where nodes are welded: what was drawn is the truth.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
@@ -64,6 +68,79 @@ pub(super) struct Piece {
 impl Piece {
     pub fn new(curve: Curve, ends: [PointId; 2], source: u32, whole: bool) -> Self {
         Self { bounds: curve.bounds(), curve, ends, source, merged: Vec::new(), whole, fresh: true }
+    }
+
+    fn is_line(&self) -> bool {
+        matches!(self.curve, Curve::Line(_))
+    }
+}
+
+/// Nodes at which many lines end. That a spoke's far end lies on another spoke is asked of its neighbours by angle only.
+struct Hubs {
+    spokes: IdVec<PointId, Vec<CurveId>>,
+    /// Hubs to which a line runs from a node.
+    of_node: IdVec<PointId, Labels>,
+}
+
+/// Circles that cross at a smaller angle (its sine) are compared in full: they stay within the tolerance of each other for long.
+const SLANT: f64 = 1e-3;
+
+/// Fewer lines around a node are compared each with each.
+const HUB: usize = 16;
+
+impl Hubs {
+    fn new(network: &Network) -> Self {
+        let mut spokes: IdVec<PointId, Vec<CurveId>> = vec![Vec::new(); network.nodes.len()].into();
+        let lines = || network.pieces.enumerate().filter(|(_, piece)| piece.is_line());
+        lines().for_each(|(id, line)| line.ends.into_iter().for_each(|end| spokes[end].push(id)));
+        let mut hubs = Self { spokes, of_node: vec![Labels::default(); network.nodes.len()].into() };
+        for (_, line) in lines() {
+            for (node, hub) in [(line.ends[0], line.ends[1]), (line.ends[1], line.ends[0])] {
+                let free = hubs.of_node[node].iter().position(Option::is_none);
+                if let (true, Some(free)) = (hubs.is_hub(hub), free) {
+                    hubs.of_node[node][free] = Some(hub.0);
+                }
+            }
+        }
+        hubs
+    }
+
+    fn is_hub(&self, node: PointId) -> bool {
+        self.spokes[node].len() >= HUB
+    }
+
+    /// The hubs at which a line ends.
+    fn of_piece(&self, piece: &Piece) -> Labels {
+        if piece.is_line() { piece.ends.map(|end| self.is_hub(end).then_some(end.0)) } else { Labels::default() }
+    }
+
+    /// Calls `ask` with the far ends of spokes that may lie on other spokes of their hub, and these.
+    fn spokes_on_spokes(
+        &self,
+        network: &Network,
+        ask: &mut impl FnMut(PointId, CurveId) -> Result<(), Unarranged>,
+    ) -> Result<(), Unarranged> {
+        for hub in self.spokes.ids().filter(|&hub| self.is_hub(hub)) {
+            let far = |id: CurveId| network.pieces[id].ends.into_iter().find(|&end| end != hub).unwrap_or(hub);
+            let arm = |id: CurveId| network.nodes[far(id)].at - network.nodes[hub].at;
+            let mut around: Vec<(f64, CurveId)> =
+                self.spokes[hub].iter().map(|&id| (libm::atan2(arm(id).y, arm(id).x), id)).collect();
+            around.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+            let n = around.len();
+            for (k, &(angle, id)) in around.iter().enumerate() {
+                // Half a circle's chord at least as long as the tolerance; 1e-12 is more than rounding does to an angle.
+                let reach = (2.0 * network.tolerances.weld / arm(id).hypot()).min(4.0) + 1e-12;
+                let off = |other: f64| (other - angle).abs().min(TAU - (other - angle).abs());
+                let beside = |step: usize| (1..n).map(move |i| (k + i * step) % n);
+                for way in [1, n - 1] {
+                    beside(way)
+                        .map(|i| around[i])
+                        .take_while(|other| off(other.0) <= reach)
+                        .try_for_each(|other| ask(far(id), other.1))?;
+                }
+            }
+        }
+        Ok(())
     }
 }
 
@@ -149,10 +226,17 @@ impl<'a> Network<'a> {
 
     fn add_curve(&mut self, source: u32) -> Result<Option<[PointId; 2]>, ArrangeError> {
         let curve = &self.drawing.curves[source as usize].curve;
-        if extent(curve.bounds()) <= self.tolerances.weld {
+        let (size, weld) = (extent(curve.bounds()), self.tolerances.weld);
+        if size == 0.0 {
             let what = format!("{} has no length and was dropped", self.entity(source));
-            self.repair(RepairKind::ZeroLength, curve.start(), extent(curve.bounds()), what);
+            self.repair(RepairKind::ZeroLength, curve.start(), size, what);
             return Ok(None);
+        }
+        if size <= weld {
+            // Too small for a shape of its own. Whether it is lost is told by its ends: a chain of short curves may be a long one.
+            let [from, to] = [curve.start(), curve.end()].map(|at| self.add_node(at, Origin::Curve(source)));
+            self.pieces.push(Piece::new(curve.clone(), [from, to], source, true));
+            return Ok(Some([from, to]));
         }
         let first = self.add_node(curve.start(), Origin::Curve(source));
         let last = if curve.start() == curve.end() { first } else { self.add_node(curve.end(), Origin::Curve(source)) };
@@ -248,12 +332,11 @@ impl Network<'_> {
         let grown = self.pieces.iter().map(|p| p.bounds.inflate(self.tolerances.weld, self.tolerances.weld));
         let boxes = BoxHierarchy::new(grown);
         self.nodes_on_pieces(&boxes, &mut found, watch)?;
-        boxes.try_pairs(|i, j| {
-            let (a, b) = (CurveId::from_index(i), CurveId::from_index(j));
-            if !(self.pieces[a].fresh || self.pieces[b].fresh) {
-                return Ok(());
-            }
-            self.progress("meeting", self.pieces.len() - i).tell(watch)?;
+        let mut pairs = self.fresh_pairs(&boxes, watch)?;
+        pairs.sort_unstable();
+        let count = pairs.len();
+        for (k, (a, b)) in pairs.into_iter().enumerate() {
+            self.progress("meeting", count - k).tell(watch)?;
             if found.cuts.len() > CUTS_MAX {
                 return Err(too_many_cuts(self.pieces[a].bounds.center()).into());
             }
@@ -261,44 +344,134 @@ impl Network<'_> {
                 (Curve::Line(_), Curve::Line(_)) => self.cross_lines(a, b, &mut found),
                 _ => self.meet_curves(a, b, &mut found)?,
             }
-            Ok::<(), Unarranged>(())
-        })?;
+        }
         // New nodes are looked at in the next round, when pieces end at them.
         self.nodes.iter_mut().take(known).for_each(|n| n.fresh = false);
         self.pieces.iter_mut().for_each(|p| p.fresh = false);
         Ok(found)
     }
 
+    /// Pairs of pieces that may cross and were not both looked at before.
+    fn fresh_pairs(&self, boxes: &BoxHierarchy, watch: &mut Watch) -> Result<Vec<(CurveId, CurveId)>, Unarranged> {
+        let mut pairs = Vec::new();
+        let fresh: Vec<CurveId> = self.pieces.ids().filter(|&id| self.pieces[id].fresh).collect();
+        let mut ask = |a: CurveId, b: CurveId| {
+            if !self.are_circles_apart(a, b) {
+                pairs.push((a, b));
+            }
+            self.keep_on(pairs.len(), self.pieces[a].bounds.center(), watch)
+        };
+        let labels = |i: usize| self.crossing_labels(CurveId::from_index(i));
+        if fresh.len() == self.pieces.len() {
+            boxes.try_pairs(labels, |i, j| ask(CurveId::from_index(i), CurveId::from_index(j)))?;
+            return Ok(pairs);
+        }
+        let of_fresh = BoxHierarchy::new(fresh.iter().map(|&id| boxes.boxes()[id.index()]));
+        of_fresh.try_pairs_with(
+            |i| self.crossing_labels(fresh[i]),
+            boxes,
+            labels,
+            |i, j| {
+                let (a, b) = (fresh[i], CurveId::from_index(j));
+                // Of two fresh ones each finds the other.
+                if a < b || (b < a && !self.pieces[b].fresh) { ask(a.min(b), a.max(b)) } else { Ok(()) }
+            },
+        )?;
+        Ok(pairs)
+    }
+
+    /// Asks the watch now and then while pairs are found, and refuses more than can be kept.
+    fn keep_on(&self, pairs: usize, at: Point, watch: &mut Watch) -> Result<(), Unarranged> {
+        if pairs > PAIRS_MAX {
+            return Err(too_many_cuts(at).into());
+        }
+        if pairs.is_multiple_of(1024) { Ok(self.progress("meeting", pairs).tell(watch)?) } else { Ok(()) }
+    }
+
+    /// Whether a place is for certain no part of an arc, told by its circle.
+    fn is_off_circle(&self, at: Point, piece: &Piece) -> bool {
+        let Curve::Arc(arc) = &piece.curve else { return false };
+        let from = at.distance(arc.center);
+        (from - arc.radius).abs() > self.off_circle(from + arc.radius)
+    }
+
+    /// How far a point of an arc, computed from numbers of a magnitude, may lie off its circle, and a tolerance more. Moved ends are spread
+    /// along an arc: its points lie off its circle by two tolerances at most.
+    fn off_circle(&self, magnitude: f64) -> f64 {
+        8.0 * self.tolerances.weld.max(f64::EPSILON * magnitude)
+    }
+
+    /// Whether two arcs meet nowhere, or nowhere but at their one common end, told by their circles: rings in each other and fans of arcs
+    /// have as many pairs of boxes that meet as there are pairs.
+    fn are_circles_apart(&self, a: CurveId, b: CurveId) -> bool {
+        let [first, second] = [a, b].map(|id| &self.pieces[id]);
+        let (Curve::Arc(p), Curve::Arc(q)) = (&first.curve, &second.curve) else { return false };
+        let between = p.center.distance(q.center);
+        let slack = self.off_circle(between + p.radius + q.radius);
+        if between > p.radius + q.radius + slack || between < (p.radius - q.radius).abs() - slack {
+            return true;
+        }
+        let mut shared = first.ends.into_iter().filter(|end| second.ends.contains(end));
+        let (Some(hub), None) = (shared.next(), shared.next()) else { return false };
+        let at = self.nodes[hub].at;
+        let sine = (p.center - at).cross(q.center - at).abs() / (p.radius * q.radius);
+        // Circles that cross at an angle cross once more, as far behind the line of their centers.
+        let along = (q.center - p.center) / between;
+        let other = p.center + 2.0 * along.dot(at - p.center) * along - (at - p.center);
+        let reach = slack / SLANT;
+        sine >= SLANT
+            && at.distance(other) > 2.0 * reach
+            && [first, second].iter().any(|piece| piece.curve.nearest(other, 0.0, 1.0).1 > reach)
+    }
+
+    /// Lines with a common end do not cross.
+    fn crossing_labels(&self, id: CurveId) -> Labels {
+        match &self.pieces[id] {
+            line if line.is_line() => line.ends.map(|end| Some(end.0)),
+            _ => Labels::default(),
+        }
+    }
+
     /// Nodes that lie on pieces without being their ends: T-junctions, collinear overlaps, drawn points on curves.
-    fn nodes_on_pieces(&self, boxes: &BoxHierarchy, found: &mut Found, watch: &mut Watch) -> Result<(), Stopped> {
+    fn nodes_on_pieces(
+        &mut self,
+        boxes: &BoxHierarchy,
+        found: &mut Found,
+        watch: &mut Watch,
+    ) -> Result<(), Unarranged> {
+        let hubs = Hubs::new(self);
+        let nodes = BoxHierarchy::new(self.nodes.iter().map(|n| Rect::from_points(n.at, n.at)));
         let mut near = Vec::new();
-        for (id, node) in self.nodes.enumerate() {
-            self.progress("meeting", self.nodes.len() - id.index()).tell(watch)?;
-            boxes.meeting(Rect::from_points(node.at, node.at), |i| {
-                let piece = CurveId::from_index(i);
-                if (node.fresh || self.pieces[piece].fresh) && !self.pieces[piece].ends.contains(&id) {
-                    near.push(piece);
-                }
-                true
-            });
-            near.sort_unstable();
-            for piece in near.drain(..) {
-                let (t, distance) = self.pieces[piece].curve.nearest(node.at, 0.0, 1.0);
-                if distance <= self.tolerances.weld {
-                    let site = self.site(piece, t, self.pieces[piece].curve.point(t));
-                    join(found, (piece, site), id);
-                }
+        let mut ask = |id: PointId, i: CurveId| {
+            let (node, piece) = (&self.nodes[id], &self.pieces[i]);
+            if (node.fresh || piece.fresh) && !piece.ends.contains(&id) && !self.is_off_circle(node.at, piece) {
+                near.push((id, i));
+            }
+            self.keep_on(near.len(), node.at, watch)
+        };
+        nodes.try_pairs_with(
+            |i| hubs.of_node[PointId::from_index(i)],
+            boxes,
+            |i| hubs.of_piece(&self.pieces[CurveId::from_index(i)]),
+            |i, j| ask(PointId::from_index(i), CurveId::from_index(j)),
+        )?;
+        hubs.spokes_on_spokes(self, &mut ask)?;
+        near.sort_unstable();
+        near.dedup();
+        for (id, piece) in near {
+            let at = self.nodes[id].at;
+            let (t, distance) = self.pieces[piece].curve.nearest(at, 0.0, 1.0);
+            if distance <= self.tolerances.weld {
+                let site = self.site(piece, t, self.pieces[piece].curve.point(t));
+                join(found, (piece, site), id);
             }
         }
         Ok(())
     }
 
-    /// The proper crossing of two lines. All other ways in which lines meet have an end of one on the other.
+    /// The proper crossing of two lines without a common end. All other ways in which lines meet have an end of one on the other.
     fn cross_lines(&mut self, a: CurveId, b: CurveId, found: &mut Found) {
         let [p, q] = [a, b].map(|id| &self.pieces[id]);
-        if p.ends.iter().any(|end| q.ends.contains(end)) {
-            return;
-        }
         let (p0, p1, q0, q1) = (p.curve.start(), p.curve.end(), q.curve.start(), q.curve.end());
         let sides = [orient(p0, p1, q0), orient(p0, p1, q1), orient(q0, q1, p0), orient(q0, q1, p1)];
         if sides[0] == sides[1] || sides[2] == sides[3] || sides.contains(&Orientation::Collinear) {

@@ -7,6 +7,13 @@
 //! 3. `star`: the curves around every point, in order.
 //! 4. `trace`, `fill`: faces, winding numbers, painted shapes, hole and region seeds, names.
 //!
+//! A tolerance acts feature by feature: what is wider than it keeps its shape and its side of the border, whatever its length; only what
+//! fits within it becomes a point or a line, and is itemised ([`RepairKind::Collapsed`]). A chain of shorter curves is thinned to steps
+//! of about a tolerance, so a loop of such is safe from three tolerances on.
+//!
+//! Everything is near-linear in the curves and their meetings but bundles of curves (not lines) around one point or between the same two
+//! points, which are compared each with each.
+//!
 //! All of it happens in a frame scaled by a power of two, so that the same drawing at another such scale gives the same bits.
 
 mod cut;
@@ -23,6 +30,10 @@ use crate::watch::{Stopped, Watch};
 use cut::{Network, extent};
 use std::collections::BTreeMap;
 
+/// A drawn point this many times as far from the origin as the curves reach is a mistake, and would take 20 of the 53 bits of every
+/// coordinate.
+const STRAY: f64 = 1048576.0;
+
 /// How a drawing is arranged.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ArrangeOptions {
@@ -35,7 +46,8 @@ pub struct ArrangeOptions {
     pub keep_all: bool,
 }
 
-/// Something that was mended on the way in, with its place and size (a length; 0 where nothing moved).
+/// Something that was mended on the way in, with its place and size (a length, in units of the drawing): how far ends moved, how wide the gap
+/// between curves was that became one, how large what was lost; 0 where nothing moved.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Repair {
     pub kind: RepairKind,
@@ -62,8 +74,10 @@ pub enum RepairKind {
     Duplicate,
     /// Overlapping stretches became one.
     Overlap,
-    /// A curve of no length was dropped.
+    /// A curve no longer than the tolerance was dropped: its ends are one vertex.
     ZeroLength,
+    /// A closed curve, or a loop of a curve, no wider than the tolerance became a point or a line.
+    Collapsed,
     /// A hole or region point that lies in no bounded face, or a second one in the same face.
     Seed,
 }
@@ -148,6 +162,12 @@ impl Drawing {
         let refuse = |what: String, help: &str| Err(ArrangeError { what, at: bounds.center(), help: help.into() });
         if let Some((_, entity)) = places.into_iter().find(|(at, _)| stray(*at)) {
             return refuse(format!("{entity} has a coordinate that is no finite number"), "correct it in the file");
+        }
+        let reach = STRAY * (magnitude(bounds) + extent(bounds));
+        let strays = |p: &&super::DrawnPoint| p.at.x.abs().max(p.at.y.abs()) > reach;
+        if let Some(point) = self.points.iter().find(strays) {
+            let what = format!("{} lies far from all curves, which are {:e} across", point.entity, extent(bounds));
+            return Err(ArrangeError { what, at: point.at, help: "remove it, or correct its coordinates".into() });
         }
         let size = magnitude(bounds);
         if !bounds.is_finite() || (size != 0.0 && !(1e-140..1e140).contains(&size)) {
@@ -249,6 +269,7 @@ fn arrange_in_unit_frame(
     if tolerances.gap > 0.0 && network.close_gaps() {
         network.settle(watch)?;
     }
+    network.itemise_collapsed();
     let mut domain = bare_domain(&mut network, watch)?;
     // Level lines keep twice the rounding away from ends of curves.
     let faces = trace::Faces::trace(&domain, 2.0 * tolerances.rounding, watch)?;

@@ -103,12 +103,12 @@ impl Faces {
 
     /// The face in which every component lies.
     fn nest(&self, domain: &Domain, margin: f64, watch: &mut Watch) -> Result<Vec<Face>, Unarranged> {
-        let locator = Locator::new(domain);
-        let mut seen = Vec::with_capacity(self.outer.len());
+        let mut view = View::new(self, domain, margin);
         for component in 0..self.outer.len() {
             tracing(domain, self.outer.len() - component).tell(watch)?;
-            seen.push(self.seen_from(component, domain, &locator, margin)?);
+            view.look_from(component)?;
         }
+        let seen = view.seen;
         // A component seen from outside lies where that one lies, which is further left (of flat ones: further down). Each is followed
         // once: what lies behind it is remembered.
         let mut behind: Vec<Option<Face>> = vec![None; seen.len()];
@@ -116,7 +116,7 @@ impl Faces {
             let mut way = Vec::new();
             let mut here = component;
             let face = loop {
-                match (behind[here], seen[here]) {
+                match (behind[here], seen[here].flatten()) {
                     (Some(face), _) => break face,
                     (None, Some(c)) if self.outer[self.cycles[c].component] == c && way.len() < seen.len() => {
                         way.push(here);
@@ -129,36 +129,63 @@ impl Faces {
         }
         Ok(behind.into_iter().map(Option::flatten).collect())
     }
+}
 
-    /// The first cycle that is seen from a component's leftmost crossing with a level line, looking left; of a component without
-    /// height, looking down from it.
-    fn seen_from(
-        &self,
-        component: usize,
-        domain: &Domain,
-        locator: &Locator,
-        margin: f64,
-    ) -> Result<Option<usize>, ArrangeError> {
-        let halves = &self.cycles[self.outer[component]].halves;
-        let boxes = halves.iter().map(|h| domain.curves[h.curve].curve.bounds());
-        let bounds = boxes.reduce(|a, b| a.union(b)).unwrap_or_default();
-        // A level line cannot pass a height of a few margins clear of its ends.
-        let axis = if bounds.height() > 4.0 * margin { Axis::Horizontal } else { Axis::Vertical };
-        let is_mine = |hit: &Hit| self.cycles[self.cycle_of[side_index(hit)]].component == component;
+/// What components see of each other along level lines.
+struct View<'a> {
+    faces: &'a Faces,
+    locator: Locator<'a>,
+    margin: f64,
+    /// By component.
+    bounds: Vec<Rect>,
+    /// By component, once it is known: the first cycle that is seen from its leftmost crossing with some level line, looking left; of a
+    /// component without height, looking down from it. `Some(None)`: nothing is there.
+    seen: Vec<Option<Option<usize>>>,
+    /// By component: the last line that met it.
+    met: Vec<usize>,
+    lines: usize,
+}
+
+impl<'a> View<'a> {
+    fn new(faces: &'a Faces, domain: &'a Domain, margin: f64) -> Self {
+        let count = faces.outer.len();
+        let mut bounds: Vec<Option<Rect>> = vec![None; count];
+        for (id, curve) in domain.curves.enumerate() {
+            let own = &mut bounds[faces.cycles[faces.cycle_of[Half { curve: id, side: Side::Left }.index()]].component];
+            let around = curve.curve.bounds();
+            *own = Some(own.map_or(around, |b| b.union(around)));
+        }
+        let bounds = bounds.into_iter().map(Option::unwrap_or_default).collect();
+        let (seen, met) = (vec![None; count], vec![0; count]);
+        Self { faces, locator: Locator::new(domain), margin, bounds, seen, met, lines: 0 }
+    }
+
+    /// A level line cannot pass a height of a few margins clear of its ends.
+    fn axis(&self, component: usize) -> Axis {
+        if self.bounds[component].height() > 4.0 * self.margin { Axis::Horizontal } else { Axis::Vertical }
+    }
+
+    /// Finds out what a component sees, if that is not known yet, and with it what others see that its line meets: rings in each other
+    /// are passed a few times all together, not each by each.
+    fn look_from(&mut self, component: usize) -> Result<(), ArrangeError> {
+        let (bounds, axis) = (self.bounds[component], self.axis(component));
+        let [low, high] = along(axis, bounds);
         for level in levels(bounds, axis) {
-            let (low, high) = if axis == Axis::Horizontal { (bounds.x0, bounds.x1) } else { (bounds.y0, bounds.y1) };
-            let mut reach = extent(bounds);
+            let mut reach = 4.0 * extent(bounds);
             // Looks ever further back: most components have a neighbour nearby. The unit frame ends within a few units.
-            while let Some(hits) = locator.hits(axis, level, [low - reach, high], margin) {
-                match hits.iter().position(is_mine) {
-                    None => break,
-                    Some(0) if reach > FRAME => return Ok(None),
-                    Some(0) => reach *= 4.0,
-                    Some(first) => {
-                        let Hit { curve, before, .. } = hits[first - 1];
-                        return Ok(Some(self.cycle_of[Half { curve, side: before.other() }.index()]));
-                    }
+            while self.seen[component].is_none() {
+                let Some(hits) = self.locator.hits(axis, level, [low - reach, high], self.margin) else { break };
+                if !hits.iter().any(|hit| self.component_of(hit) == component) {
+                    break;
                 }
+                self.note(axis, low - reach, &hits);
+                if reach > FRAME {
+                    self.seen[component].get_or_insert(None);
+                }
+                reach *= 4.0;
+            }
+            if self.seen[component].is_some() {
+                return Ok(());
             }
         }
         Err(ArrangeError {
@@ -166,6 +193,33 @@ impl Faces {
             at: bounds.center(),
             help: "remove curves that are hardly larger than the rounding of their coordinates".into(),
         })
+    }
+
+    fn component_of(&self, hit: &Hit) -> usize {
+        self.faces.cycles[self.faces.cycle_of[side_index(hit)]].component
+    }
+
+    /// Notes what the components on a line see there that begin on the looked at part of it.
+    fn note(&mut self, axis: Axis, from: f64, hits: &[Hit]) {
+        self.lines += 1;
+        for (k, hit) in hits.iter().enumerate() {
+            let component = self.component_of(hit);
+            let is_first = std::mem::replace(&mut self.met[component], self.lines) != self.lines;
+            let begins = from <= along(axis, self.bounds[component])[0] && self.axis(component) == axis;
+            if is_first && begins && k > 0 {
+                let Hit { curve, before, .. } = hits[k - 1];
+                let cycle = self.faces.cycle_of[Half { curve, side: before.other() }.index()];
+                self.seen[component].get_or_insert(Some(cycle));
+            }
+        }
+    }
+}
+
+/// The range of a box along an axis.
+fn along(axis: Axis, bounds: Rect) -> [f64; 2] {
+    match axis {
+        Axis::Horizontal => [bounds.x0, bounds.x1],
+        Axis::Vertical => [bounds.y0, bounds.y1],
     }
 }
 

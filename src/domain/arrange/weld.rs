@@ -2,21 +2,32 @@
 
 use super::cut::{Cut, Found, Network, Node, Origin, Piece, extent};
 use super::{ArrangeError, RepairKind, Unarranged};
-use crate::curve::Curve;
+use crate::curve::{Curve, End};
 use crate::geometry::boxes::BoxHierarchy;
-use crate::geometry::{Point, Rect};
+use crate::geometry::{Point, Rect, Vec2};
 use crate::ids::{CurveId, Id, IdVec, PointId};
 use crate::watch::Watch;
+use std::collections::BTreeMap;
 
 /// Rounds of meeting and welding. Each round moves what it welds by a tolerance at most, which seldom makes a new meeting; a drawing
 /// that needs more rounds is one whose features lie as near to each other as its tolerance.
 const ROUNDS: usize = 16;
 
-/// A piece this many tolerances long has no shape of its own: each of its ends may have moved by two.
-const SHAPELESS: f64 = 8.0;
+/// A gap is narrower than this part of the curves beside it: else it is no gap, but the length of a stub.
+const NARROW: f64 = 0.5;
 
 impl Network<'_> {
     /// Meets and welds until nothing meets but at common ends.
+    ///
+    /// **Invariant.** After every round each piece ends at the places of its two nodes, bit for bit; the nodes that drawn ends and drawn
+    /// points became are known; and every drawn curve that had a size either runs along some pieces (as source or as merged), or its
+    /// loss is itemised at the end. On success the last round found nothing: no node lies within the tolerance of a piece but at its
+    /// ends, and no two pieces meet but at common ends.
+    ///
+    /// **Termination.** A round does one of two things to the nodes: it makes one of two, which lessens them; or it cuts a piece at a place
+    /// more than a tolerance from its ends, which the length of the drawing allows only so often as long as pieces stay where they
+    /// are. Pieces that move, by up to a tolerance, may meet others anew, so this is no proof: the rounds have a budget, and its end
+    /// is an error with the place.
     pub fn settle(&mut self, watch: &mut Watch) -> Result<(), Unarranged> {
         self.weld(Found::default());
         let mut at = Point::ORIGIN;
@@ -40,6 +51,9 @@ impl Network<'_> {
     pub fn close_gaps(&mut self) -> bool {
         let free = self.free_ends();
         let at: Vec<Point> = free.iter().map(|&n| self.nodes[n].at).collect();
+        let mut size_at: IdVec<PointId, f64> = vec![0.0; self.nodes.len()].into();
+        self.pieces.iter().for_each(|p| p.ends.into_iter().for_each(|end| size_at[end] = extent(p.bounds)));
+        let sizes: Vec<f64> = free.iter().map(|&n| size_at[n]).collect();
         let boxes = BoxHierarchy::new(at.iter().map(|&p| Rect::from_points(p, p)));
         let nearest = |i: usize| {
             let away = |j: usize, _| if i == j { f64::INFINITY } else { at[i].distance(at[j]) };
@@ -48,7 +62,11 @@ impl Network<'_> {
         };
         let partners: Vec<_> = (0..free.len()).map(nearest).collect();
         let mutual = |i: usize| partners[i].filter(|&(j, _)| i < j && partners[j].is_some_and(|(k, _)| k == i));
-        let gaps: Vec<_> = (0..free.len()).filter_map(|i| mutual(i).map(|(j, d)| (free[i], free[j], d))).collect();
+        // What is no longer than the gap beside it would be folded onto itself.
+        let narrow = |i: usize, j: usize, d: f64| d < sizes[i].min(sizes[j]) * NARROW;
+        let gaps: Vec<_> = (0..free.len())
+            .filter_map(|i| mutual(i).filter(|&(j, d)| narrow(i, j, d)).map(|(j, d)| (free[i], free[j], d)))
+            .collect();
         for &(kept, moved, distance) in &gaps {
             let [a, b] = [kept, moved].map(|n| self.nodes[n].origin.text(self.drawing));
             let what = format!("a gap between the ends of {a} and {b} was closed");
@@ -113,22 +131,17 @@ impl Network<'_> {
     /// than two tolerances, however close its neighbours stand.
     fn join_near(&self, order: &[PointId], forest: &mut Forest) {
         let weld = self.tolerances.weld;
-        let boxes = BoxHierarchy::new(self.nodes.iter().map(|n| Rect::from_points(n.at, n.at)));
-        let mut leads: IdVec<PointId, bool> = vec![false; self.nodes.len()].into();
+        // The leaders by square cells as wide as the tolerance: none holds more than four, however many nodes crowd there.
+        let mut leaders: BTreeMap<[i64; 2], Vec<PointId>> = BTreeMap::new();
+        let cell = |x: f64| (x / weld).floor() as i64;
         for &id in order {
             let at = self.nodes[id].at;
-            let mut nearest: Option<(f64, PointId)> = None;
-            boxes.meeting(Rect::from_points(at, at).inflate(weld, weld), |i| {
-                let other = PointId::from_index(i);
-                let candidate = (at.distance(self.nodes[other].at), other);
-                if leads[other] && candidate.0 <= weld && nearest.is_none_or(|n| candidate < n) {
-                    nearest = Some(candidate);
-                }
-                true
-            });
-            match nearest {
+            let [i, j] = [cell(at.x), cell(at.y)];
+            let near = (i - 1..=i + 1).flat_map(|i| leaders.range([i, j - 1]..=[i, j + 1])).flat_map(|(_, ids)| ids);
+            let candidates = near.map(|&other| (at.distance(self.nodes[other].at), other)).filter(|c| c.0 <= weld);
+            match candidates.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1))) {
                 Some((_, leader)) => forest.join(id, leader),
-                None => leads[id] = true,
+                None => leaders.entry([i, j]).or_default().push(id),
             }
         }
     }
@@ -201,10 +214,9 @@ impl Network<'_> {
         let weld = self.tolerances.weld;
         let [from, to] = part.ends.map(|end| self.nodes[end].at);
         let size = extent(part.bounds);
-        if part.ends[0] == part.ends[1] && size <= SHAPELESS / 2.0 * weld {
+        if part.ends[0] == part.ends[1] && size <= weld {
             if part.whole {
-                let what = format!("{} has no length and was dropped", self.entity(part.source));
-                self.repair(RepairKind::ZeroLength, from, size, what);
+                self.itemise_lost(&part, from, size);
             }
             return;
         }
@@ -229,11 +241,21 @@ impl Network<'_> {
         }
     }
 
+    /// A whole drawn curve became one point.
+    fn itemise_lost(&mut self, part: &Piece, at: Point, size: f64) {
+        let closed = part.curve.start().distance(part.curve.end()) < size / 2.0;
+        let kind = if closed { RepairKind::Collapsed } else { RepairKind::ZeroLength };
+        let what = format!("{} is no longer than the tolerance and was dropped", self.entity(part.source));
+        self.repair(kind, at, size, what);
+        self.drawn_ends[part.source as usize] = None;
+    }
+
     fn move_ends(&mut self, mut part: Piece) {
         let [from, to] = part.ends.map(|end| self.nodes[end].at);
-        let tiny = extent(part.bounds) <= SHAPELESS * self.tolerances.weld;
+        // What fits within the tolerance has no shape; all else keeps its own, however coarse the tolerance.
+        let shapeless = extent(part.bounds) <= self.tolerances.weld;
         part.curve = match Curve::line(from, to) {
-            Ok(chord) if tiny => chord,
+            Ok(chord) if shapeless => chord,
             _ => part.curve.with_ends(from, to),
         };
         part.bounds = part.curve.bounds();
@@ -263,45 +285,91 @@ impl Network<'_> {
         order.sort_unstable();
         let mut dropped: IdVec<CurveId, bool> = vec![false; self.pieces.len()].into();
         for group in order.chunk_by(|a, b| a.0 == b.0) {
-            for (i, &(_, first)) in group.iter().enumerate() {
-                for &(_, second) in &group[i + 1..] {
-                    if !dropped[first] && !dropped[second] && self.coincide(first, second) {
-                        dropped[second] = true;
-                        self.absorb(first, second);
+            let mut rest: Vec<CurveId> = group.iter().map(|g| g.1).collect();
+            while let Some((&first, others)) = rest.split_first() {
+                let mut apart = Vec::new();
+                for &second in others {
+                    match self.gap_of_coincident(first, second) {
+                        Some(gap) => {
+                            dropped[second] = true;
+                            self.absorb(first, second, gap);
+                        }
+                        None => apart.push(second),
                     }
                 }
+                rest = apart;
             }
         }
         let pieces = std::mem::take(&mut self.pieces);
         self.pieces = pieces.enumerate().filter(|&(id, _)| !dropped[id]).map(|(_, p)| p.clone()).collect();
     }
 
-    /// Whether two pieces between the same nodes are the same up to the tolerance. They do not cross in between, or will be split
-    /// there, so a few samples tell.
-    fn coincide(&self, a: CurveId, b: CurveId) -> bool {
+    /// The widest gap between two pieces with the same ends, where they coincide: where neither is farther than the tolerance from the
+    /// other, nor the face between them wider. They do not cross in between, or will be split there, so a few samples tell.
+    fn gap_of_coincident(&self, a: CurveId, b: CurveId) -> Option<f64> {
         let [p, q] = [a, b].map(|id| &self.pieces[id].curve);
         if matches!((p, q), (Curve::Line(_), Curve::Line(_))) {
-            return true;
+            return Some(0.0);
         }
-        // Each of the two was moved by up to one tolerance at either end.
-        let slack = 4.0 * self.tolerances.weld;
-        let on = |p: &Curve, q: &Curve| (1..8).all(|k| q.nearest(p.point(k as f64 / 8.0), 0.0, 1.0).1 <= slack);
-        on(p, q) && on(q, p)
+        let weld = self.tolerances.weld;
+        let mut widest: f64 = 0.0;
+        for (from, to) in [(p, q), (q, p)] {
+            for k in 1..SAMPLES {
+                let gap = gap_across(from, k as f64 / SAMPLES as f64, to);
+                widest = widest.max(gap);
+                if widest > weld {
+                    return None;
+                }
+            }
+        }
+        Some(widest)
     }
 
-    fn absorb(&mut self, kept: CurveId, dropped: CurveId) {
+    fn absorb(&mut self, kept: CurveId, dropped: CurveId, gap: f64) {
         let gone = self.pieces[dropped].clone();
         let against = gone.ends[0] != self.pieces[kept].ends[0];
         let (first, second) = (self.entity(self.pieces[kept].source), self.entity(gone.source));
-        let (kind, what) = match gone.whole && self.pieces[kept].whole {
-            true => (RepairKind::Duplicate, format!("{second} repeats {first} and was dropped")),
-            false => (RepairKind::Overlap, format!("{second} overlaps {first}; the common stretch became one")),
+        let whole = gone.whole && self.pieces[kept].whole;
+        let (kind, what) = match (gone.source == self.pieces[kept].source, whole) {
+            (true, _) => {
+                (RepairKind::Collapsed, format!("a loop of {second} no wider than the tolerance became one line"))
+            }
+            (_, true) => (RepairKind::Duplicate, format!("{second} repeats {first} and was dropped")),
+            _ => (RepairKind::Overlap, format!("{second} overlaps {first}; the common stretch became one")),
         };
-        self.repair(kind, gone.curve.point(0.5), 0.0, what);
+        self.repair(kind, gone.curve.point(0.5), gap, what);
         let piece = &mut self.pieces[kept];
         piece.merged.push((gone.source, against));
         piece.merged.extend(gone.merged.iter().map(|&(source, reversed)| (source, reversed != against)));
     }
+
+    /// Itemises drawn curves of which nothing is left although they had a size.
+    pub fn itemise_collapsed(&mut self) {
+        let mut left = vec![false; self.drawing.curves.len()];
+        for piece in self.pieces.iter() {
+            left[piece.source as usize] = true;
+            piece.merged.iter().for_each(|&(source, _)| left[source as usize] = true);
+        }
+        for source in (0..left.len()).filter(|&i| !left[i]) {
+            let Some([node, _]) = self.drawn_ends[source].take() else { continue };
+            let size = extent(self.drawing.curves[source].curve.bounds());
+            let what = format!("{} is no wider than the tolerance and became one point", self.entity(source as u32));
+            self.repair(RepairKind::Collapsed, self.nodes[node].at, size, what);
+        }
+    }
+}
+
+/// Samples that tell whether two pieces coincide are this part of them apart.
+const SAMPLES: usize = 8;
+
+/// The width of the face between two curves at a place on the first: along its normal there. Where the normal passes the second, the
+/// distance to it. Around a small disc every point is near the ends, but the other side is not.
+fn gap_across(from: &Curve, t: f64, to: &Curve) -> f64 {
+    let at = from.point(t);
+    let tangent = from.tangent(t, End::Start);
+    let across = to.line_crossings(at, Vec2::new(-tangent.y, tangent.x), 0.0, 1.0);
+    let widths = across.into_iter().map(|u| to.point(u).distance(at));
+    widths.reduce(f64::min).unwrap_or_else(|| to.nearest(at, 0.0, 1.0).1)
 }
 
 /// Sets of nodes, joined.

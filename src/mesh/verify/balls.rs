@@ -5,7 +5,7 @@ use super::Status;
 use super::evidence::{Evidence, place};
 use super::tally::Tally;
 use crate::domain::Domain;
-use crate::geometry::boxes::BoxHierarchy;
+use crate::geometry::boxes::{BoxHierarchy, Labels};
 use crate::geometry::{Point, Rect};
 use crate::ids::{IdVec, PointId};
 use crate::mesh::{Ball, BallReason};
@@ -96,12 +96,15 @@ fn balls_that_meet(ev: &Evidence, domain: &Domain) -> Vec<Option<PointId>> {
     let size = |r: f64| if r.is_finite() { 2.0 * r.abs() } else { 0.0 };
     let boxes =
         (0..balls.len()).map(|i| Rect::from_center_size(center(i), (size(balls[i].radius), size(balls[i].radius))));
-    BoxHierarchy::new(boxes).pairs(|i, j| {
-        if center(i).distance(center(j)) <= balls[i].radius + balls[j].radius {
-            met[i] = Some(balls[j].corner);
-            met[j] = Some(balls[i].corner);
-        }
-    });
+    BoxHierarchy::new(boxes).pairs(
+        |_| Labels::default(),
+        |i, j| {
+            if center(i).distance(center(j)) <= balls[i].radius + balls[j].radius {
+                met[i] = Some(balls[j].corner);
+                met[j] = Some(balls[i].corner);
+            }
+        },
+    );
     met
 }
 

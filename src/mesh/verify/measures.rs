@@ -93,9 +93,9 @@ impl Limits {
     fn add_areas_of_regions(&mut self, ev: &Evidence, domain: &Domain) {
         let mut largest: Vec<Option<f64>> = vec![None; ev.classes.names.len()];
         for (id, region) in domain.regions().enumerate() {
-            let largest = &mut largest[ev.classes.of_domain[id] as usize];
-            let limit = region.max_area.unwrap_or(f64::INFINITY);
-            *largest = Some(largest.map_or(limit, |l| l.max(limit)));
+            let limit = &mut largest[ev.classes.of_domain[id] as usize];
+            let own = region.max_area.unwrap_or(f64::INFINITY);
+            *limit = Some(limit.map_or(own, |other| own.max(other)));
         }
         for (limit, &class) in self.region.iter_mut().zip(ev.classes.of_mesh.iter()) {
             limit.1 = limit.1.min(largest[class as usize].unwrap_or(f64::INFINITY));

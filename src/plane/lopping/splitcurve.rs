@@ -226,8 +226,9 @@ impl Lopping {
 
     /// Requeues every piece that a point is about to hide or encroach; `split`: the piece that it splits.
     pub(super) fn disturb(&mut self, at: Point, split: Option<PieceId>) {
+        let border = self.sorted_border();
         for (side, piece) in self.cavity_pieces() {
-            let inner = !self.cavity.border.contains(&side);
+            let inner = border.binary_search(&side).is_err();
             if inner {
                 self.delaunay.topology_mut().set_piece(side, None);
             }
@@ -235,6 +236,13 @@ impl Lopping {
                 self.suspect(piece);
             }
         }
+    }
+
+    /// The cavity's border to search in: within points on one circle it has as many sides as there are points, and as many pieces.
+    pub(super) fn sorted_border(&self) -> Vec<Side> {
+        let mut border = self.cavity.border.clone();
+        border.sort_unstable();
+        border
     }
 
     /// Pieces on the sides of the cavity's triangles, each once, with a side.

@@ -121,7 +121,8 @@ impl Lopping {
             return;
         }
         // What is hidden now and was not encroached is a spoke, by rounding; so is a center in a ball whose arcs it does not encroach.
-        let hides_spoke = pieces.iter().any(|(side, _)| !self.cavity.border.contains(side));
+        let border = self.sorted_border();
+        let hides_spoke = pieces.iter().any(|(side, _)| border.binary_search(side).is_err());
         let in_ball = self.balls.holding(center).is_some();
         if in_ball && self.options.corner_arcs.is_none() {
             return self.excuse(suspect, center);
