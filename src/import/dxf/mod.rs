@@ -5,7 +5,7 @@
 //! - *Regions*: closed outlines are filled by the odd-even rule, so that an outline within an outline is a hole.
 //! - *Hatches*: a drawing of nothing but HATCH entities is a picture of filled shapes, whose regions are named after their layers.
 //!   Beside other curves a hatch repeats what they draw, rounded or as a polygon: there its boundary is no curve, and its layer
-//!   names the region at a point well within it.
+//!   names the region at a point well within it. Where that point is in a hole or outside, the hatch says nothing.
 //! - *Left out and counted*: what is not in model space, not visible (layers that are off or frozen, and `Defpoints`), not parallel to the XY
 //!   plane, and every entity that is no curve. Heights are dropped.
 //! - *Unit*: `$INSUNITS`, else what `$MEASUREMENT` suggests, else none.
@@ -72,7 +72,8 @@ fn add_fills(fills: Vec<Fill>, drawing: &mut Drawing) {
         return;
     }
     drawing.notes.push(
-        "Hatches name the regions that they fill; their boundaries are not drawn, because other curves bound the regions.".into(),
+        "Hatches name the regions that they lie in; what is inside is said by the other outlines, which they repeat."
+            .into(),
     );
     for Fill { name, outlines, entity } in fills {
         if let Some(at) = inner_point(&outlines) {
