@@ -552,7 +552,7 @@ pub fn metres(unit: &str) -> Option<f64> {
         // Resolutions B2 of 2012 and 2015 of the International Astronomical Union.
         "au" => 149_597_870_700.0,
         "ly" => 9_460_730_472_580_800.0,
-        "pc" => 3.085_677_581_491_367_3e16,
+        "pc" => 3.085_677_581_491_367e16,
         _ => return None,
     };
     Some(metres)

@@ -3,7 +3,7 @@
 use super::entities::{Figure, Insert, Notices, Refusal, figure};
 use super::header::Header;
 use super::pairs::shown;
-use super::sections::{Block, Record, Sections};
+use super::sections::{Record, Sections};
 use crate::curve::Curve;
 use crate::domain::{Drawing, DrawnCurve, DrawnPoint, Skipped};
 use crate::geometry::{Point, Vec2};
@@ -29,19 +29,26 @@ pub(super) struct Fill {
     pub entity: String,
 }
 
-/// An entity, read.
-struct Entity {
+/// An entity, read once and drawn as often as its block. Layers and blocks are places in their tables: names may be long.
+struct Entity<'a> {
     kind: String,
     label: String,
-    layer: String,
-    figure: Result<Figure, &'static str>,
+    layer: usize,
+    /// The block that an INSERT draws, where the file defines it.
+    block: Option<usize>,
+    figure: Result<Figure<'a>, &'static str>,
 }
 
 struct Layer {
     /// As the file spells it first.
-    name: NameId,
+    text: String,
+    /// Once something is drawn on it.
+    name: Option<NameId>,
     hidden: Option<Hidden>,
 }
+
+/// The place of layer 0, whose entities in a block take the layer of the block.
+const LAYER_0: usize = 0;
 
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Hidden {
@@ -66,11 +73,11 @@ struct Setting {
     z: f64,
     z_scale: f64,
     /// The layer that entities on layer 0 take.
-    layer: Option<String>,
+    layer: Option<usize>,
     /// `INSERT "BOLT" (line 12) > `
     path: String,
     /// Blocks that it stands in, to tell a block that holds itself.
-    within: Vec<String>,
+    within: Vec<usize>,
 }
 
 /// A drawing in the making.
@@ -78,10 +85,11 @@ pub(super) struct Sketch<'f, 'a> {
     file: &'f Sections<'a>,
     header: &'f Header,
     drawing: &'f mut Drawing,
-    layers: BTreeMap<String, Layer>,
-    blocks: BTreeMap<String, &'f Block<'a>>,
+    layers: Vec<Layer>,
+    layer_of: BTreeMap<String, usize>,
+    block_of: BTreeMap<String, usize>,
     /// Entities of the blocks that were drawn already.
-    read: BTreeMap<String, Rc<Vec<Entity>>>,
+    read: BTreeMap<usize, Rc<Vec<Entity<'a>>>>,
     fills: Vec<Fill>,
     skipped: BTreeMap<(String, &'static str), usize>,
     notices: Notices,
@@ -93,13 +101,14 @@ pub(super) struct Sketch<'f, 'a> {
 impl<'f, 'a> Sketch<'f, 'a> {
     pub fn new(file: &'f Sections<'a>, header: &'f Header, drawing: &'f mut Drawing) -> Self {
         // The first block of a name counts.
-        let blocks = file.blocks.iter().rev().map(|(name, block)| (key(&header.name(name)), block)).collect();
+        let blocks = file.blocks.iter().enumerate().rev();
         let mut sketch = Self {
             file,
             header,
             drawing,
-            layers: BTreeMap::new(),
-            blocks,
+            layers: Vec::new(),
+            layer_of: BTreeMap::new(),
+            block_of: blocks.map(|(i, (name, _))| (key(&header.name(name)), i)).collect(),
             read: BTreeMap::new(),
             fills: Vec::new(),
             skipped: BTreeMap::new(),
@@ -107,6 +116,7 @@ impl<'f, 'a> Sketch<'f, 'a> {
             heights: None,
             left: UNFOLDED,
         };
+        sketch.layer("0");
         for record in &file.layers {
             sketch.add_layer(record);
         }
@@ -148,21 +158,29 @@ impl<'f, 'a> Sketch<'f, 'a> {
         } else {
             None
         };
-        let layer = self.layer(&key(&name), &name);
-        layer.hidden = layer.hidden.or(hidden);
+        let layer = self.layer(&name);
+        self.layers[layer].hidden = self.layers[layer].hidden.or(hidden);
     }
 
-    /// The layer of this key, which is made under this name if there is none.
-    fn layer(&mut self, key: &str, name: &str) -> &mut Layer {
-        let names = &mut self.drawing.names;
-        let hidden = key.eq_ignore_ascii_case("defpoints").then_some(Hidden::Defpoints);
-        self.layers.entry(key.to_owned()).or_insert_with(|| Layer { name: names.intern(name), hidden })
+    /// The layer of this name, in the table from now on.
+    fn layer(&mut self, name: &str) -> usize {
+        let key = key(name);
+        let hidden = (key == "defpoints").then_some(Hidden::Defpoints);
+        *self.layer_of.entry(key).or_insert_with(|| {
+            self.layers.push(Layer { text: name.to_owned(), name: None, hidden });
+            self.layers.len() - 1
+        })
+    }
+
+    fn name_of(&mut self, layer: usize) -> NameId {
+        let Layer { text, name, .. } = &mut self.layers[layer];
+        *name.get_or_insert_with(|| self.drawing.names.intern(text))
     }
 
     // ---- reading ----
 
     /// The entities of a block or of the drawing, each with the vertices and attributes that follow it.
-    fn entities(&mut self, records: &[Record<'a>]) -> Result<Vec<Entity>, ImportError> {
+    fn entities(&mut self, records: &[Record<'a>]) -> Result<Vec<Entity<'a>>, ImportError> {
         let mut entities = Vec::new();
         let mut rest = records;
         while let Some((record, after)) = rest.split_first() {
@@ -179,28 +197,32 @@ impl<'f, 'a> Sketch<'f, 'a> {
         Ok(entities)
     }
 
-    fn entity(&mut self, record: &Record<'a>, followers: &[Record<'a>]) -> Result<Entity, ImportError> {
+    fn entity(&mut self, record: &Record<'a>, followers: &[Record<'a>]) -> Result<Entity<'a>, ImportError> {
         let name = self.header.name(record.text(8).filter(|n| !n.is_empty()).unwrap_or(b"0"));
-        let layer = key(&name);
-        let hidden = self.layer(&layer, &name).hidden;
+        let layer = self.layer(&name);
+        let hidden = self.layers[layer].hidden;
         let is_set = |code| record.find(code).and_then(|pair| pair.integer()).is_some_and(|flag| flag != 0);
         let figure = match hidden {
             _ if is_set(67) => Err("in paper space"),
             _ if is_set(60) => Err("invisible"),
             // On layer 0 of a block an entity is as visible as the block, and a block may hold what is not on its layer.
-            Some(hidden) if layer != "0" && record.kind != "INSERT" => Err(hidden.why()),
+            Some(hidden) if layer != LAYER_0 && record.kind != "INSERT" => Err(hidden.why()),
             _ => match figure(record, followers, &mut self.notices) {
                 Ok(figure) => Ok(figure),
                 Err(Refusal::Skip(why)) => Err(why),
                 Err(Refusal::Broken(error)) => return Err(error),
             },
         };
-        Ok(Entity { kind: record.kind.clone(), label: record.label(), layer, figure })
+        let block = match &figure {
+            Ok(Figure::Insert(insert)) => self.block_of.get(&key(&self.header.name(insert.block))).copied(),
+            _ => None,
+        };
+        Ok(Entity { kind: record.kind.clone(), label: record.label(), layer, block, figure })
     }
 
     // ---- drawing ----
 
-    fn draw_entity(&mut self, entity: &Entity, setting: &Setting) -> Result<(), ImportError> {
+    fn draw_entity(&mut self, entity: &Entity<'a>, setting: &Setting) -> Result<(), ImportError> {
         let figure = match &entity.figure {
             Ok(figure) => figure,
             Err(why) => {
@@ -208,9 +230,9 @@ impl<'f, 'a> Sketch<'f, 'a> {
                 return Ok(());
             }
         };
-        let inherited = setting.layer.as_ref().filter(|_| entity.layer == "0");
-        let layer = inherited.unwrap_or(&entity.layer);
-        let Layer { name, hidden } = self.layers[layer];
+        let inherited = setting.layer.filter(|_| entity.layer == LAYER_0);
+        let layer = inherited.unwrap_or(entity.layer);
+        let hidden = self.layers[layer].hidden;
         let insert_of_shown = matches!(figure, Figure::Insert(_)) && hidden != Some(Hidden::Frozen);
         if let Some(hidden) = hidden.filter(|_| !insert_of_shown) {
             self.skip(&entity.kind, hidden.why());
@@ -220,6 +242,7 @@ impl<'f, 'a> Sketch<'f, 'a> {
         match figure {
             Figure::Curves { curves, z, parts } => {
                 self.rise(setting, *z);
+                let name = self.name_of(layer);
                 for (i, curve) in curves.iter().enumerate() {
                     let entity = if parts.is_empty() { label.clone() } else { format!("{label}, {parts} {}", i + 1) };
                     let curve = self.placed(curve, setting, &label)?;
@@ -232,20 +255,21 @@ impl<'f, 'a> Sketch<'f, 'a> {
             Figure::Point { at, z } => {
                 self.rise(setting, *z);
                 let at = setting.map.map_or(*at, |map| map * *at);
-                self.drawing.points.push(DrawnPoint { at, name: Some(name), entity: label });
+                let name = Some(self.name_of(layer));
+                self.drawing.points.push(DrawnPoint { at, name, entity: label });
             }
             Figure::Fill { outlines } => {
                 let placed: Result<Option<Vec<Curve>>, _> =
                     outlines.iter().map(|curve| self.placed(curve, setting, &label)).collect();
                 match placed? {
-                    Some(outlines) => self.fills.push(Fill { name, outlines, entity: label }),
+                    Some(outlines) => {
+                        let name = self.name_of(layer);
+                        self.fills.push(Fill { name, outlines, entity: label });
+                    }
                     None => self.skip("HATCH", "too small for numbers once it is inserted"),
                 }
             }
-            Figure::Insert(insert) => {
-                let layer = layer.clone();
-                self.draw_insert(insert, entity, layer, setting)?;
-            }
+            Figure::Insert(insert) => self.draw_insert(insert, entity, layer, setting)?,
         }
         Ok(())
     }
@@ -280,39 +304,31 @@ impl<'f, 'a> Sketch<'f, 'a> {
 
     fn draw_insert(
         &mut self,
-        insert: &Insert,
-        entity: &Entity,
-        layer: String,
+        insert: &Insert<'a>,
+        entity: &Entity<'a>,
+        layer: usize,
         setting: &Setting,
     ) -> Result<(), ImportError> {
-        let name = self.header.name(&insert.block);
-        let block_key = key(&name);
-        let Some(&block) = self.blocks.get(&block_key) else {
+        let Some(place) = entity.block else {
             self.skip(&entity.kind, "of a block that the file does not define");
             return Ok(());
         };
+        let block = &self.file.blocks[place].1;
         if block.is_external {
             self.skip(&entity.kind, "of a block in another file (bind it)");
             return Ok(());
         }
-        if setting.within.contains(&block_key) {
+        if setting.within.contains(&place) {
             self.skip(&entity.kind, "of a block that holds itself");
             return Ok(());
         }
-        let step = format!(
-            "INSERT \"{}\"{} > ",
-            shown(name.as_bytes()),
-            entity.label.trim_start_matches(entity.kind.as_str())
-        );
-        let path =
-            if setting.path.len() < LONGEST_PATH { format!("{}{step}", setting.path) } else { setting.path.clone() };
+        let path = self.path(insert, entity, setting);
         if setting.within.len() >= DEPTH {
             let what = format!("{path}blocks stand in blocks more than {DEPTH} deep");
             return Err(ImportError::new(what, "explode the inner blocks"));
         }
-        let mut within = setting.within.clone();
-        within.push(block_key.clone());
-        let entities = self.block_entities(&block_key, block)?;
+        let within = [&setting.within[..], &[place]].concat();
+        let entities = self.block_entities(place)?;
         let from_base = Affine::translate(-block.base.to_vec2());
         let mut inner = Setting {
             map: None,
@@ -339,12 +355,23 @@ impl<'f, 'a> Sketch<'f, 'a> {
         Ok(())
     }
 
-    fn block_entities(&mut self, key: &str, block: &Block<'a>) -> Result<Rc<Vec<Entity>>, ImportError> {
-        if let Some(entities) = self.read.get(key) {
+    /// The way to the entities of a block, for messages.
+    fn path(&self, insert: &Insert, entity: &Entity, setting: &Setting) -> String {
+        if setting.path.len() >= LONGEST_PATH {
+            return setting.path.clone();
+        }
+        let name = self.header.name(&insert.block[..insert.block.len().min(LONGEST_PATH)]);
+        let place = entity.label.trim_start_matches(entity.kind.as_str());
+        format!("{}INSERT \"{}\"{place} > ", setting.path, shown(name.as_bytes()))
+    }
+
+    fn block_entities(&mut self, place: usize) -> Result<Rc<Vec<Entity<'a>>>, ImportError> {
+        if let Some(entities) = self.read.get(&place) {
             return Ok(Rc::clone(entities));
         }
-        let entities = Rc::new(self.entities(&block.records)?);
-        self.read.insert(key.to_owned(), Rc::clone(&entities));
+        let file = self.file;
+        let entities = Rc::new(self.entities(&file.blocks[place].1.records)?);
+        self.read.insert(place, Rc::clone(&entities));
         Ok(entities)
     }
 }

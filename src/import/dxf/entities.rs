@@ -40,7 +40,7 @@ impl From<ImportError> for Refusal {
 
 /// What an entity draws.
 #[derive(Debug)]
-pub(super) enum Figure {
+pub(super) enum Figure<'a> {
     /// `parts` names what each curve is where there are several: "segment".
     Curves {
         curves: Vec<Curve>,
@@ -55,13 +55,13 @@ pub(super) enum Figure {
     Fill {
         outlines: Vec<Curve>,
     },
-    Insert(Insert),
+    Insert(Insert<'a>),
 }
 
 /// A block to be drawn, once or in rows and columns.
 #[derive(Debug)]
-pub(super) struct Insert {
-    pub block: Vec<u8>,
+pub(super) struct Insert<'a> {
+    pub block: &'a [u8],
     /// Of the block, its base point at the origin, to where its first instance is drawn.
     pub map: Affine,
     /// Height of the insertion point, and what a height in the block counts.
@@ -88,7 +88,11 @@ impl Notices {
 }
 
 /// What the entity that starts with `record` draws; `followers` are its vertices.
-pub(super) fn figure(record: &Record, followers: &[Record], notices: &mut Notices) -> Result<Figure, Refusal> {
+pub(super) fn figure<'a>(
+    record: &Record<'a>,
+    followers: &[Record],
+    notices: &mut Notices,
+) -> Result<Figure<'a>, Refusal> {
     match record.kind.as_str() {
         "LINE" | "3DLINE" => line(record),
         "CIRCLE" | "ARC" => arc(record),
@@ -202,13 +206,13 @@ fn built(record: &Record, curve: Result<Curve, CurveError>) -> Result<Curve, Ref
     })
 }
 
-fn single(curve: Curve, z: f64) -> Figure {
+fn single(curve: Curve, z: f64) -> Figure<'static> {
     Figure::Curves { curves: vec![curve], z, parts: "" }
 }
 
 // ---- lines, circles, ellipses ----
 
-fn line(record: &Record) -> Result<Figure, Refusal> {
+fn line(record: &Record) -> Result<Figure<'static>, Refusal> {
     let (ends, z) = flat(&[record.point(10)?, record.point(11)?])?;
     Ok(single(built(record, Curve::line(ends[0], ends[1]))?, z))
 }
@@ -220,7 +224,7 @@ pub(super) fn sweep(from: f64, to: f64, turn: f64) -> f64 {
     if is_whole { turn } else { sweep }
 }
 
-fn arc(record: &Record) -> Result<Figure, Refusal> {
+fn arc(record: &Record) -> Result<Figure<'static>, Refusal> {
     let map = Plane::of(record)?.map();
     let [x, y, z] = record.point(10)?;
     let (center, radius) = (Point::new(x, y), record.required(40)?);
@@ -234,7 +238,7 @@ fn arc(record: &Record) -> Result<Figure, Refusal> {
 }
 
 /// Center and axis of an ellipse are coordinates of the drawing; its extrusion direction says where the minor axis points.
-fn ellipse(record: &Record) -> Result<Figure, Refusal> {
+fn ellipse(record: &Record) -> Result<Figure<'static>, Refusal> {
     let plane = Plane::of(record)?;
     let ([x, y, z], [ux, uy, uz]) = (record.point(10)?, record.point(11)?);
     let major = Vec2::new(ux, uy);
@@ -282,7 +286,7 @@ fn chain(record: &Record, vertices: &[Vertex], closed: bool) -> Result<Vec<Curve
 
 const WIDE: &str = "Polylines of some width are drawn as their centre lines.";
 
-fn light_polyline(record: &Record, notices: &mut Notices) -> Result<Figure, Refusal> {
+fn light_polyline(record: &Record, notices: &mut Notices) -> Result<Figure<'static>, Refusal> {
     let map = Plane::of(record)?.map();
     let vertices = bulged_vertices(record, &mut record.pairs.iter().copied())?;
     let widths = [40, 41, 43].map(|code| record.reals(code));
@@ -328,7 +332,7 @@ mod flag {
     pub const COORDINATES: i64 = 64;
 }
 
-fn polyline(record: &Record, followers: &[Record], notices: &mut Notices) -> Result<Figure, Refusal> {
+fn polyline(record: &Record, followers: &[Record], notices: &mut Notices) -> Result<Figure<'static>, Refusal> {
     let flags = record.integer(70, 0)?;
     if flags & flag::POLYFACE != 0 {
         return polyface(record, followers);
@@ -364,7 +368,7 @@ fn polyline(record: &Record, followers: &[Record], notices: &mut Notices) -> Res
 // ---- faces ----
 
 /// The outline of a triangle or quadrangle.
-fn face(record: &Record) -> Result<Figure, Refusal> {
+fn face(record: &Record) -> Result<Figure<'static>, Refusal> {
     let corners = [record.point(10)?, record.point(11)?, record.point(12)?];
     let fourth = record.optional_point(13)?.unwrap_or(corners[2]);
     let [a, b, c] = corners;
@@ -399,7 +403,7 @@ fn edges(
 }
 
 /// A mesh of M by N vertices, closed along M or N where its flags say so.
-fn grid(record: &Record, flags: i64, points: &[[f64; 3]]) -> Result<Figure, Refusal> {
+fn grid(record: &Record, flags: i64, points: &[[f64; 3]]) -> Result<Figure<'static>, Refusal> {
     let (points, z) = flat(points)?;
     let sizes = if record.integer(75, 0)? == 0 { [71, 72] } else { [73, 74] };
     let [m, n] = [record.integer(sizes[0], 0)?, record.integer(sizes[1], 0)?];
@@ -417,7 +421,7 @@ fn grid(record: &Record, flags: i64, points: &[[f64; 3]]) -> Result<Figure, Refu
 }
 
 /// A mesh of faces, each by the numbers of up to four vertices; a negative number starts an edge that is not shown.
-fn polyface(record: &Record, followers: &[Record]) -> Result<Figure, Refusal> {
+fn polyface(record: &Record, followers: &[Record]) -> Result<Figure<'static>, Refusal> {
     let mut points = Vec::new();
     let mut pairs: Vec<(i64, i64)> = Vec::new();
     for vertex in followers {
@@ -453,7 +457,7 @@ pub(super) struct SplineData {
     pub closed: bool,
 }
 
-fn spline(record: &Record, notices: &mut Notices) -> Result<Figure, Refusal> {
+fn spline(record: &Record, notices: &mut Notices) -> Result<Figure<'static>, Refusal> {
     let (control, fit) = (record.points(10)?, record.points(11)?);
     let (used, z) = flat(if control.is_empty() { &fit } else { &control })?;
     let plain = |points: &[[f64; 3]]| points.iter().map(|p| Point::new(p[0], p[1])).collect();
@@ -525,7 +529,7 @@ impl SplineData {
 
 // ---- blocks ----
 
-fn insert(record: &Record) -> Result<Figure, Refusal> {
+fn insert<'a>(record: &Record<'a>) -> Result<Figure<'a>, Refusal> {
     let plane = Plane::of(record)?.map();
     let [x, y, z] = record.point(10)?;
     let scale = [record.real(41, 1.0)?, record.real(42, 1.0)?];
@@ -541,7 +545,7 @@ fn insert(record: &Record) -> Result<Figure, Refusal> {
     };
     let steps = [step(Vec2::new(record.real(44, 0.0)?, 0.0)), step(Vec2::new(0.0, record.real(45, 0.0)?))];
     Ok(Figure::Insert(Insert {
-        block: record.text(2).unwrap_or_default().to_vec(),
+        block: record.text(2).unwrap_or_default(),
         map,
         z: plane.height(z),
         z_scale: plane.height(record.real(43, 1.0)?),

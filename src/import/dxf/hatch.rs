@@ -67,9 +67,10 @@ fn paths<'r, 'a>(record: &'r Record<'a>) -> Result<Vec<Path<'r, 'a>>, ImportErro
 fn edges(record: &Record, pairs: &[Pair], notices: &mut Notices) -> Result<Vec<Curve>, Refusal> {
     let starts: Vec<usize> = (0..pairs.len()).filter(|&i| pairs[i].code == 72).collect();
     let ends = starts.iter().skip(1).copied().chain([pairs.len()]);
+    let handle = record.find(5);
     let mut curves = Vec::new();
     for (&start, end) in starts.iter().zip(ends) {
-        let edge = record.part(&pairs[start + 1..end]);
+        let edge = record.part(handle, &pairs[start + 1..end]);
         let curve = match record.integer_of(&pairs[start])? {
             1 => Curve::line(at(&edge, 10)?, at(&edge, 11)?),
             2 => arc(&edge)?,

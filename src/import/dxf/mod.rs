@@ -85,7 +85,7 @@ fn add_fills(fills: Vec<Fill>, drawing: &mut Drawing) {
 /// A point within closed outlines by the odd-even rule: the middle of the longest stretch inside, on a few lines across.
 fn inner_point(outlines: &[Curve]) -> Option<Point> {
     /// Heights of the lines, shares of the whole that no drawing has its corners at.
-    const LINES: [f64; 5] = [0.5037, 0.2963, 0.7071, 0.1043, 0.8989];
+    const LINES: [f64; 5] = [0.5037, 0.2963, 0.7193, 0.1043, 0.8989];
     let bounds = outlines.iter().map(Curve::bounds).reduce(|a, b| a.union(b))?;
     let mut best: Option<(f64, Point)> = None;
     for share in LINES {
@@ -101,7 +101,7 @@ fn inner_point(outlines: &[Curve]) -> Option<Point> {
         let mut crossings: Vec<f64> = outlines.iter().flat_map(places).collect();
         crossings.sort_by(f64::total_cmp);
         // A line that passes through a joint may miss it, and cannot tell inside from outside.
-        if crossings.len() % 2 == 0 {
+        if crossings.len().is_multiple_of(2) {
             for stretch in crossings.chunks_exact(2) {
                 let width = stretch[1] - stretch[0];
                 if best.is_none_or(|(widest, _)| width > widest) {

@@ -25,9 +25,9 @@ impl<'a> Record<'a> {
         Self { kind: shown(start.text()).to_ascii_uppercase(), place: start.place, pairs: Vec::new() }
     }
 
-    /// A part of the record as one of its own, under the same name.
-    pub fn part(&self, pairs: &[Pair<'a>]) -> Self {
-        let pairs = self.find(5).into_iter().chain(pairs).copied().collect();
+    /// A part of the record as one of its own, under the same name and handle.
+    pub fn part(&self, handle: Option<&Pair<'a>>, pairs: &[Pair<'a>]) -> Self {
+        let pairs = handle.into_iter().chain(pairs).copied().collect();
         Self { kind: self.kind.clone(), place: self.place, pairs }
     }
 
