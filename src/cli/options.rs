@@ -24,7 +24,7 @@ pub struct Options {
     /// Threads; the result does not depend on it [default: all]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..), allow_hyphen_values = true, help_heading = "General")]
     threads: Option<u64>,
-    /// Format of the input, where suffix and content do not tell: airfoil, poly, node, outline
+    /// Format of the input, where suffix and content do not tell: airfoil, poly, node, outline, dxf
     #[arg(long, value_name = "FORMAT", help_heading = "Input")]
     input_format: Option<String>,
 

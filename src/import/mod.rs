@@ -2,6 +2,7 @@
 //! [`Drawing::arrange`]'s part. Every quirk that a reader met and every liberty that it took is a sentence in [`Drawing::notes`].
 
 pub mod airfoil;
+pub mod dxf;
 pub mod outline;
 pub mod poly;
 pub mod vtu;
@@ -54,10 +55,12 @@ pub enum Format {
     Node,
     /// Our own curves, as JSON.
     Outline,
+    /// Drawings of CAD systems.
+    Dxf,
 }
 
 impl Format {
-    pub const ALL: [Self; 4] = [Self::Airfoil, Self::Poly, Self::Node, Self::Outline];
+    pub const ALL: [Self; 5] = [Self::Airfoil, Self::Poly, Self::Node, Self::Outline, Self::Dxf];
 
     /// The name by which a user asks for the format.
     pub fn name(self) -> &'static str {
@@ -66,6 +69,7 @@ impl Format {
             Self::Poly => "poly",
             Self::Node => "node",
             Self::Outline => "outline",
+            Self::Dxf => "dxf",
         }
     }
 
@@ -76,12 +80,15 @@ impl Format {
 
     /// A guess from the first bytes, for files whose suffix says nothing.
     ///
-    /// JSON starts with a brace. Triangle's first line holds whole numbers of which the second, the dimension, is 2; with one line of
+    /// JSON starts with a brace, DXF with its sentinel or a section. Triangle's first line holds whole numbers of which the second, the dimension, is 2; with one line of
     /// that shape more, the segment header, it is a `.poly`. Anything else that has a line of two numbers may be an airfoil.
     pub fn sniff(bytes: &[u8]) -> Option<Self> {
         let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
         if text.iter().find(|b| !b.is_ascii_whitespace()) == Some(&b'{') {
             return Some(Self::Outline);
+        }
+        if dxf::sniff(bytes) {
+            return Some(Self::Dxf);
         }
         if let Some(format) = poly::sniff(text) {
             return Some(format);
@@ -98,6 +105,7 @@ pub fn format_of(path: &Path) -> Option<Format> {
         "poly" => Some(Format::Poly),
         "node" => Some(Format::Node),
         "json" => Some(Format::Outline),
+        "dxf" => Some(Format::Dxf),
         _ => None,
     }
 }
@@ -120,6 +128,7 @@ pub fn read(bytes: &[u8], format: Format, stem: &str, options: &Options) -> Resu
         Format::Poly => poly::read_poly(bytes, stem, options.nodes.as_deref()),
         Format::Node => poly::read_node(bytes, stem),
         Format::Outline => outline::read(bytes, stem),
+        Format::Dxf => dxf::read(bytes, stem),
     }
 }
 

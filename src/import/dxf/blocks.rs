@@ -1,0 +1,398 @@
+//! Entities put where they belong: on layers that are seen or not, and in blocks, as often as these are inserted.
+
+use super::entities::{Figure, Insert, Notices, Refusal, figure};
+use super::header::Header;
+use super::pairs::shown;
+use super::sections::{Record, Sections};
+use crate::curve::Curve;
+use crate::domain::{Drawing, DrawnCurve, DrawnPoint, Skipped};
+use crate::geometry::{Point, Vec2};
+use crate::ids::NameId;
+use crate::import::ImportError;
+use kurbo::Affine;
+use std::collections::BTreeMap;
+use std::rc::Rc;
+
+/// How much blocks may unfold to: instances, entities, and control points of splines together.
+const UNFOLDED: usize = 1_000_000;
+/// How deep blocks may stand in blocks.
+const DEPTH: usize = 32;
+/// A longer way through blocks is not told in full.
+const LONGEST_PATH: usize = 200;
+/// The scales of an insertion that leave numbers to work with.
+const SCALES: std::ops::Range<f64> = 1e-150..1e150;
+
+/// The hatched area of one entity.
+pub(super) struct Fill {
+    pub name: NameId,
+    pub outlines: Vec<Curve>,
+    pub entity: String,
+}
+
+/// An entity, read once and drawn as often as its block. Layers and blocks are places in their tables: names may be long.
+struct Entity<'a> {
+    kind: String,
+    label: String,
+    layer: usize,
+    /// The block that an INSERT draws, where the file defines it.
+    block: Option<usize>,
+    figure: Result<Figure<'a>, &'static str>,
+}
+
+struct Layer {
+    /// As the file spells it first.
+    text: String,
+    /// Once something is drawn on it.
+    name: Option<NameId>,
+    hidden: Option<Hidden>,
+}
+
+/// The place of layer 0, whose entities in a block take the layer of the block.
+const LAYER_0: usize = 0;
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Hidden {
+    Frozen,
+    Off,
+    Defpoints,
+}
+
+impl Hidden {
+    fn why(self) -> &'static str {
+        match self {
+            Self::Frozen => "on a frozen layer",
+            Self::Off => "on a layer that is off",
+            Self::Defpoints => "on the layer Defpoints, of construction points",
+        }
+    }
+}
+
+/// Where and how the entities of a block are drawn.
+struct Setting {
+    map: Option<Affine>,
+    z: f64,
+    z_scale: f64,
+    /// The layer that entities on layer 0 take.
+    layer: Option<usize>,
+    /// `INSERT "BOLT" (line 12) > `
+    path: String,
+    /// Blocks that it stands in, to tell a block that holds itself.
+    within: Vec<usize>,
+}
+
+/// A drawing in the making.
+pub(super) struct Sketch<'f, 'a> {
+    file: &'f Sections<'a>,
+    header: &'f Header,
+    drawing: &'f mut Drawing,
+    layers: Vec<Layer>,
+    layer_of: BTreeMap<String, usize>,
+    block_of: BTreeMap<String, usize>,
+    /// Entities of the blocks that were drawn already.
+    read: BTreeMap<usize, Rc<Vec<Entity<'a>>>>,
+    fills: Vec<Fill>,
+    skipped: BTreeMap<(String, &'static str), usize>,
+    notices: Notices,
+    /// Lowest and highest height of what is drawn.
+    heights: Option<[f64; 2]>,
+    left: usize,
+}
+
+impl<'f, 'a> Sketch<'f, 'a> {
+    pub fn new(file: &'f Sections<'a>, header: &'f Header, drawing: &'f mut Drawing) -> Self {
+        // The first block of a name counts.
+        let blocks = file.blocks.iter().enumerate().rev();
+        let mut sketch = Self {
+            file,
+            header,
+            drawing,
+            layers: Vec::new(),
+            layer_of: BTreeMap::new(),
+            block_of: blocks.map(|(i, (name, _))| (key(&header.name(name)), i)).collect(),
+            read: BTreeMap::new(),
+            fills: Vec::new(),
+            skipped: BTreeMap::new(),
+            notices: Notices::default(),
+            heights: None,
+            left: UNFOLDED,
+        };
+        sketch.layer("0");
+        for record in &file.layers {
+            sketch.add_layer(record);
+        }
+        sketch
+    }
+
+    /// Draws the entities of model space; hands back their hatches.
+    pub fn draw(mut self) -> Result<Vec<Fill>, ImportError> {
+        let setting = Setting { map: None, z: 0.0, z_scale: 1.0, layer: None, path: String::new(), within: Vec::new() };
+        for entity in self.entities(&self.file.entities)? {
+            self.draw_entity(&entity, &setting)?;
+        }
+        if let Some([low, high]) = self.heights
+            && low < high
+        {
+            self.drawing
+                .notes
+                .push(format!("Curves lie at heights from {low} to {high}: all were laid into one plane."));
+        }
+        self.drawing.notes.extend(self.notices.into_notes());
+        let skipped = |((entity, why), count): ((String, &str), usize)| Skipped { entity, count, why: why.into() };
+        self.drawing.skipped.extend(self.skipped.into_iter().map(skipped));
+        Ok(self.fills)
+    }
+
+    fn skip(&mut self, kind: &str, why: &'static str) {
+        *self.skipped.entry((kind.to_owned(), why)).or_insert(0) += 1;
+    }
+
+    // ---- layers ----
+
+    fn add_layer(&mut self, record: &Record) {
+        let name = self.header.name(record.text(2).unwrap_or_default());
+        let flag = |code| record.find(code).and_then(|pair| pair.integer()).unwrap_or(0);
+        let hidden = if flag(70) & 1 != 0 {
+            Some(Hidden::Frozen)
+        } else if flag(62) < 0 {
+            Some(Hidden::Off)
+        } else {
+            None
+        };
+        let layer = self.layer(&name);
+        self.layers[layer].hidden = self.layers[layer].hidden.or(hidden);
+    }
+
+    /// The layer of this name, in the table from now on.
+    fn layer(&mut self, name: &str) -> usize {
+        let key = key(name);
+        let hidden = (key == "defpoints").then_some(Hidden::Defpoints);
+        *self.layer_of.entry(key).or_insert_with(|| {
+            self.layers.push(Layer { text: name.to_owned(), name: None, hidden });
+            self.layers.len() - 1
+        })
+    }
+
+    fn name_of(&mut self, layer: usize) -> NameId {
+        let Layer { text, name, .. } = &mut self.layers[layer];
+        *name.get_or_insert_with(|| self.drawing.names.intern(text))
+    }
+
+    // ---- reading ----
+
+    /// The entities of a block or of the drawing, each with the vertices and attributes that follow it.
+    fn entities(&mut self, records: &[Record<'a>]) -> Result<Vec<Entity<'a>>, ImportError> {
+        let mut entities = Vec::new();
+        let mut rest = records;
+        while let Some((record, after)) = rest.split_first() {
+            let followers = match record.kind.as_str() {
+                "POLYLINE" => after.iter().take_while(|r| r.kind == "VERTEX").count(),
+                _ => 0,
+            };
+            let (followers, after) = after.split_at(followers);
+            rest = after;
+            if record.kind != "SEQEND" {
+                entities.push(self.entity(record, followers)?);
+            }
+        }
+        Ok(entities)
+    }
+
+    fn entity(&mut self, record: &Record<'a>, followers: &[Record<'a>]) -> Result<Entity<'a>, ImportError> {
+        let name = self.header.name(record.text(8).filter(|n| !n.is_empty()).unwrap_or(b"0"));
+        let layer = self.layer(&name);
+        let hidden = self.layers[layer].hidden;
+        let is_set = |code| record.find(code).and_then(|pair| pair.integer()).is_some_and(|flag| flag != 0);
+        let figure = match hidden {
+            _ if is_set(67) => Err("in paper space"),
+            _ if is_set(60) => Err("invisible"),
+            // On layer 0 of a block an entity is as visible as the block, and a block may hold what is not on its layer.
+            Some(hidden) if layer != LAYER_0 && record.kind != "INSERT" => Err(hidden.why()),
+            _ => match figure(record, followers, &mut self.notices) {
+                Ok(figure) => Ok(figure),
+                Err(Refusal::Skip(why)) => Err(why),
+                Err(Refusal::Broken(error)) => return Err(error),
+            },
+        };
+        let block = match &figure {
+            Ok(Figure::Insert(insert)) => self.block_of.get(&key(&self.header.name(insert.block))).copied(),
+            _ => None,
+        };
+        Ok(Entity { kind: record.kind.clone(), label: record.label(), layer, block, figure })
+    }
+
+    // ---- drawing ----
+
+    fn draw_entity(&mut self, entity: &Entity<'a>, setting: &Setting) -> Result<(), ImportError> {
+        let figure = match &entity.figure {
+            Ok(figure) => figure,
+            Err(why) => {
+                self.skip(&entity.kind, why);
+                return Ok(());
+            }
+        };
+        let inherited = setting.layer.filter(|_| entity.layer == LAYER_0);
+        let layer = inherited.unwrap_or(entity.layer);
+        let hidden = self.layers[layer].hidden;
+        let insert_of_shown = matches!(figure, Figure::Insert(_)) && hidden != Some(Hidden::Frozen);
+        if let Some(hidden) = hidden.filter(|_| !insert_of_shown) {
+            self.skip(&entity.kind, hidden.why());
+            return Ok(());
+        }
+        let label = format!("{}{}", setting.path, entity.label);
+        match figure {
+            Figure::Curves { curves, z, parts } => {
+                self.rise(setting, *z);
+                let name = self.name_of(layer);
+                for (i, curve) in curves.iter().enumerate() {
+                    let entity = if parts.is_empty() { label.clone() } else { format!("{label}, {parts} {}", i + 1) };
+                    let curve = self.placed(curve, setting, &label)?;
+                    match curve {
+                        Some(curve) => self.drawing.curves.push(DrawnCurve { curve, name, entity, shape: None }),
+                        None => self.skip("curve", "too small for numbers once it is inserted"),
+                    }
+                }
+            }
+            Figure::Point { at, z } => {
+                self.rise(setting, *z);
+                let at = setting.map.map_or(*at, |map| map * *at);
+                let name = Some(self.name_of(layer));
+                self.drawing.points.push(DrawnPoint { at, name, entity: label });
+            }
+            Figure::Fill { outlines } => {
+                let placed: Result<Option<Vec<Curve>>, _> =
+                    outlines.iter().map(|curve| self.placed(curve, setting, &label)).collect();
+                match placed? {
+                    Some(outlines) => {
+                        let name = self.name_of(layer);
+                        self.fills.push(Fill { name, outlines, entity: label });
+                    }
+                    None => self.skip("HATCH", "too small for numbers once it is inserted"),
+                }
+            }
+            Figure::Insert(insert) => self.draw_insert(insert, entity, layer, setting)?,
+        }
+        Ok(())
+    }
+
+    /// A curve where the setting puts it; `None` where it shrinks to nothing.
+    fn placed(&mut self, curve: &Curve, setting: &Setting, label: &str) -> Result<Option<Curve>, ImportError> {
+        let Some(map) = setting.map else { return Ok(Some(curve.clone())) };
+        self.spend(weight(curve), label)?;
+        let curve = curve.transformed(map);
+        let is_sound = match &curve {
+            Curve::Arc(arc) => arc.radius > 0.0,
+            Curve::Ellipse(ellipse) => ellipse.u.cross(ellipse.v) != 0.0,
+            Curve::Line(_) | Curve::Bezier(_) | Curve::Spline(_) => true,
+        };
+        Ok(is_sound.then_some(curve))
+    }
+
+    /// Takes note of a height.
+    fn rise(&mut self, setting: &Setting, z: f64) {
+        let z = setting.z + setting.z_scale * z;
+        let [low, high] = self.heights.unwrap_or([z, z]);
+        self.heights = Some([low.min(z), high.max(z)]);
+    }
+
+    fn spend(&mut self, cost: usize, label: &str) -> Result<(), ImportError> {
+        self.left = self.left.checked_sub(cost).ok_or_else(|| {
+            let what = format!("{label}: blocks unfold to more than {UNFOLDED} curves");
+            ImportError::new(what, "leave out blocks that are no part of the outline, or explode and purge them")
+        })?;
+        Ok(())
+    }
+
+    fn draw_insert(
+        &mut self,
+        insert: &Insert<'a>,
+        entity: &Entity<'a>,
+        layer: usize,
+        setting: &Setting,
+    ) -> Result<(), ImportError> {
+        let Some(place) = entity.block else {
+            self.skip(&entity.kind, "of a block that the file does not define");
+            return Ok(());
+        };
+        let block = &self.file.blocks[place].1;
+        if block.is_external {
+            self.skip(&entity.kind, "of a block in another file (bind it)");
+            return Ok(());
+        }
+        if setting.within.contains(&place) {
+            self.skip(&entity.kind, "of a block that holds itself");
+            return Ok(());
+        }
+        let path = self.path(insert, entity, setting);
+        if setting.within.len() >= DEPTH {
+            let what = format!("{path}blocks stand in blocks more than {DEPTH} deep");
+            return Err(ImportError::new(what, "explode the inner blocks"));
+        }
+        let within = [&setting.within[..], &[place]].concat();
+        let entities = self.block_entities(place)?;
+        let from_base = Affine::translate(-block.base.to_vec2());
+        let mut inner = Setting {
+            map: None,
+            z: setting.z + setting.z_scale * insert.z,
+            z_scale: setting.z_scale * insert.z_scale,
+            layer: Some(layer),
+            path,
+            within,
+        };
+        for (row, column) in (0..insert.rows).flat_map(|row| (0..insert.columns).map(move |column| (row, column))) {
+            self.spend(1, &inner.path)?;
+            let offset: Vec2 = insert.steps[0] * column as f64 + insert.steps[1] * row as f64;
+            let map = setting.map.unwrap_or_default() * Affine::translate(offset) * insert.map * from_base;
+            if !is_usable(map) {
+                let what = format!("{}a block is drawn too large or too small for numbers", inner.path);
+                return Err(ImportError::new(what, "correct the scales of the blocks"));
+            }
+            inner.map = Some(map);
+            for entity in entities.iter() {
+                self.spend(1, &inner.path)?;
+                self.draw_entity(entity, &inner)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The way to the entities of a block, for messages.
+    fn path(&self, insert: &Insert, entity: &Entity, setting: &Setting) -> String {
+        if setting.path.len() >= LONGEST_PATH {
+            return setting.path.clone();
+        }
+        let name = self.header.name(&insert.block[..insert.block.len().min(LONGEST_PATH)]);
+        let place = entity.label.trim_start_matches(entity.kind.as_str());
+        format!("{}INSERT \"{}\"{place} > ", setting.path, shown(name.as_bytes()))
+    }
+
+    fn block_entities(&mut self, place: usize) -> Result<Rc<Vec<Entity<'a>>>, ImportError> {
+        if let Some(entities) = self.read.get(&place) {
+            return Ok(Rc::clone(entities));
+        }
+        let file = self.file;
+        let entities = Rc::new(self.entities(&file.blocks[place].1.records)?);
+        self.read.insert(place, Rc::clone(&entities));
+        Ok(entities)
+    }
+}
+
+/// Names of layers and blocks are the same in upper and lower case.
+fn key(name: &str) -> String {
+    name.to_lowercase()
+}
+
+/// What a curve costs in memory, where a line costs 1.
+fn weight(curve: &Curve) -> usize {
+    match curve {
+        Curve::Line(_) | Curve::Arc(_) | Curve::Ellipse(_) => 1,
+        Curve::Bezier(bezier) => bezier.points.len(),
+        Curve::Spline(spline) => spline.spans.iter().map(|span| span.points.len()).sum(),
+    }
+}
+
+fn is_usable(map: Affine) -> bool {
+    let [a, b, c, d, x, y] = map.as_coeffs();
+    let columns = [libm::hypot(a, b), libm::hypot(c, d)];
+    let at = Point::new(x, y);
+    columns.iter().all(|scale| SCALES.contains(scale)) && at.is_finite() && x.abs().max(y.abs()) < SCALES.end
+}

@@ -1,0 +1,184 @@
+//! The boundary of a HATCH: paths of polylines or of lines, arcs, elliptic arcs and splines.
+
+use super::entities::{Notices, Refusal, SplineData, bulged_vertices, segments, sweep};
+use super::pairs::Pair;
+use super::sections::Record;
+use crate::curve::{Curve, CurveError};
+use crate::geometry::{Point, Rect, Vec2};
+use crate::import::ImportError;
+use std::f64::consts::TAU;
+
+/// Bits of group 92, what a path is for.
+mod flag {
+    pub const EXTERNAL: i64 = 1;
+    pub const POLYLINE: i64 = 2;
+    pub const TEXT_BOX: i64 = 8;
+    pub const OUTERMOST: i64 = 16;
+}
+
+/// A path with the pairs that describe it.
+struct Path<'r, 'a> {
+    flags: i64,
+    pairs: &'r [Pair<'a>],
+}
+
+/// The closed outlines between which the hatch lies, by the odd-even rule.
+pub(super) fn outlines(record: &Record, notices: &mut Notices) -> Result<Vec<Curve>, Refusal> {
+    let mut paths = paths(record)?;
+    if paths.iter().any(|p| p.flags & flag::TEXT_BOX != 0) {
+        notices.add("Boxes that keep hatches clear of text were left out.");
+        paths.retain(|p| p.flags & flag::TEXT_BOX == 0);
+    }
+    // Islands: 0 hatches every other area, 1 ends at the second, 2 looks at none. Older files do not say which paths are which.
+    let counted = match record.integer(75, 0)? {
+        1 => flag::EXTERNAL | flag::OUTERMOST,
+        2 => flag::EXTERNAL,
+        _ => 0,
+    };
+    if paths.iter().any(|p| p.flags & counted != 0) {
+        paths.retain(|p| p.flags & counted != 0);
+    }
+    let mut curves = Vec::new();
+    for path in &paths {
+        if path.flags & flag::POLYLINE != 0 {
+            let vertices = bulged_vertices(record, &mut path.pairs.iter().copied())?;
+            curves.extend(segments(record, &vertices, true)?);
+        } else {
+            curves.extend(closed(edges(record, path.pairs, notices)?, notices));
+        }
+    }
+    if curves.is_empty() { Err(Refusal::Skip("of no boundary")) } else { Ok(curves) }
+}
+
+/// The paths, each from its flags to the next one's; the last to the hatch style, which follows it.
+fn paths<'r, 'a>(record: &'r Record<'a>) -> Result<Vec<Path<'r, 'a>>, ImportError> {
+    let start = record.pairs.iter().position(|p| p.code == 91).unwrap_or(record.pairs.len());
+    let within = &record.pairs[start..];
+    let end = within.iter().position(|p| matches!(p.code, 75 | 76)).unwrap_or(within.len());
+    let starts: Vec<usize> = (0..end).filter(|&i| within[i].code == 92).collect();
+    let ends = starts.iter().skip(1).copied().chain([end]);
+    let path = |(&start, end): (&usize, usize)| {
+        Ok(Path { flags: record.integer_of(&within[start])?, pairs: &within[start + 1..end] })
+    };
+    starts.iter().zip(ends).map(path).collect()
+}
+
+/// The edges of a path, each from its type, group 72, to the next one's.
+fn edges(record: &Record, pairs: &[Pair], notices: &mut Notices) -> Result<Vec<Curve>, Refusal> {
+    let starts: Vec<usize> = (0..pairs.len()).filter(|&i| pairs[i].code == 72).collect();
+    let ends = starts.iter().skip(1).copied().chain([pairs.len()]);
+    let handle = record.find(5);
+    let mut curves = Vec::new();
+    for (&start, end) in starts.iter().zip(ends) {
+        let edge = record.part(handle, &pairs[start + 1..end]);
+        let curve = match record.integer_of(&pairs[start])? {
+            1 => Curve::line(at(&edge, 10)?, at(&edge, 11)?),
+            2 => arc(&edge)?,
+            3 => ellipse(&edge)?,
+            4 => {
+                curves.push(spline(&edge)?.curve(record, notices)?);
+                continue;
+            }
+            other => return Err(record.broken(format!("a boundary edge of type {other}")).into()),
+        };
+        match curve {
+            Ok(curve) => curves.push(curve),
+            // An arc of no extent leaves no gap.
+            Err(CurveError::Radius { .. } | CurveError::Sweep { .. }) => {}
+            Err(error) => return Err(record.broken(error).into()),
+        }
+    }
+    Ok(curves)
+}
+
+fn at(edge: &Record, code: i32) -> Result<Point, ImportError> {
+    let [x, y, _] = edge.point(code)?;
+    Ok(Point::new(x, y))
+}
+
+/// Start and sweep in degrees. Clockwise edges have their angles measured clockwise.
+fn angles(edge: &Record) -> Result<(f64, f64), ImportError> {
+    let (from, to) = (edge.required(50)?, edge.required(51)?);
+    let sweep = sweep(from, to, 360.0);
+    Ok(if edge.integer(73, 1)? == 0 { (-from, -sweep) } else { (from, sweep) })
+}
+
+fn arc(edge: &Record) -> Result<Result<Curve, CurveError>, ImportError> {
+    let (start, sweep) = angles(edge)?;
+    Ok(Curve::arc(at(edge, 10)?, edge.required(40)?, start.to_radians(), sweep.to_radians()))
+}
+
+/// Unlike those of an ELLIPSE, the angles are those of the rays to the ends, not parameters.
+fn ellipse(edge: &Record) -> Result<Result<Curve, CurveError>, ImportError> {
+    let (major, ratio) = (at(edge, 11)?.to_vec2(), edge.required(40)?);
+    let (start, sweep) = angles(edge)?;
+    let parameter = |degrees: f64| {
+        let (sin, cos) = libm::sincos(degrees.to_radians());
+        libm::atan2(sin, cos * ratio.abs())
+    };
+    let from = parameter(start);
+    let turn = if sweep.abs() == 360.0 {
+        TAU.copysign(sweep)
+    } else {
+        let way = sweep.signum();
+        way * (way * (parameter(start + sweep) - from)).rem_euclid(TAU)
+    };
+    let minor = Vec2::new(-major.y, major.x) * ratio;
+    Ok(Curve::ellipse(at(edge, 10)?, major, minor, from, turn))
+}
+
+fn spline(edge: &Record) -> Result<SplineData, ImportError> {
+    let plain = |points: Vec<[f64; 3]>| points.into_iter().map(|p| Point::new(p[0], p[1])).collect();
+    Ok(SplineData {
+        degree: edge.integer(94, 3)?,
+        knots: edge.reals(40)?,
+        control: plain(edge.points(10)?),
+        weights: edge.reals(42)?,
+        fit: plain(edge.points(11)?),
+        closed: edge.integer(74, 0)? != 0,
+    })
+}
+
+/// A gap in a boundary wider than this share of its size is drawn: arranging heals up to the same share of the whole drawing.
+const GAP: f64 = 1e-6;
+
+/// The edges turned to follow each other, with a line in every gap.
+fn closed(edges: Vec<Curve>, notices: &mut Notices) -> Vec<Curve> {
+    let bounds = edges.iter().map(|e| Rect::from_points(e.start(), e.end())).reduce(|a, b| a.union(b));
+    let gap = GAP * bounds.map_or(0.0, |b| b.width().max(b.height()));
+    let apart = |a: Point, b: Point| (a - b).hypot() > gap;
+    let mut loops: Vec<Curve> = Vec::with_capacity(edges.len());
+    let mut bridge = |loops: &mut Vec<Curve>, from: Point, to: Point| {
+        if apart(from, to)
+            && let Ok(line) = Curve::line(from, to)
+        {
+            notices.add("Gaps in the boundaries of hatches were closed by lines.");
+            loops.push(line);
+        }
+    };
+    // Start and end of the loop that is being followed.
+    let mut open: Option<[Point; 2]> = None;
+    let mut edges = edges.into_iter().peekable();
+    while let Some(edge) = edges.next() {
+        let turned = match (open, edges.peek()) {
+            (Some([_, end]), _) => (edge.start() - end).hypot() > (edge.end() - end).hypot(),
+            (None, Some(next)) => {
+                let reach = |p: Point| (next.start() - p).hypot().min((next.end() - p).hypot());
+                reach(edge.start()) < reach(edge.end())
+            }
+            (None, None) => false,
+        };
+        let edge = if turned { edge.reversed() } else { edge };
+        let start = open.map_or(edge.start(), |[start, end]| {
+            bridge(&mut loops, end, edge.start());
+            start
+        });
+        let end = edge.end();
+        loops.push(edge);
+        open = apart(start, end).then_some([start, end]);
+    }
+    if let Some([start, end]) = open {
+        bridge(&mut loops, end, start);
+    }
+    loops
+}
