@@ -1,7 +1,7 @@
 //! From bytes to a judged mesh: read → arrange → split to turning → refine → verify. Each stage can be had alone.
 
 use crate::domain::{ArrangeError, ArrangeOptions, Domain, Drawing, DrawnCurve, SizeRequest};
-use crate::geometry::Point;
+use crate::geometry::{Point, metres};
 use crate::import::{self, AirfoilOptions, Format, ImportError};
 use crate::mesh::Mesh;
 use crate::mesh::quality::Quality;
@@ -10,7 +10,7 @@ use crate::plane;
 use crate::plane::lopping::{self, Lopping, RefineError, Refined, Shrinking};
 use crate::refine::{Progress, Stop, StopReason};
 use crate::report::{FailureKind, FailureReport, MeshReport, PromiseReport, Report, StopReport};
-use crate::request::{BallShrinking, Keep, Midpoint, Request, SizeOf, TrailingEdge, metres};
+use crate::request::{BallShrinking, Keep, Midpoint, Request, SizeOf, TrailingEdge};
 use crate::size::{Sizing, Source as SizeSource};
 use kurbo::Affine;
 use std::collections::BTreeSet;

@@ -5,8 +5,7 @@ use super::options::{Options, Resolved};
 use super::{Halt, Volume, remember, say};
 use clap::Args;
 use squinch::domain::Domain;
-use squinch::export;
-use squinch::import::vtu::{self, MeshFile};
+use squinch::import::mesh::{self, MeshFile};
 use squinch::mesh::quality::Quality;
 use squinch::mesh::verify::Status;
 use squinch::pipeline::{self, Exit, Plan};
@@ -16,7 +15,7 @@ use std::path::{Path, PathBuf};
 
 #[derive(Args)]
 pub struct Check {
-    /// A mesh file: .vtu; - for standard input
+    /// A mesh file: .vtu, .vtk, .msh, .su2, .inp, .obj, .stl, .ele; - for standard input
     #[arg(value_name = "MESH")]
     mesh: PathBuf,
     /// The drawing that the mesh is of: without it, checks that need the curves are n/a
@@ -32,14 +31,18 @@ pub struct Check {
 
 /// Whether a path is a mesh's by its suffix.
 pub fn is_mesh_file(path: &Path) -> bool {
-    export::format_of(path) == Some(export::Format::Vtu)
+    mesh::format_of(path).is_some()
 }
 
 /// Reads a mesh file, and its path as it is shown.
 pub fn open(path: &Path) -> Result<(MeshFile, String), Halt> {
     let shown = path.display().to_string();
     let bytes = files::read(path).map_err(|e| Halt::Unreadable(format!("{shown}: {e}")))?;
-    match vtu::read(&bytes) {
+    let Some(format) = mesh::format_of(path).or_else(|| mesh::Format::sniff(&bytes)) else {
+        return Err(Halt::Unreadable(format!("{shown}: not a mesh file of a format that can be read")));
+    };
+    let beside: Vec<_> = format.beside().iter().map(|suffix| std::fs::read(path.with_extension(suffix)).ok()).collect();
+    match mesh::read(&bytes, format, &beside) {
         Ok(file) => Ok((file, shown)),
         Err(error) => {
             let failure = FailureReport::new(FailureKind::Unreadable, error.what, error.help);

@@ -2,9 +2,9 @@
 //! [`Drawing::arrange`]'s part. Every quirk that a reader met and every liberty that it took is a sentence in [`Drawing::notes`].
 
 pub mod airfoil;
+pub mod mesh;
 pub mod outline;
 pub mod poly;
-pub mod vtu;
 
 pub use airfoil::{AirfoilOptions, TrailingEdge};
 
