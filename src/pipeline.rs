@@ -1,7 +1,7 @@
 //! From bytes to a judged mesh: read → arrange → split to turning → refine → verify. Each stage can be had alone.
 
 use crate::domain::{ArrangeError, ArrangeOptions, Domain, DomainCurve, Drawing, DrawnCurve, SizeRequest, Unarranged};
-use crate::geometry::Point;
+use crate::geometry::{Point, metres};
 use crate::ids::Id;
 use crate::import::{self, AirfoilOptions, Format, ImportError};
 use crate::mesh::Mesh;
@@ -12,7 +12,7 @@ use crate::plane;
 use crate::plane::lopping::{self, Lopping, RefineError, Refined, Shrinking};
 use crate::refine::{Stop, StopReason};
 use crate::report::{FailureKind, FailureReport, MeshReport, PromiseReport, Report, StopReport};
-use crate::request::{BallShrinking, Keep, Midpoint, Order, Request, SizeOf, TrailingEdge, metres};
+use crate::request::{BallShrinking, Keep, Midpoint, Order, Request, SizeOf, TrailingEdge};
 use crate::size::{ByPlace, Given, SAMPLE_GRADE, Sizing, Source as SizeSource};
 use crate::watch::{Progress, Stopped, Watch};
 use kurbo::Affine;

@@ -535,40 +535,6 @@ impl fmt::Display for SizeOf {
     }
 }
 
-/// Metres in a unit of length; `None` of a unit that has no fixed size ("chord", …) or is not known.
-pub fn metres(unit: &str) -> Option<f64> {
-    let metres = match unit {
-        "angstrom" => 1e-10,
-        "nm" => 1e-9,
-        "um" | "µm" => 1e-6,
-        "mm" => 1e-3,
-        "cm" => 1e-2,
-        "dm" => 0.1,
-        "m" => 1.0,
-        "dam" => 10.0,
-        "hm" => 100.0,
-        "km" => 1e3,
-        "Gm" => 1e9,
-        "uin" => 2.54e-8,
-        "mil" => 2.54e-5,
-        "in" => 0.0254,
-        "ft" => 0.3048,
-        "yd" => 0.9144,
-        "mi" => 1609.344,
-        // The survey foot is 1200/3937 m (NIST Special Publication 811, B.6).
-        "us-in" => 100.0 / 3937.0,
-        "us-ft" => 1200.0 / 3937.0,
-        "us-yd" => 3600.0 / 3937.0,
-        "us-mi" => 5280.0 * 1200.0 / 3937.0,
-        // Resolutions B2 of 2012 and 2015 of the International Astronomical Union.
-        "au" => 149_597_870_700.0,
-        "ly" => 9_460_730_472_580_800.0,
-        "pc" => 3.085_677_581_491_367e16,
-        _ => return None,
-    };
-    Some(metres)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

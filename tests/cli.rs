@@ -3,7 +3,7 @@
 use squinch::export;
 use squinch::geometry::{Point, Vec2};
 use squinch::ids::{IdVec, NameId, VertexId};
-use squinch::import::vtu;
+use squinch::import::mesh::vtu;
 use squinch::mesh::Mesh;
 use std::fs;
 use std::io::Write;
@@ -96,10 +96,10 @@ fn help_and_version_answer() {
     let bench = Bench::new("help");
     assert_eq!(printed(&bench.ends(0, &["--version"])), format!("squinch {}\n", env!("CARGO_PKG_VERSION")));
     let help = printed(&bench.ends(0, &["--help"]));
-    for word in ["mesh", "check", "inspect", "draw", "replay", "reduce", "Exit codes", "130"] {
+    for word in ["mesh", "check", "convert", "inspect", "draw", "replay", "reduce", "Exit codes", "130"] {
         assert!(help.contains(word), "{word}\n{help}");
     }
-    for verb in ["mesh", "check", "inspect", "draw", "replay", "reduce"] {
+    for verb in ["mesh", "check", "convert", "inspect", "draw", "replay", "reduce"] {
         assert!(printed(&bench.ends(0, &[verb, "--help"])).contains("Usage: squinch"), "{verb}");
     }
     let mesh = printed(&bench.ends(0, &["mesh", "--help"]));
@@ -192,9 +192,7 @@ fn what_comes_later_is_refused_by_name() {
         let output = bench.ends(2, &["mesh", "square.poly", "-o", "a.vtu", option]);
         assert!(said(&output).contains("not in this version"), "{option}: {}", said(&output));
     }
-    for verb in ["convert", "batch"] {
-        assert!(said(&bench.ends(2, &[verb, "square.poly"])).contains("not in this version"), "{verb}");
-    }
+    assert!(said(&bench.ends(2, &["batch", "square.poly"])).contains("not in this version"));
     assert!(bench.made().is_empty());
 }
 
@@ -681,6 +679,59 @@ fn every_stage_can_be_drawn() {
         bench.ends(0, &[&["draw", "a.vtu"][..], &options[..]].concat());
         assert!(fs::read(bench.0.join("a.png")).unwrap().starts_with(b"\x89PNG"));
     }
+}
+
+#[test]
+fn convert_keeps_names_and_says_what_it_loses() {
+    let bench = Bench::new("convert");
+    bench.ends(
+        0,
+        &[
+            "mesh",
+            "lens.json",
+            "-o",
+            "a.vtu",
+            "-o",
+            "a.msh",
+            "-o",
+            "a.ele",
+            "-o",
+            "b.msh",
+            "--format",
+            "vtu,msh,triangle,msh22",
+        ],
+    );
+    assert_eq!(bench.made(), ["a.ele", "a.msh", "a.node", "a.poly", "a.vtu", "b.msh"]);
+    assert!(bench.text("b.msh").starts_with("$MeshFormat\n2.2 0 8"));
+    bench.ends(0, &["check", "a.ele"]);
+    // Through formats and back: SU2 is the one that tells.
+    let output = bench.ends(0, &["convert", "a.vtu", "a.su2"]);
+    assert!(said(&output).contains("not kept by su2: links to curves"), "{}", said(&output));
+    for (from, to) in
+        [("a.ele", "c.inp"), ("c.inp", "c.vtk"), ("c.vtk", "c.obj"), ("c.obj", "c.msh"), ("c.msh", "c.su2")]
+    {
+        bench.ends(0, &["convert", from, to]);
+    }
+    let sorted = |file: &str| {
+        let mut lines: Vec<String> =
+            bench.text(file).lines().filter(|l| l.starts_with("MARKER")).map(String::from).collect();
+        lines.sort();
+        lines
+    };
+    assert_eq!(sorted("a.su2"), sorted("c.su2"));
+    assert_eq!(printed(&bench.ends(0, &["convert", "a.vtu", "-", "--format", "su2", "--quiet"])), bench.text("a.su2"));
+    let made = bench.made();
+    // Several files cannot go to standard output; nothing may be written over what is read, files beside it included.
+    for wrong in
+        [&["convert", "a.vtu", "-", "--format", "triangle"], &["mesh", "square.poly", "-o", "square.ele"] as &[&str]]
+    {
+        bench.ends(2, wrong);
+    }
+    bench.ends(2, &["convert", "a.vtu", "a.what"]);
+    bench.ends(3, &["convert", "missing.msh", "x.vtu"]);
+    bench.ends(3, &["convert", "lens.json", "x.vtu"]);
+    assert_eq!(bench.made(), made);
+    assert_eq!(bench.text("square.poly"), SQUARE);
 }
 
 #[test]

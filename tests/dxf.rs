@@ -584,7 +584,7 @@ fn units_and_version() {
     assert!(noted(&drawing, "names no unit") && drawing.format == "dxf (AC1032)");
     for number in 1..=24 {
         let (unit, _) = unit(&format!("9 $INSUNITS; 70 {number}")).unwrap();
-        assert!(squinch::request::metres(&unit).is_some(), "{unit}");
+        assert!(squinch::geometry::metres(&unit).is_some(), "{unit}");
     }
 }
 

@@ -5,8 +5,7 @@ use super::options::{Options, Resolved};
 use super::{Halt, Volume, remember, say};
 use clap::Args;
 use squinch::domain::Domain;
-use squinch::export;
-use squinch::import::vtu::{self, MeshFile};
+use squinch::import::mesh::{self, MeshFile};
 use squinch::mesh::quality::Quality;
 use squinch::mesh::verify::Status;
 use squinch::pipeline::{self, Exit, Plan};
@@ -16,7 +15,7 @@ use std::path::{Path, PathBuf};
 
 #[derive(Args)]
 pub struct Check {
-    /// A mesh file: .vtu; - for standard input
+    /// A mesh file: .vtu, .vtk, .msh, .su2, .inp, .obj, .stl, .ele; - for standard input
     #[arg(value_name = "MESH")]
     mesh: PathBuf,
     /// The drawing that the mesh is of: without it, checks that need the curves are n/a
@@ -30,19 +29,26 @@ pub struct Check {
     options: Options,
 }
 
+/// The mesh format of an input: by its suffix, or by its content.
+fn mesh_format(input: &Input) -> Option<mesh::Format> {
+    mesh::format_of(Path::new(&input.path)).or_else(|| mesh::Format::sniff(&input.bytes))
+}
+
 /// Whether an input is a mesh by its suffix, or without one by its content.
 pub fn is_mesh(input: &Input) -> bool {
     let path = Path::new(&input.path);
-    input.format.is_none()
-        && match path.extension() {
-            Some(_) => export::format_of(path) == Some(export::Format::Vtu),
-            None => vtu::sniff(&input.bytes),
-        }
+    let by_content = || mesh::Format::sniff(&input.bytes).is_some_and(|format| format != mesh::Format::Obj);
+    input.format.is_none() && (mesh::format_of(path).is_some() || path.extension().is_none() && by_content())
 }
 
 /// Reads the mesh of an input.
 pub fn read(input: &Input) -> Result<MeshFile, Halt> {
-    vtu::read(&input.bytes).map_err(|error| {
+    let path = Path::new(&input.path);
+    let Some(format) = mesh_format(input) else {
+        return Err(Halt::Unreadable(format!("{}: not a mesh file of a format that can be read", input.path)));
+    };
+    let beside: Vec<_> = format.beside().iter().map(|suffix| std::fs::read(path.with_extension(suffix)).ok()).collect();
+    mesh::read(&input.bytes, format, &beside).map_err(|error| {
         let failure = FailureReport::new(FailureKind::Unreadable, error.what, error.help);
         Halt::Failure(Box::new(failure), Some(Box::new(input.clone())))
     })

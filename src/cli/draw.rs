@@ -17,7 +17,7 @@ use std::path::PathBuf;
 
 #[derive(Args)]
 pub struct Draw {
-    /// A drawing, or a mesh .vtu; - for standard input
+    /// A drawing, or a mesh (.vtu, .msh, …); - for standard input
     #[arg(value_name = "IN")]
     input: PathBuf,
     /// What to draw; a mesh file is drawn as it is

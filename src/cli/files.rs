@@ -2,6 +2,7 @@
 
 use super::Halt;
 use squinch::case::Case;
+use squinch::export;
 use squinch::import::Format;
 use squinch::pipeline::Source;
 use squinch::request::Request;
@@ -48,6 +49,40 @@ pub fn read(path: &Path) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     io::stdin().lock().read_to_end(&mut bytes)?;
     Ok(bytes)
+}
+
+/// The format of an output: as asked for, else by its suffix.
+pub fn output_format(path: &Path, asked: Option<export::Format>) -> Result<export::Format, Halt> {
+    let format = asked.or_else(|| export::format_of(path)).ok_or_else(|| {
+        let names = export::Format::ALL.map(export::Format::name).join(", ");
+        Halt::Usage(format!("-o {}: say its format by --format: {names}", path.display()))
+    })?;
+    if path.as_os_str() == "-" && format.suffixes().len() > 1 {
+        let files = format.suffixes().join(", .");
+        return Err(Halt::Usage(format!("-o -: {} is several files: .{files}", format.name())));
+    }
+    Ok(format)
+}
+
+/// The files that an output consists of: the one named, or of a format of several those beside it.
+pub fn of_output(path: &Path, format: export::Format) -> Vec<PathBuf> {
+    match format.suffixes() {
+        [_] => vec![path.to_owned()],
+        several => several.iter().map(|suffix| path.with_extension(suffix)).collect(),
+    }
+}
+
+/// No output may be the input, or another output.
+pub fn each_once(files: impl IntoIterator<Item = PathBuf>) -> Result<(), Halt> {
+    let mut seen: Vec<PathBuf> = Vec::new();
+    for path in files.into_iter().filter(|path| path.as_os_str() != "-" && !path.starts_with("/dev")) {
+        let path = fs::canonicalize(&path).or_else(|_| std::path::absolute(&path)).unwrap_or(path);
+        if seen.contains(&path) {
+            return Err(Halt::Usage(format!("{} is named twice: each file is read or written once", path.display())));
+        }
+        seen.push(path);
+    }
+    Ok(())
 }
 
 /// Temporary files that exist now, for whoever ends the program early.

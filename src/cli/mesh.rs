@@ -1,7 +1,7 @@
 //! `mesh IN -o OUT`: reads, arranges, meshes, verifies, writes.
 
 use super::check::REQUEST_STAMP;
-use super::files::{Input, Staged, unwritable};
+use super::files::{self, Input, Staged, unwritable};
 use super::options::{Options, Resolved};
 use super::{Halt, Volume, remember, say, write_case};
 use clap::Args;
@@ -19,10 +19,11 @@ pub struct Mesh {
     /// A drawing: airfoil .dat, .dxf, .poly, .node, outline .json; - for standard input
     #[arg(value_name = "IN")]
     input: PathBuf,
-    /// Where the mesh goes: .vtu, .svg or .png; - for standard output; may be repeated
+    /// Where the mesh goes: .vtu, .vtk, .msh, .su2, .inp, .xdmf, .node/.ele/.poly, .glb, .gltf, .obj, .stl; a picture: .svg, .png; - for
+    /// standard output; may be repeated
     #[arg(short, long, value_name = "OUT", required = true, help_heading = "Output")]
     output: Vec<PathBuf>,
-    /// Formats of the outputs, in their order, where the suffix is not to tell
+    /// Formats of the outputs, in their order, where the suffix is not to tell (msh22 is Gmsh 2.2; triangle is .node/.ele/.poly)
     #[arg(long, value_parser = mesh_format, value_name = "FORMAT", value_delimiter = ',', help_heading = "Output")]
     format: Vec<Format>,
     /// The report as JSON; - for standard output
@@ -38,7 +39,9 @@ pub struct Mesh {
 impl Mesh {
     pub fn run(self, volume: Volume) -> Result<Exit, Halt> {
         let outputs = self.outputs()?;
-        self.each_file_once()?;
+        let files = outputs.iter().flat_map(|(path, format)| files::of_output(path, *format));
+        let others = [Some(&self.input), self.report.as_ref(), self.case.as_ref()].into_iter().flatten().cloned();
+        files::each_once(others.chain(files))?;
         let Resolved { request, input_format } = self.options.resolve()?;
         let input = Input::open(&self.input, input_format)?;
         remember(&input, &request);
@@ -55,25 +58,6 @@ impl Mesh {
         Ok(outcome.exit)
     }
 
-    /// No output may be the input, or another output.
-    fn each_file_once(&self) -> Result<(), Halt> {
-        let whole =
-            |path: &PathBuf| std::fs::canonicalize(path).or_else(|_| std::path::absolute(path)).unwrap_or(path.clone());
-        let files = [&self.input].into_iter().chain(&self.output).chain(&self.report).chain(&self.case);
-        let mut seen: Vec<PathBuf> = Vec::new();
-        for path in files.filter(|path| path.as_os_str() != "-" && !path.starts_with("/dev")) {
-            let path = whole(path);
-            if seen.contains(&path) {
-                return Err(Halt::Usage(format!(
-                    "{} is named twice: each file is read or written once",
-                    path.display()
-                )));
-            }
-            seen.push(path);
-        }
-        Ok(())
-    }
-
     /// Every output with its format.
     fn outputs(&self) -> Result<Vec<(&Path, Format)>, Halt> {
         let to_stdout =
@@ -85,12 +69,11 @@ impl Mesh {
             let (formats, outputs) = (self.format.len(), self.output.len());
             return Err(Halt::Usage(format!("--format names {formats} formats for {outputs} outputs")));
         }
-        let of = |(i, path): (usize, &'_ PathBuf)| self.format.get(i).copied().or_else(|| export::format_of(path));
-        let known = self.output.iter().enumerate().map(|(i, path)| match of((i, path)) {
-            Some(format) => Ok((path.as_path(), format)),
-            None => Err(Halt::Usage(format!("-o {}: say its format by --format: vtu, svg or png", path.display()))),
+        let formats = self.output.iter().enumerate().map(|(i, path)| {
+            let format = files::output_format(path, self.format.get(i).copied())?;
+            Ok((path.as_path(), format))
         });
-        known.collect()
+        formats.collect()
     }
 
     /// Writes what there is to write; the names of the mesh files.
@@ -107,9 +90,12 @@ impl Mesh {
         // A mesh that broke down in our hands must not reach a solver.
         if let (Some(mesh), false) = (&outcome.mesh, outcome.exit == Exit::Bug) {
             for (path, format) in outputs {
-                let bytes = encode(mesh, outcome, request, *format).map_err(unwritable)?;
-                staged.add(path, &bytes).map_err(unwritable)?;
-                wrote.push(path.display().to_string());
+                let encoded = encode(mesh, outcome, request, *format);
+                let encoded = encoded.map_err(|e| Halt::Unwritable(format!("{}: {e}", path.display())))?;
+                for (file, bytes) in files::of_output(path, *format).iter().zip(encoded) {
+                    staged.add(file, &bytes).map_err(unwritable)?;
+                    wrote.push(file.display().to_string());
+                }
             }
         }
         let seconds = &mut outcome.report.seconds;
@@ -138,17 +124,15 @@ pub fn mesh_with_progress(input: &Input, request: &Request, volume: Volume) -> O
     pipeline::run(&input.source(), request, Extent::Whole(&mut watch))
 }
 
-/// A mesh as the bytes of a file, stamped with what it was asked for.
-fn encode(mesh: &mesh::Mesh, outcome: &Outcome, request: &Request, format: Format) -> io::Result<Vec<u8>> {
+/// A mesh as the bytes of its files, stamped with what it was asked for.
+fn encode(mesh: &mesh::Mesh, outcome: &Outcome, request: &Request, format: Format) -> io::Result<Vec<Vec<u8>>> {
     let request = toml::to_string(request).expect("a request holds only words, numbers and lists of them");
     let stamps =
         [("program".to_owned(), format!("squinch {}", env!("CARGO_PKG_VERSION"))), (REQUEST_STAMP.to_owned(), request)];
-    let mut bytes = Vec::new();
-    export::write_mesh(mesh, outcome.domain.as_ref(), &stamps, format, &mut bytes)?;
-    Ok(bytes)
+    export::encode(mesh, outcome.domain.as_ref(), &stamps, format)
 }
 
-fn mesh_format(name: &str) -> Result<Format, String> {
+pub fn mesh_format(name: &str) -> Result<Format, String> {
     Format::named(name).ok_or_else(|| format!("one of {}", Format::ALL.map(Format::name).join(", ")))
 }
 

@@ -1,6 +1,7 @@
 //! The command line: one file a verb, what they share, and the exit code.
 
 mod check;
+mod convert;
 mod draw;
 mod files;
 mod inspect;
@@ -51,6 +52,8 @@ enum Verb {
     Mesh(Box<mesh::Mesh>),
     /// The judge's verdict on a mesh file
     Check(Box<check::Check>),
+    /// One mesh format to another, names kept
+    Convert(convert::Convert),
     /// What is in a file: curves, names, regions, corners, every repair and flaw with its place
     Inspect(Box<inspect::Inspect>),
     /// A picture of any stage of a file, or of a mesh
@@ -114,6 +117,7 @@ fn dispatch(verb: Verb, volume: Volume) -> Result<Exit, Halt> {
     match verb {
         Verb::Mesh(verb) => verb.run(volume),
         Verb::Check(verb) => verb.run(volume),
+        Verb::Convert(verb) => verb.run(volume),
         Verb::Inspect(verb) => verb.run(volume),
         Verb::Draw(verb) => verb.run(volume),
         Verb::Replay(verb) => verb.run(volume),
@@ -133,7 +137,6 @@ const LATER: &[&str] = &[
     "--mu",
     "--radius-edge",
     "--max-volume",
-    "convert",
     "batch",
 ];
 

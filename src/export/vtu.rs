@@ -1,5 +1,5 @@
 //! VTK XML unstructured grids (`.vtu`): triangles, then boundary lines, with regions, boundaries and links back to
-//! the curves.
+//! the curves. Order 2 is held (types 22 and 21).
 //!
 //! | place | array | holds |
 //! |---|---|---|
@@ -9,6 +9,7 @@
 //! | field | `region:NAME`, `boundary:NAME` Int32 | the numbers that carry the name |
 //! | field | `point_id`, `point_node` Int32 | the points of P and their nodes |
 //! | field | `ball_corner_point`, `ball_radius`, `ball_why` | protecting balls; why: 0 lfs₀, 1 encroached, 2 size |
+//! | field | `unit` UInt8 | the physical unit of a coordinate, as UTF-8
 //! | field | `squinch:KEY` | a stamp: Float64 where the text is a number's, else its UTF-8 bytes as UInt8 |
 //!
 //! Names are names of arrays, not VTK string arrays: meshio 5.3 refuses a whole file that has an array of type
@@ -49,7 +50,7 @@ pub fn write(mesh: &Mesh, stamps: &[(String, String)], out: &mut impl Write) -> 
     write_fields(mesh, stamps, &boundaries, out)?;
     let cells = mesh.triangles.len() + mesh.edges.len();
     writeln!(out, "</FieldData>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{cells}\">\n<Points>", mesh.nodes.len())?;
-    let points: Vec<f64> = mesh.nodes.iter().flat_map(|p| [p.x, p.y, 0.0]).collect();
+    let points: Vec<f64> = mesh.places().flatten().collect();
     Array::of_f64("Points", 3, points).write(out)?;
     writeln!(out, "</Points>\n<Cells>")?;
     write_cells(mesh, out)?;
@@ -59,15 +60,12 @@ pub fn write(mesh: &Mesh, stamps: &[(String, String)], out: &mut impl Write) -> 
 }
 
 fn check(mesh: &Mesh) -> io::Result<()> {
-    let invalid = |what: &str| Err(io::Error::new(io::ErrorKind::InvalidInput, what));
-    let corners = 3 * mesh.triangles.len() + 2 * mesh.edges.len();
+    let corners = 6 * mesh.triangles.len() + 3 * mesh.edges.len();
     if mesh.nodes.len().max(corners) > i32::MAX as usize {
-        return invalid("the mesh has more corners than VTU's Int32 can number (2^31 - 1)");
+        let what = "the mesh has more corners than VTU's Int32 can number (2^31 - 1)";
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, what));
     }
-    if mesh.triangle_regions.len() != mesh.triangles.len() {
-        return invalid("the mesh has not one region a triangle");
-    }
-    Ok(())
+    super::groups::check(mesh)
 }
 
 /// Boundary names numbered from 1 in the order of first use, which a reader recovers.
@@ -93,6 +91,9 @@ fn write_fields(
             _ => Array::of_u8(&name, value.as_bytes().to_vec()),
         }
         .write_field(out)?;
+    }
+    if let Some(unit) = &mesh.unit {
+        Array::of_u8("unit", unit.as_bytes().to_vec()).write_field(out)?;
     }
     // In the order of first use, so that the file is the same whatever the order of the table of names.
     let mut numbers: BTreeMap<NameId, Vec<i32>> = BTreeMap::new();
@@ -125,12 +126,15 @@ fn why_number(why: BallReason) -> u8 {
 
 fn write_cells(mesh: &Mesh, out: &mut impl Write) -> io::Result<()> {
     let (triangles, lines) = (mesh.triangles.len(), mesh.edges.len());
-    let corners = mesh.triangles.iter().flatten().chain(mesh.edges.iter().flat_map(|e| &e.nodes));
-    Array::of_i32("connectivity", corners.map(|v| v.0 as i32)).write(out)?;
-    let line_offsets = (1..=lines).map(|i| (3 * triangles + 2 * i) as i32);
-    Array::of_i32("offsets", (1..=triangles).map(|i| 3 * i as i32).chain(line_offsets)).write(out)?;
-    // VTK_TRIANGLE is 5, VTK_LINE is 3.
-    Array::of_u8("types", [vec![5; triangles], vec![3; lines]].concat()).write(out)
+    // VTK_TRIANGLE is 5, VTK_LINE 3; VTK_QUADRATIC_TRIANGLE 22, VTK_QUADRATIC_EDGE 21.
+    let ((triangle, corners), (line, ends)) = if mesh.order() == 1 { ((5, 3), (3, 2)) } else { ((22, 6), (21, 3)) };
+    let mids = |t| mesh.triangle_mids.get(t).into_iter().flatten();
+    let of_triangles = mesh.triangles.enumerate().flat_map(|(t, corners)| corners.iter().chain(mids(t)));
+    let of_lines = mesh.edges.iter().enumerate().flat_map(|(i, e)| e.nodes.iter().chain(mesh.edge_mids.get(i)));
+    Array::of_i32("connectivity", of_triangles.chain(of_lines).map(|v| v.0 as i32)).write(out)?;
+    let line_offsets = (1..=lines).map(|i| (corners * triangles + ends * i) as i32);
+    Array::of_i32("offsets", (1..=triangles).map(|i| (corners * i) as i32).chain(line_offsets)).write(out)?;
+    Array::of_u8("types", [vec![triangle; triangles], vec![line; lines]].concat()).write(out)
 }
 
 fn write_cell_data(mesh: &Mesh, boundaries: &BTreeMap<NameId, i32>, out: &mut impl Write) -> io::Result<()> {
@@ -214,7 +218,7 @@ fn compressed(block: &[u8]) -> io::Result<Vec<u8>> {
 }
 
 /// A text as the value of an XML attribute; white space that a parser would turn into blanks is written by number.
-fn attribute(text: &str) -> String {
+pub(super) fn attribute(text: &str) -> String {
     let mut value = String::with_capacity(text.len());
     for c in text.chars() {
         match c {

@@ -3,9 +3,9 @@
 
 pub mod airfoil;
 pub mod dxf;
+pub mod mesh;
 pub mod outline;
 pub mod poly;
-pub mod vtu;
 
 pub use airfoil::{AirfoilOptions, TrailingEdge};
 

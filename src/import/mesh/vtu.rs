@@ -1,7 +1,7 @@
 //! VTK XML unstructured grids (`.vtu`) → Mesh, whoever wrote them: ASCII, inline or appended (base64 or raw), with
 //! zlib or without.
 //!
-//! Read are triangles (type 5) and lines (type 3) in the plane; vertices (types 1 and 2) are left out and counted,
+//! Read are triangles (types 5 and 22) and lines (types 3 and 21) in a plane; vertices (types 1 and 2) are left out and counted,
 //! any other cell is an error. What our writer adds is read back bit for bit. In a
 //! foreign file, regions and boundaries are the values of the first of the cell arrays [`FOREIGN`] that it has, named
 //! by their numbers.
@@ -9,9 +9,10 @@
 //! Nothing is believed: every count is held against the bytes at hand, and all arrays together may grow to no more
 //! than `GROWTH` times the file plus `ALLOWANCE`.
 
-use crate::geometry::Point;
+use super::draft::plane;
+use super::{MeshError, MeshFile, Result, broken, unsupported};
 use crate::ids::{CurveId, PointId, RegionId, VertexId};
-use crate::mesh::{Ball, BallReason, CurveEdge, CurveLink, Mesh};
+use crate::mesh::{Ball, BallReason, CurveEdge, CurveLink};
 use base64::Engine;
 use quick_xml::Reader;
 use quick_xml::events::{BytesStart, Event};
@@ -24,40 +25,6 @@ pub const FOREIGN: [&str; 5] = ["region", "gmsh:physical", "medit:ref", "CellEnt
 const GROWTH: usize = 32;
 /// Small files of constant arrays may grow by more: 64 MB hurt nobody.
 const ALLOWANCE: usize = 64 << 20;
-
-/// A mesh as read, with what was said of it.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct MeshFile {
-    pub mesh: Mesh,
-    /// Keys and values that our writer was given; empty of a foreign file.
-    pub stamps: Vec<(String, String)>,
-    /// What was left out, one sentence each.
-    pub notes: Vec<String>,
-}
-
-/// Why a file is no mesh of ours, and what can be done.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{what}")]
-pub struct VtuError {
-    pub what: String,
-    pub help: String,
-}
-
-type Result<T> = std::result::Result<T, VtuError>;
-
-fn broken(what: impl Into<String>) -> VtuError {
-    VtuError { what: what.into(), help: "the file is damaged or not a VTU file: write it anew".into() }
-}
-
-fn unsupported(what: impl Into<String>, help: &str) -> VtuError {
-    VtuError { what: what.into(), help: help.into() }
-}
-
-/// Whether bytes begin as a VTK XML file does.
-pub fn sniff(bytes: &[u8]) -> bool {
-    let start = &bytes[..bytes.len().min(1024)]; // an XML declaration and a comment may come first
-    start.trim_ascii_start().starts_with(b"<") && start.windows(8).any(|word| word == b"<VTKFile")
-}
 
 /// Reads a mesh of triangles from the bytes of a `.vtu` file.
 pub fn read(bytes: &[u8]) -> Result<MeshFile> {
@@ -582,17 +549,13 @@ impl Builder {
         if values.len() as u64 != points.saturating_mul(3) {
             return Err(broken(format!("there are {} coordinates for {points} points", values.len())));
         }
-        let plane = values[2];
         for (i, p) in values.chunks_exact(3).enumerate() {
             if p.iter().any(|v| !v.is_finite()) {
                 return Err(broken(format!("point {i} is at ({}, {}, {})", p[0], p[1], p[2])));
             }
-            if p[2] != plane {
-                let what = format!("the mesh is not flat: point 0 has z = {plane}, point {i} z = {}", p[2]);
-                return Err(unsupported(what, "only meshes in a plane z = constant can be read"));
-            }
-            self.file.mesh.nodes.push(Point::new(p[0], p[1]));
         }
+        let places: Vec<[f64; 3]> = values.chunks_exact(3).map(|p| [p[0], p[1], p[2]]).collect();
+        (self.file.mesh.nodes, self.file.mesh.frame) = plane(&places)?;
         Ok(())
     }
 
@@ -627,19 +590,28 @@ impl Builder {
                 return Err(broken(format!("cell {cell} has a corner {node} that is no point")));
             }
             match (kind, nodes) {
-                (5, &[a, b, c]) => {
+                (5, &[a, b, c]) | (22, &[a, b, c, ..]) if nodes.len() == if kind == 5 { 3 } else { 6 } => {
                     self.file.mesh.triangles.push([a, b, c].map(|n| VertexId(n as u32)));
+                    if let &[ab, bc, ca] = &nodes[3..] {
+                        self.file.mesh.triangle_mids.push([ab, bc, ca].map(|n| VertexId(n as u32)));
+                    }
                     let region = ids.get(&at(&data.region, cell)).copied();
                     self.file.mesh.triangle_regions.push(region.unwrap_or(RegionId(0)));
                 }
-                (3, &[a, b]) => {
+                (3, &[a, b]) | (21, &[a, b, _]) => {
                     let name = self.file.mesh.names.intern(&boundaries.name(at(&data.boundary, cell)));
-                    let nodes = [a, b].map(|n| VertexId(n as u32));
-                    self.file.mesh.edges.push(CurveEdge { nodes, name, link: data.link(cell) });
+                    let ends = [a, b].map(|n| VertexId(n as u32));
+                    self.file.mesh.edge_mids.extend(nodes.get(2).map(|&n| VertexId(n as u32)));
+                    self.file.mesh.edges.push(CurveEdge { nodes: ends, name, link: data.link(cell) });
                 }
                 (1 | 2, _) => vertices += 1,
                 _ => return Err(refused(cell, kind, nodes.len())),
             }
+        }
+        let mesh = &self.file.mesh;
+        let mids = |n: usize, of: usize| n == if mesh.order() == 1 { 0 } else { of };
+        if !mids(mesh.triangle_mids.len(), mesh.triangles.len()) || !mids(mesh.edge_mids.len(), mesh.edges.len()) {
+            return Err(unsupported("cells of first and second order are mixed", "save the mesh in one order"));
         }
         if vertices > 0 {
             self.file.notes.push(format!("{vertices} vertex cells are left out"));
@@ -650,7 +622,11 @@ impl Builder {
     /// A region for every number that is named or that a triangle has, ascending; names of regions come before those
     /// of boundaries.
     fn regions(&mut self, types: &[i32], data: &CellData, groups: &Groups) -> BTreeMap<Option<i32>, RegionId> {
-        let used = types.iter().enumerate().filter(|&(_, &kind)| kind == 5).map(|(cell, _)| at(&data.region, cell));
+        let used = types
+            .iter()
+            .enumerate()
+            .filter(|&(_, &kind)| matches!(kind, 5 | 22))
+            .map(|(cell, _)| at(&data.region, cell));
         let numbers: BTreeSet<Option<i32>> = used.chain(groups.names.keys().map(|&n| Some(n))).collect();
         let mesh = &mut self.file.mesh;
         numbers.into_iter().map(|n| (n, mesh.regions.push(mesh.names.intern(&groups.name(n))))).collect()
@@ -683,6 +659,10 @@ impl Builder {
                 self.file.mesh.balls.push(Ball { corner, radius, why: ball_reason(why)? });
             }
         }
+        if let Some(array) = field("unit").filter(|array| array.kind == Kind::UInt(1)) {
+            let bytes: Vec<u8> = unpacker.numbers(array, 64)?.iter().map(|&b| b as u8).collect();
+            self.file.mesh.unit = Some(String::from_utf8_lossy(&bytes).into_owned());
+        }
         self.stamps(unpacker)
     }
 
@@ -714,16 +694,18 @@ fn ball_reason(why: i32) -> Result<BallReason> {
     }
 }
 
-fn refused(cell: usize, kind: i32, corners: usize) -> VtuError {
+fn refused(cell: usize, kind: i32, corners: usize) -> MeshError {
     let name = match kind {
-        3 | 5 => return broken(format!("cell {cell} of type {kind} has {corners} corners")),
+        3 | 5 | 21 | 22 => return broken(format!("cell {cell} of type {kind} has {corners} corners")),
         4 => "a polyline",
         6 => "a triangle strip",
         7 => "a polygon",
         8 | 9 => "a quadrilateral",
         10 => "a tetrahedron",
-        21 | 22 => "of second order",
         _ => "of a kind that is not read",
     };
-    unsupported(format!("cell {cell} is {name} (VTK type {kind})"), "only straight triangles and lines can be read")
+    unsupported(
+        format!("cell {cell} is {name} (VTK type {kind})"),
+        "only triangles and lines of order 1 or 2 can be read",
+    )
 }

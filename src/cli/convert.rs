@@ -1,0 +1,44 @@
+//! `convert MESH OUT`: one mesh format to another, names kept.
+
+use super::files::{self, Input, Staged, unwritable};
+use super::mesh::mesh_format;
+use super::{Halt, Volume, check, say};
+use clap::Args;
+use squinch::export::{self, Format};
+use squinch::pipeline::Exit;
+use std::path::PathBuf;
+
+#[derive(Args)]
+pub struct Convert {
+    /// A mesh file: .vtu, .vtk, .msh, .su2, .inp, .obj, .stl, .ele; - for standard input
+    #[arg(value_name = "MESH")]
+    mesh: PathBuf,
+    /// Where the mesh goes; - for standard output
+    #[arg(value_name = "OUT")]
+    output: PathBuf,
+    /// The format of the output, where the suffix is not to tell
+    #[arg(long, value_parser = mesh_format, value_name = "FORMAT")]
+    format: Option<Format>,
+}
+
+impl Convert {
+    pub fn run(self, volume: Volume) -> Result<Exit, Halt> {
+        let format = files::output_format(&self.output, self.format)?;
+        let outputs = files::of_output(&self.output, format);
+        files::each_once([self.mesh.clone()].into_iter().chain(outputs.clone()))?;
+        let input = Input::open(&self.mesh, None)?;
+        let file = check::read(&input)?;
+        let encoded = export::encode(&file.mesh, None, &file.stamps, format);
+        let encoded = encoded.map_err(|e| Halt::Unwritable(format!("{}: {e}", self.output.display())))?;
+        let mut staged = Staged::default();
+        outputs.iter().zip(&encoded).try_for_each(|(path, bytes)| staged.add(path, bytes)).map_err(unwritable)?;
+        staged.commit().map_err(unwritable)?;
+        if volume > Volume::Quiet {
+            file.notes.iter().for_each(|note| say::line(&format!("  {}: {note}", input.path)));
+            for loss in format.losses(&file.mesh) {
+                say::line(&format!("  not kept by {}: {loss}", format.name()));
+            }
+        }
+        Ok(Exit::Done)
+    }
+}

@@ -1,0 +1,188 @@
+//! The named groups of a mesh as files number them, and names that a format can bear.
+
+use crate::ids::{Id, NameId, RegionId, TriangleId, VertexId};
+use crate::mesh::{CurveEdge, Mesh};
+use std::collections::{BTreeMap, BTreeSet};
+use std::io;
+
+/// What a group is of; the word is how files call it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    Region,
+    Boundary,
+}
+
+impl Kind {
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Region => "region",
+            Self::Boundary => "boundary",
+        }
+    }
+}
+
+/// Regions and boundaries by name, each kind numbered from 0 in the order of first use. Regions of one name are one group.
+pub struct Groups<'m> {
+    mesh: &'m Mesh,
+    pub regions: Vec<&'m str>,
+    pub boundaries: Vec<&'m str>,
+    region_of: Vec<usize>,
+    boundary_of: BTreeMap<NameId, usize>,
+}
+
+impl<'m> Groups<'m> {
+    /// # Errors
+    /// `InvalidInput` where the mesh's lists do not fit together: writers index it without asking again.
+    pub fn of(mesh: &'m Mesh) -> io::Result<Self> {
+        check(mesh)?;
+        let mut numbers = BTreeMap::new();
+        let mut regions = Vec::new();
+        let region_of = mesh.regions.iter().map(|&name| number(&mut numbers, &mut regions, mesh, name)).collect();
+        let (mut boundary_of, mut boundaries) = (BTreeMap::new(), Vec::new());
+        for edge in &mesh.edges {
+            number(&mut boundary_of, &mut boundaries, mesh, edge.name);
+        }
+        Ok(Self { mesh, regions, boundaries, region_of, boundary_of })
+    }
+
+    /// The group of a region.
+    pub fn region(&self, region: RegionId) -> usize {
+        self.region_of[region.index()]
+    }
+
+    /// The group of an edge.
+    pub fn boundary(&self, edge: &CurveEdge) -> usize {
+        self.boundary_of[&edge.name]
+    }
+
+    /// The triangles of every group of regions, in the mesh's order.
+    pub fn triangles(&self) -> Vec<Vec<TriangleId>> {
+        let mut triangles = vec![Vec::new(); self.regions.len()];
+        for (t, &region) in self.mesh.triangle_regions.enumerate() {
+            triangles[self.region(region)].push(t);
+        }
+        triangles
+    }
+
+    /// The edges of every boundary, as places in [`Mesh::edges`], in the mesh's order.
+    pub fn edges(&self) -> Vec<Vec<usize>> {
+        let mut edges = vec![Vec::new(); self.boundaries.len()];
+        for (i, edge) in self.mesh.edges.iter().enumerate() {
+            edges[self.boundary(edge)].push(i);
+        }
+        edges
+    }
+}
+
+fn number<'m>(numbers: &mut BTreeMap<NameId, usize>, texts: &mut Vec<&'m str>, mesh: &'m Mesh, name: NameId) -> usize {
+    *numbers.entry(name).or_insert_with(|| {
+        texts.push(mesh.names.text(name));
+        texts.len() - 1
+    })
+}
+
+/// The lists of a mesh fit together: one region a triangle, every id within its list, mid nodes for all or for none.
+pub fn check(mesh: &Mesh) -> io::Result<()> {
+    let names = mesh.names.iter().count();
+    let node = |v: &VertexId| v.index() < mesh.nodes.len();
+    let mids = |n: usize, of: usize| n == if mesh.order() == 1 { 0 } else { of };
+    let right = mesh.triangle_regions.len() == mesh.triangles.len()
+        && mesh.triangle_regions.iter().all(|r| r.index() < mesh.regions.len())
+        && mesh.regions.iter().all(|n| n.index() < names)
+        && mesh.edges.iter().all(|e| e.name.index() < names && e.nodes.iter().all(node))
+        && mesh.triangles.iter().chain(mesh.triangle_mids.iter()).flatten().all(node)
+        && mids(mesh.triangle_mids.len(), mesh.triangles.len())
+        && mids(mesh.edge_mids.len(), mesh.edges.len())
+        && mesh.edge_mids.iter().all(node);
+    if right {
+        return Ok(());
+    }
+    Err(io::Error::new(io::ErrorKind::InvalidInput, "the lists of the mesh do not fit together"))
+}
+
+/// Names that a format can bear: each made `legal`, cut to `longest` bytes, and told apart (without regard to case) by a
+/// number at its end.
+pub fn legal_names(names: &[&str], longest: usize, legal: impl Fn(&str) -> String) -> Vec<String> {
+    let mut taken = BTreeSet::new();
+    let cut = |text: &str, longest: usize| {
+        let end = (0..=longest.min(text.len())).rev().find(|&end| text.is_char_boundary(end));
+        text[..end.unwrap_or(0)].to_owned()
+    };
+    let mut unique = |name: &&str| {
+        let stem = legal(name);
+        let mut candidate = cut(&stem, longest);
+        let mut n = 1;
+        while !taken.insert(candidate.to_lowercase()) {
+            n += 1;
+            let suffix = format!("_{n}");
+            candidate = cut(&stem, longest - suffix.len()) + &suffix;
+        }
+        candidate
+    };
+    names.iter().map(&mut unique).collect()
+}
+
+/// What a comment says of a name that the format could not bear; readers of ours take the name from it.
+pub fn name_comment(kind: Kind, legal: &str, name: &str) -> String {
+    let one_line: String = name.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
+    format!("name {} {legal} = {one_line}", kind.word())
+}
+
+/// An identifier for solvers: ASCII letters, digits, `_` and `-`, a letter first.
+pub fn identifier(name: &str) -> String {
+    let plain = |c: char| if c.is_ascii_alphanumeric() || matches!(c, '_' | '-') { c } else { '_' };
+    let text: String = name.chars().map(plain).collect();
+    if text.starts_with(|c: char| c.is_ascii_alphabetic()) { text } else { format!("S_{text}") }
+}
+
+/// A word without blanks or control characters.
+pub fn word(name: &str) -> String {
+    let text: String = name.chars().map(|c| if c.is_whitespace() || c.is_control() { '_' } else { c }).collect();
+    if text.is_empty() { "_".into() } else { text }
+}
+
+/// Every triangle as straight ones: itself, or of order 2 the four between its corners and mid nodes.
+pub fn straight_triangles(mesh: &Mesh, t: TriangleId) -> impl Iterator<Item = [VertexId; 3]> {
+    let [a, b, c] = mesh.triangles[t];
+    let four = mesh.triangle_mids.get(t).map(|&[ab, bc, ca]| [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]);
+    let one = if four.is_none() { Some([a, b, c]) } else { None };
+    one.into_iter().chain(four.into_iter().flatten())
+}
+
+/// Every edge as straight ones: itself, or of order 2 its halves.
+pub fn straight_edges(mesh: &Mesh, edge: usize) -> impl Iterator<Item = [VertexId; 2]> {
+    let [a, b] = mesh.edges[edge].nodes;
+    let halves = mesh.edge_mids.get(edge).map(|&m| [[a, m], [m, b]]);
+    let one = if halves.is_none() { Some([a, b]) } else { None };
+    one.into_iter().chain(halves.into_iter().flatten())
+}
+
+/// For every side of a triangle, its ends as [`undirected`] gives them: the triangles that have it, and as which of their sides (0:
+/// between corners 0 and 1, …).
+pub fn sides(mesh: &Mesh) -> BTreeMap<[VertexId; 2], Vec<(TriangleId, usize)>> {
+    let mut sides: BTreeMap<[VertexId; 2], Vec<(TriangleId, usize)>> = BTreeMap::new();
+    for (t, &corners) in mesh.triangles.enumerate() {
+        for side in 0..3 {
+            sides.entry(undirected([corners[side], corners[(side + 1) % 3]])).or_default().push((t, side));
+        }
+    }
+    sides
+}
+
+/// The ends of an edge, smaller id first.
+pub fn undirected([a, b]: [VertexId; 2]) -> [VertexId; 2] {
+    [a.min(b), a.max(b)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_made_legal_and_told_apart() {
+        let names = legal_names(&["a b", "A_B", "7", "", "straße"], 80, identifier);
+        assert_eq!(names, ["a_b", "A_B_2", "S_7", "S_", "stra_e"]);
+        assert_eq!(legal_names(&["äää", "äää", "ää"], 4, word), ["ää", "ä_2", "ä_3"]);
+        assert_eq!(legal_names(&["", " "], 9, word), ["_", "__2"]);
+    }
+}

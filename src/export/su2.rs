@@ -1,0 +1,73 @@
+//! SU2's native mesh, in two dimensions.
+//!
+//! Every edge that has a triangle on one side only is in exactly one marker: its boundary's, or `boundary` where the mesh has no
+//! name for it. Edges between two kept regions are in none: to SU2 a marker is a border of the flow. Names are written without
+//! blanks, and a comment keeps what a name was. Order 2 is refused: SU2 has straight cells only.
+//!
+//! Not held: regions (SU2 has one zone), the names of interfaces, the unit, the plane in space, links to curves, balls.
+
+use super::groups::{Groups, Kind, legal_names, name_comment, sides, word};
+use super::unsupported;
+use crate::ids::VertexId;
+use crate::mesh::Mesh;
+use std::collections::BTreeMap;
+use std::io::{self, Write};
+
+/// Name of edges at the rim that the mesh has no name for.
+const UNNAMED: &str = "boundary";
+
+/// # Errors
+/// Those of `out`; `Unsupported` of order 2; `InvalidInput` where the mesh's lists do not fit together.
+pub fn write(mesh: &Mesh, out: &mut impl Write) -> io::Result<()> {
+    let groups = Groups::of(mesh)?;
+    if mesh.order() > 1 {
+        return unsupported("SU2 has straight cells only: mesh with --order 1");
+    }
+    writeln!(out, "NDIME= 2\nNELEM= {}", mesh.triangles.len())?;
+    for (i, [a, b, c]) in mesh.triangles.iter().enumerate() {
+        writeln!(out, "5 {} {} {} {i}", a.0, b.0, c.0)?;
+    }
+    writeln!(out, "NPOIN= {}", mesh.nodes.len())?;
+    for (i, p) in mesh.nodes.iter().enumerate() {
+        writeln!(out, "{:?} {:?} {i}", p.x, p.y)?;
+    }
+    let markers = markers(mesh, &groups);
+    let names: Vec<&str> = markers.iter().map(|(name, _)| *name).collect();
+    let legal = legal_names(&names, usize::MAX, word);
+    writeln!(out, "NMARK= {}", markers.len())?;
+    for ((name, edges), legal) in markers.iter().zip(&legal) {
+        if legal != name {
+            writeln!(out, "% {}", name_comment(Kind::Boundary, legal, name))?;
+        }
+        writeln!(out, "MARKER_TAG= {legal}\nMARKER_ELEMS= {}", edges.len())?;
+        for [a, b] in edges {
+            writeln!(out, "3 {} {}", a.0, b.0)?;
+        }
+    }
+    Ok(())
+}
+
+/// The edges of the rim by boundary, each as its triangle has it: the domain on the left.
+fn markers<'m>(mesh: &Mesh, groups: &Groups<'m>) -> Vec<(&'m str, Vec<[VertexId; 2]>)> {
+    let mut rim: BTreeMap<[VertexId; 2], [VertexId; 2]> = BTreeMap::new();
+    for (edge, triangles) in sides(mesh) {
+        if let [(t, side)] = triangles[..] {
+            rim.insert(edge, [mesh.triangles[t][side], mesh.triangles[t][(side + 1) % 3]]);
+        }
+    }
+    let mut markers: Vec<(&str, Vec<_>)> = groups.boundaries.iter().map(|name| (*name, Vec::new())).collect();
+    for edge in &mesh.edges {
+        if let Some(directed) = rim.remove(&super::groups::undirected(edge.nodes)) {
+            markers[groups.boundary(edge)].1.push(directed);
+        }
+    }
+    if !rim.is_empty() {
+        let unnamed = rim.into_values();
+        match markers.iter_mut().find(|(name, _)| *name == UNNAMED) {
+            Some((_, edges)) => edges.extend(unnamed),
+            None => markers.push((UNNAMED, unnamed.collect())),
+        }
+    }
+    markers.retain(|(_, edges)| !edges.is_empty());
+    markers
+}
