@@ -151,6 +151,8 @@ pub(super) struct Network<'a> {
     pub nodes: IdVec<PointId, Node>,
     pub pieces: IdVec<CurveId, Piece>,
     pub repairs: Vec<Repair>,
+    /// Loops of a drawn curve that became lines: the curve, the place and the width. Itemised where some of the curve is left.
+    pub loops: Vec<(u32, Point, f64)>,
     /// The ends of the drawn curves, as they were drawn; `None` of curves of no length.
     pub drawn_ends: Vec<Option<[PointId; 2]>>,
     /// The drawn points.
@@ -193,6 +195,7 @@ impl<'a> Network<'a> {
             nodes: IdVec::new(),
             pieces: IdVec::new(),
             repairs: Vec::new(),
+            loops: Vec::new(),
             drawn_ends: Vec::new(),
             drawn_points: Vec::new(),
         };

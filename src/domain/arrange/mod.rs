@@ -11,8 +11,8 @@
 //! fits within it becomes a point or a line, and is itemised ([`RepairKind::Collapsed`]). A chain of shorter curves is thinned to steps
 //! of about a tolerance, so a loop of such is safe from three tolerances on.
 //!
-//! Everything is near-linear in the curves and their meetings but bundles of curves (not lines) around one point or between the same two
-//! points, which are compared each with each.
+//! Lines around one point, repeated ends and components in each other cost n log n. Compared each with each are still: pieces whose boxes meet
+//! although they do not (rings in each other, fans of curves, long parallel slanted lines), and curves between the same two points.
 //!
 //! All of it happens in a frame scaled by a power of two, so that the same drawing at another such scale gives the same bits.
 

@@ -329,21 +329,21 @@ impl Network<'_> {
         let gone = self.pieces[dropped].clone();
         let against = gone.ends[0] != self.pieces[kept].ends[0];
         let (first, second) = (self.entity(self.pieces[kept].source), self.entity(gone.source));
-        let whole = gone.whole && self.pieces[kept].whole;
-        let (kind, what) = match (gone.source == self.pieces[kept].source, whole) {
-            (true, _) => {
-                (RepairKind::Collapsed, format!("a loop of {second} no wider than the tolerance became one line"))
-            }
-            (_, true) => (RepairKind::Duplicate, format!("{second} repeats {first} and was dropped")),
-            _ => (RepairKind::Overlap, format!("{second} overlaps {first}; the common stretch became one")),
-        };
-        self.repair(kind, gone.curve.point(0.5), gap, what);
+        let at = gone.curve.point(0.5);
+        if gone.source == self.pieces[kept].source {
+            self.loops.push((gone.source, at, gap));
+        } else if gone.whole && self.pieces[kept].whole {
+            self.repair(RepairKind::Duplicate, at, gap, format!("{second} repeats {first} and was dropped"));
+        } else {
+            let what = format!("{second} overlaps {first}; the common stretch became one");
+            self.repair(RepairKind::Overlap, at, gap, what);
+        }
         let piece = &mut self.pieces[kept];
         piece.merged.push((gone.source, against));
         piece.merged.extend(gone.merged.iter().map(|&(source, reversed)| (source, reversed != against)));
     }
 
-    /// Itemises drawn curves of which nothing is left although they had a size.
+    /// Itemises drawn curves of which nothing is left although they had a size, and loops of others that became lines.
     pub fn itemise_collapsed(&mut self) {
         let mut left = vec![false; self.drawing.curves.len()];
         for piece in self.pieces.iter() {
@@ -355,6 +355,10 @@ impl Network<'_> {
             let size = extent(self.drawing.curves[source].curve.bounds());
             let what = format!("{} is no wider than the tolerance and became one point", self.entity(source as u32));
             self.repair(RepairKind::Collapsed, self.nodes[node].at, size, what);
+        }
+        for (source, at, gap) in std::mem::take(&mut self.loops).into_iter().filter(|l| left[l.0 as usize]) {
+            let what = format!("a loop of {} no wider than the tolerance became one line", self.entity(source));
+            self.repair(RepairKind::Collapsed, at, gap, what);
         }
     }
 }
