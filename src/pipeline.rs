@@ -2,7 +2,7 @@
 
 use crate::domain::{ArrangeError, ArrangeOptions, Domain, Drawing, DrawnCurve, SizeRequest};
 use crate::geometry::Point;
-use crate::import::{self, AirfoilOptions, Format, ImportError};
+use crate::import::{self, AirfoilOptions, Format, ImportError, SvgOptions};
 use crate::mesh::Mesh;
 use crate::mesh::quality::Quality;
 use crate::mesh::verify::{Status, Verdict, verify};
@@ -10,7 +10,7 @@ use crate::plane;
 use crate::plane::lopping::{self, Lopping, RefineError, Refined, Shrinking};
 use crate::refine::{Progress, Stop, StopReason};
 use crate::report::{FailureKind, FailureReport, MeshReport, PromiseReport, Report, StopReport};
-use crate::request::{BallShrinking, Keep, Midpoint, Request, SizeOf, TrailingEdge, metres};
+use crate::request::{BallShrinking, Keep, Midpoint, Request, SizeOf, Strokes, TrailingEdge, metres};
 use crate::size::{Sizing, Source as SizeSource};
 use kurbo::Affine;
 use std::collections::BTreeSet;
@@ -217,6 +217,14 @@ pub fn read(source: &Source, request: &Request) -> Result<Drawing, FailureReport
             incidence_deg: request.incidence,
         },
         nodes: source.nodes.map(<[u8]>::to_vec),
+        svg: SvgOptions {
+            strokes: match request.strokes {
+                Strokes::Auto => import::Strokes::Auto,
+                Strokes::Lines => import::Strokes::Lines,
+                Strokes::Ignore => import::Strokes::Ignore,
+            },
+            dpi: request.dpi,
+        },
     };
     let drawing = import::read(source.bytes, format, stem, &options)?;
     in_units(drawing, request)

@@ -47,11 +47,14 @@ pub struct Request {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tolerance: Option<f64>,
     pub fill_rule: FillChoice,
+    pub strokes: Strokes,
     pub keep: Keep,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub unit: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub scale: Option<f64>,
+    /// Pixels to an inch, in a drawing that gives no physical size.
+    pub dpi: f64,
     pub corner_arcs: Switch,
     pub max_vertices: usize,
     /// Seconds.
@@ -83,9 +86,11 @@ impl Default for Request {
             order: Order::First,
             tolerance: None,
             fill_rule: FillChoice::Auto,
+            strokes: Strokes::Auto,
             keep: Keep::Inside,
             unit: None,
             scale: None,
+            dpi: 96.0, // CSS
             corner_arcs: Switch::On,
             max_vertices: 5_000_000,
             timeout: None,
@@ -116,6 +121,7 @@ impl Request {
             ("min-edge", self.min_edge),
             ("grade", self.grade),
             ("scale", self.scale),
+            ("dpi", Some(self.dpi)),
             ("timeout", self.timeout),
         ];
         for (option, value) in positive {
@@ -282,6 +288,17 @@ pub enum Keep {
     Inside,
     /// Adds an axis-parallel box named `box` and keeps every bounded face.
     All,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Strokes {
+    /// Centre lines where nothing is filled; else left out.
+    Auto,
+    /// Centre lines of what is stroked and not filled.
+    Lines,
+    /// Left out.
+    Ignore,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
@@ -524,8 +541,17 @@ impl fmt::Display for SizeOf {
     }
 }
 
-/// Metres in a unit of length; `None` of a unit that has no fixed size ("chord", …) or is not known.
+/// Metres in a unit of length, which may have a factor before it ("0.35 mm"); `None` of a unit that has no fixed size ("chord", …) or
+/// is not known.
 pub fn metres(unit: &str) -> Option<f64> {
+    if let Some((factor, unit)) = unit.split_once(' ') {
+        let factor = number(factor).ok().filter(|f| f.is_finite() && *f > 0.0)?;
+        return metres_of_word(unit).map(|metres| factor * metres);
+    }
+    metres_of_word(unit)
+}
+
+fn metres_of_word(unit: &str) -> Option<f64> {
     let metres = match unit {
         "nm" => 1e-9,
         "um" | "µm" => 1e-6,
@@ -538,6 +564,9 @@ pub fn metres(unit: &str) -> Option<f64> {
         "ft" => 0.3048,
         "yd" => 0.9144,
         "mi" => 1609.344,
+        "pt" => 0.0254 / 72.0,
+        "pc" => 0.0254 / 6.0,
+        "px" => 0.0254 / 96.0, // CSS
         _ => return None,
     };
     Some(metres)

@@ -4,9 +4,11 @@
 pub mod airfoil;
 pub mod outline;
 pub mod poly;
+pub mod svg;
 pub mod vtu;
 
 pub use airfoil::{AirfoilOptions, TrailingEdge};
+pub use svg::{Strokes, SvgOptions};
 
 use crate::domain::Drawing;
 use std::path::Path;
@@ -54,10 +56,12 @@ pub enum Format {
     Node,
     /// Our own curves, as JSON.
     Outline,
+    /// Scalable Vector Graphics, plain or compressed.
+    Svg,
 }
 
 impl Format {
-    pub const ALL: [Self; 4] = [Self::Airfoil, Self::Poly, Self::Node, Self::Outline];
+    pub const ALL: [Self; 5] = [Self::Airfoil, Self::Poly, Self::Node, Self::Outline, Self::Svg];
 
     /// The name by which a user asks for the format.
     pub fn name(self) -> &'static str {
@@ -66,6 +70,7 @@ impl Format {
             Self::Poly => "poly",
             Self::Node => "node",
             Self::Outline => "outline",
+            Self::Svg => "svg",
         }
     }
 
@@ -76,12 +81,15 @@ impl Format {
 
     /// A guess from the first bytes, for files whose suffix says nothing.
     ///
-    /// JSON starts with a brace. Triangle's first line holds whole numbers of which the second, the dimension, is 2; with one line of
+    /// JSON starts with a brace, XML and gzip each in their own way. Triangle's first line holds whole numbers of which the second, the dimension, is 2; with one line of
     /// that shape more, the segment header, it is a `.poly`. Anything else that has a line of two numbers may be an airfoil.
     pub fn sniff(bytes: &[u8]) -> Option<Self> {
         let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
         if text.iter().find(|b| !b.is_ascii_whitespace()) == Some(&b'{') {
             return Some(Self::Outline);
+        }
+        if svg::sniff(text) {
+            return Some(Self::Svg);
         }
         if let Some(format) = poly::sniff(text) {
             return Some(format);
@@ -98,6 +106,7 @@ pub fn format_of(path: &Path) -> Option<Format> {
         "poly" => Some(Format::Poly),
         "node" => Some(Format::Node),
         "json" => Some(Format::Outline),
+        "svg" | "svgz" => Some(Format::Svg),
         _ => None,
     }
 }
@@ -108,6 +117,7 @@ pub struct Options {
     pub airfoil: AirfoilOptions,
     /// The `.node` file beside a `.poly` file that holds no vertices of its own.
     pub nodes: Option<Vec<u8>>,
+    pub svg: SvgOptions,
 }
 
 /// Reads a drawing. `stem` (the file's name without its suffix) is the title where the file gives none.
@@ -120,6 +130,7 @@ pub fn read(bytes: &[u8], format: Format, stem: &str, options: &Options) -> Resu
         Format::Poly => poly::read_poly(bytes, stem, options.nodes.as_deref()),
         Format::Node => poly::read_node(bytes, stem),
         Format::Outline => outline::read(bytes, stem),
+        Format::Svg => svg::read(bytes, stem, &options.svg),
     }
 }
 
