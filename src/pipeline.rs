@@ -243,7 +243,11 @@ fn in_units(mut drawing: Drawing, request: &Request) -> Result<Drawing, FailureR
     if let Some(unit) = &request.unit {
         let wanted = metres(unit).ok_or_else(|| {
             let what = format!("--unit {unit}: no unit of length that is known here");
-            FailureReport::new(FailureKind::Request, what, "nm, um, mm, cm, dm, m, km, in, ft, yd or mi")
+            FailureReport::new(
+                FailureKind::Request,
+                what,
+                "nm, um, mm, cm, dm, m, km, in, ft, yd, mi, pt, pc or px, or a number of them as in '0.5 mm'",
+            )
         })?;
         if let Some(own) = drawing.unit.as_ref().and_then(|(own, _)| metres(own)) {
             factor *= own / wanted;

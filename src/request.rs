@@ -617,6 +617,15 @@ mod tests {
     }
 
     #[test]
+    fn a_unit_may_have_a_factor() {
+        assert_eq!(metres("0.5 mm"), Some(0.5e-3));
+        assert_eq!(metres("px"), metres("in").map(|inch| inch / 96.0));
+        for wrong in ["chord", "-1 mm", "0 mm", "nan mm", "mm mm", "2 3 mm", " mm", "2 "] {
+            assert_eq!(metres(wrong), None, "{wrong}");
+        }
+    }
+
+    #[test]
     fn what_is_out_of_bounds_is_named() {
         let refused = |change: &dyn Fn(&mut Request)| {
             let mut request = Request::default();

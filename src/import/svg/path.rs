@@ -299,7 +299,7 @@ fn quarter(from: Point, to: Point, r: Vec2, k: usize) -> Option<Curve> {
         return Curve::bulge(from, to, QUARTER_BULGE).ok();
     }
     let start = [-FRAC_PI_2, 0.0, FRAC_PI_2, PI][k];
-    let center = if k % 2 == 0 { Point::new(from.x, to.y) } else { Point::new(to.x, from.y) };
+    let center = if matches!(k, 0 | 2) { Point::new(from.x, to.y) } else { Point::new(to.x, from.y) };
     let mut curve = Curve::ellipse(center, Vec2::new(r.x, 0.0), Vec2::new(0.0, r.y), start, FRAC_PI_2).ok()?;
     if let Curve::Ellipse(ellipse) = &mut curve {
         ellipse.ends = [from, to];

@@ -78,13 +78,17 @@ pub(super) fn parse(text: &str) -> Result<Document<'_>, ImportError> {
     check_cost(text)?;
     let options = ParsingOptions { allow_dtd: true, ..ParsingOptions::default() };
     Document::parse_with_options(text, options).map_err(|error| {
-        let at = error.pos();
         // The sentence of the parser ends in its own place.
         let what = error.to_string();
         let what = what.split(" at ").next().unwrap_or_default();
+        // Of a file that breaks off the parser tells no place: it is the end.
+        let cut_off = matches!(error, roxmltree::Error::UnexpectedEndOfStream | roxmltree::Error::UnclosedRootNode);
+        let (line, column) = match cut_off {
+            true => Lines::new(text).place(text.len()),
+            false => (error.pos().row as usize, error.pos().col as usize),
+        };
         let help = "the file is cut off, or no SVG: export it again";
-        let place = |n: u32| Some(n as usize).filter(|_| !text.is_empty());
-        ImportError { line: place(at.row), column: place(at.col), ..ImportError::new(format!("XML: {what}"), help) }
+        ImportError { column: Some(column), ..ImportError::at(line, format!("XML: {what}"), help) }
     })
 }
 
