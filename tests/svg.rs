@@ -473,6 +473,14 @@ fn style_sheets_cascade_by_specificity() {
 }
 
 #[test]
+fn matching_selectors_has_a_budget() {
+    let rules = "z g { fill: red }".repeat(300);
+    let (open, close) = ("<g>".repeat(3000), "</g>".repeat(3000));
+    let error = refused(&format!("<svg><style>{rules}</style>{open}{close}</svg>"));
+    assert!(error.what.contains("too many rules"), "{error}");
+}
+
+#[test]
 fn paint_is_inherited_and_named() {
     let drawing = svg(
         r##"<g fill="RED" color="#ABC"><circle r="1"/><circle r="1" fill="rgb(0,128,255)"/><circle r="1" fill="currentColor"/>

@@ -124,8 +124,6 @@ fn dispatch(verb: Verb, volume: Volume) -> Result<Exit, Halt> {
 /// Options and verbs of the contract that this version does not have yet.
 const LATER: &[&str] = &[
     "--size",
-    "--strokes",
-    "--dpi",
     "--seed",
     "--steiner",
     "--delta1",

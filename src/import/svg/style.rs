@@ -1,16 +1,17 @@
 //! How an element is painted: presentation attributes under style sheets under `style`, and what is inherited (SVG 2, chapter 6).
 //!
 //! Of CSS as much as drawings use: selectors of types, classes, ids and `*`, joined by descent, in lists, by specificity, with
-//! `!important`. Matching goes up the tree once for each selector, and has a budget.
+//! `!important`. Rules are found by what they ask of the element itself; matching goes up the tree once for each, and has a budget.
 
 use super::ImportError;
 use roxmltree::{Document, Node};
 use std::cell::Cell;
+use std::collections::BTreeMap;
 use std::str::FromStr;
 use svgtypes::{Color, Paint, PaintFallback};
 
 /// Elements compared with parts of selectors, in one file.
-const MATCHING_MAX: u64 = 100_000_000;
+const MATCHING_MAX: u64 = 20_000_000;
 
 macro_rules! properties {
     ($($property:ident $name:literal),* $(,)?) => {
@@ -226,6 +227,24 @@ impl<'a> Compound<'a> {
 
 // ---- sheets ----
 
+/// One thing that a selector asks of the element itself: an id where it asks for any, else a class, else the type.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Key<'a> {
+    Id(&'a str),
+    Class(&'a str),
+    Tag(&'a str),
+    Any,
+}
+
+impl<'a> Selector<'a> {
+    fn key(&self) -> Key<'a> {
+        let subject = &self.chains[0][0];
+        let id = subject.ids.first().map(|id| Key::Id(id));
+        let class = subject.classes.first().map(|class| Key::Class(class));
+        id.or(class).or(subject.tag.map(Key::Tag)).unwrap_or(Key::Any)
+    }
+}
+
 /// The text of all `<style>` elements, without comments.
 pub(super) fn sheet_text(document: &Document) -> String {
     let mut plain = String::new();
@@ -247,6 +266,7 @@ pub(super) fn sheet_text(document: &Document) -> String {
 /// Rules in the order in which they win: the last wins.
 pub(super) struct Sheet<'a> {
     rules: Vec<(Selector<'a>, usize)>,
+    by_key: BTreeMap<Key<'a>, Vec<usize>>,
     blocks: Vec<Vec<Declaration<'a>>>,
     /// Selectors and at-rules that are not read here.
     pub unread: usize,
@@ -255,12 +275,16 @@ pub(super) struct Sheet<'a> {
 
 impl<'a> Sheet<'a> {
     pub fn parse(text: &'a str) -> Self {
-        let mut sheet = Self { rules: Vec::new(), blocks: Vec::new(), unread: 0, spent: Cell::new(0) };
+        let (rules, blocks, by_key) = (Vec::new(), Vec::new(), BTreeMap::new());
+        let mut sheet = Self { rules, by_key, blocks, unread: 0, spent: Cell::new(0) };
         let mut rest = text.trim_start();
         while !rest.is_empty() {
             rest = if rest.starts_with('@') { sheet.skip_at_rule(rest) } else { sheet.add_rules(rest) }.trim_start();
         }
         sheet.rules.sort_by_key(|(selector, _)| selector.specificity);
+        for (k, (selector, _)) in sheet.rules.iter().enumerate() {
+            sheet.by_key.entry(selector.key()).or_default().push(k);
+        }
         sheet
     }
 
@@ -300,6 +324,18 @@ impl<'a> Sheet<'a> {
         body.get(close + 1..).unwrap_or("")
     }
 
+    /// The rules for an element, in the order in which they win.
+    fn matching(&self, node: Node<'a, 'a>) -> Vec<usize> {
+        let id = node.attribute("id").map(Key::Id);
+        let classes = node.attribute("class").unwrap_or("").split_ascii_whitespace().map(Key::Class);
+        let keys = [Key::Any, Key::Tag(node.tag_name().name())].into_iter().chain(id).chain(classes);
+        let rules = keys.filter_map(|key| self.by_key.get(&key)).flatten().copied();
+        let mut matching: Vec<usize> = rules.filter(|&rule| self.rules[rule].0.matches(node, &self.spent)).collect();
+        matching.sort_unstable();
+        matching.dedup();
+        matching
+    }
+
     /// What an element declares: attributes, then rules, then its `style`; what is important, again in this order.
     ///
     /// # Errors
@@ -311,15 +347,14 @@ impl<'a> Sheet<'a> {
                 declared.set(property, attribute.value().trim());
             }
         }
-        let matching: Vec<usize> =
-            self.rules.iter().filter(|(s, _)| s.matches(node, &self.spent)).map(|(_, block)| *block).collect();
+        let matching = self.matching(node);
         if self.spent.get() > MATCHING_MAX {
             let help = "set the style of the elements themselves: editors export this as presentation attributes";
             return Err(ImportError::new("the style sheet has too many rules for so many elements", help));
         }
         let own: Vec<_> = declarations(node.attribute("style").unwrap_or("")).collect();
         let blocks: Vec<&Vec<Declaration>> =
-            matching.iter().map(|&block| &self.blocks[block]).chain(std::iter::once(&own)).collect();
+            matching.iter().map(|&rule| &self.blocks[self.rules[rule].1]).chain(std::iter::once(&own)).collect();
         for important in [false, true] {
             for declaration in blocks.iter().flat_map(|block| block.iter()).filter(|d| d.important == important) {
                 declared.set(declaration.property, declaration.value);
