@@ -3,7 +3,7 @@
 use crate::domain::{ArrangeError, ArrangeOptions, Domain, DomainCurve, Drawing, DrawnCurve, SizeRequest, Unarranged};
 use crate::geometry::{Point, metres};
 use crate::ids::Id;
-use crate::import::{self, AirfoilOptions, Format, ImportError};
+use crate::import::{self, AirfoilOptions, Format, ImportError, SvgOptions};
 use crate::mesh::Mesh;
 use crate::mesh::elevate::elevate;
 use crate::mesh::quality::Quality;
@@ -12,7 +12,7 @@ use crate::plane;
 use crate::plane::lopping::{self, Lopping, RefineError, Refined, Shrinking};
 use crate::refine::{Stop, StopReason};
 use crate::report::{FailureKind, FailureReport, MeshReport, PromiseReport, Report, StopReport};
-use crate::request::{BallShrinking, Keep, Midpoint, Order, Request, SizeOf, TrailingEdge};
+use crate::request::{BallShrinking, Keep, Midpoint, Order, Request, SizeOf, Strokes, TrailingEdge};
 use crate::size::{ByPlace, Given, SAMPLE_GRADE, Sizing, Source as SizeSource};
 use crate::watch::{Progress, Stopped, Watch};
 use kurbo::Affine;
@@ -246,6 +246,14 @@ pub fn read(source: &Source, request: &Request) -> Result<Drawing, FailureReport
             incidence_deg: request.incidence,
         },
         nodes: source.nodes.map(<[u8]>::to_vec),
+        svg: SvgOptions {
+            strokes: match request.strokes {
+                Strokes::Auto => import::Strokes::Auto,
+                Strokes::Lines => import::Strokes::Lines,
+                Strokes::Ignore => import::Strokes::Ignore,
+            },
+            dpi: request.dpi,
+        },
     };
     let mut drawing = import::read(source.bytes, format, stem, &options)?;
     drawing.notes.extend(unused_options(format, request));
@@ -278,7 +286,11 @@ fn in_units(mut drawing: Drawing, request: &Request) -> Result<Drawing, FailureR
     if let Some(unit) = &request.unit {
         let wanted = metres(unit).ok_or_else(|| {
             let what = format!("--unit {unit}: no unit of length that is known here");
-            FailureReport::new(FailureKind::Request, what, "nm, um, mm, cm, dm, m, km, in, ft, yd or mi")
+            FailureReport::new(
+                FailureKind::Request,
+                what,
+                "nm, um, mm, cm, dm, m, km, in, ft, yd, mi, pt, pc or px, or a number of them as in '0.5 mm'",
+            )
         })?;
         if let Some(own) = drawing.unit.as_ref().and_then(|(own, _)| metres(own)) {
             factor *= own / wanted;

@@ -51,11 +51,14 @@ pub struct Request {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tolerance: Option<f64>,
     pub fill_rule: FillChoice,
+    pub strokes: Strokes,
     pub keep: Keep,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub unit: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub scale: Option<f64>,
+    /// Pixels to an inch, in a drawing that gives no physical size.
+    pub dpi: f64,
     pub corner_arcs: Switch,
     pub max_vertices: usize,
     /// Seconds.
@@ -88,9 +91,11 @@ impl Default for Request {
             order: Order::First,
             tolerance: None,
             fill_rule: FillChoice::Auto,
+            strokes: Strokes::Auto,
             keep: Keep::Inside,
             unit: None,
             scale: None,
+            dpi: 96.0, // CSS
             corner_arcs: Switch::On,
             max_vertices: 5_000_000,
             timeout: None,
@@ -121,6 +126,7 @@ impl Request {
             ("min-edge", self.min_edge),
             ("grade", self.grade),
             ("scale", self.scale),
+            ("dpi", Some(self.dpi)),
             ("timeout", self.timeout),
         ];
         for (option, value) in positive {
@@ -293,6 +299,17 @@ pub enum Keep {
     Inside,
     /// Adds an axis-parallel box named `box` and keeps every bounded face.
     All,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Strokes {
+    /// Centre lines where nothing is filled; else left out.
+    Auto,
+    /// Centre lines of what is stroked and not filled.
+    Lines,
+    /// Left out.
+    Ignore,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]

@@ -188,12 +188,29 @@ fn wrong_usage_is_2_and_leaves_nothing() {
 #[test]
 fn what_comes_later_is_refused_by_name() {
     let bench = Bench::new("later");
-    for option in ["--size=field.txt", "--dpi=96", "--strokes=lines", "--engine=gcdr", "--order=2", "--seed=1"] {
+    for option in ["--engine=gcdr", "--seed=1"] {
         let output = bench.ends(2, &["mesh", "square.poly", "-o", "a.vtu", option]);
         assert!(said(&output).contains("not in this version"), "{option}: {}", said(&output));
     }
     assert!(said(&bench.ends(2, &["batch", "square.poly"])).contains("not in this version"));
     assert!(bench.made().is_empty());
+}
+
+#[test]
+fn a_picture_is_meshed_in_the_unit_asked_for() {
+    let bench = Bench::new("picture");
+    let square = r#"<svg viewBox="0 0 72 72"><rect width="72" height="72"/><line x2="72" y2="72" stroke="red"/></svg>"#;
+    fs::write(bench.0.join("square.svg"), square).unwrap();
+    bench.ends(
+        0,
+        &["mesh", "square.svg", "-o", "a.vtu", "--report", "a.json", "--dpi=72", "--unit=mm", "--strokes=lines"],
+    );
+    let report: serde_json::Value = serde_json::from_str(&fs::read_to_string(bench.0.join("a.json")).unwrap()).unwrap();
+    let area = report["quality"]["exact_measure"].as_f64().unwrap();
+    assert!((area - 25.4 * 25.4).abs() < 1e-9, "{area}");
+    assert_eq!((report["request"]["dpi"].as_f64(), report["request"]["strokes"].as_str()), (Some(72.0), Some("lines")));
+    let names: Vec<_> = report["mesh"]["boundaries"].as_array().unwrap().iter().map(|b| b["name"].clone()).collect();
+    assert_eq!(names, ["black", "red"]);
 }
 
 #[test]

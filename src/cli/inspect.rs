@@ -15,7 +15,7 @@ use std::path::PathBuf;
 
 #[derive(Args)]
 pub struct Inspect {
-    /// A drawing: airfoil .dat, .dxf, .poly, .node, outline .json; - for standard input
+    /// A drawing: .svg, .dxf, airfoil .dat, .poly, .node, outline .json; - for standard input
     #[arg(value_name = "IN")]
     input: PathBuf,
     /// As JSON

@@ -126,19 +126,8 @@ fn dispatch(verb: Verb, volume: Volume) -> Result<Exit, Halt> {
 }
 
 /// Options and verbs of the contract that this version does not have yet.
-const LATER: &[&str] = &[
-    "--size",
-    "--strokes",
-    "--dpi",
-    "--seed",
-    "--steiner",
-    "--delta1",
-    "--delta2",
-    "--mu",
-    "--radius-edge",
-    "--max-volume",
-    "batch",
-];
+const LATER: &[&str] =
+    &["--size", "--seed", "--steiner", "--delta1", "--delta2", "--mu", "--radius-edge", "--max-volume", "batch"];
 
 fn usage(error: clap::Error) -> ExitCode {
     use clap::error::{ContextKind, ContextValue};

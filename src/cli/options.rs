@@ -8,7 +8,7 @@ use squinch::import::Format;
 use squinch::pipeline::Exit;
 use squinch::request::{
     BallShrinking, ChordError, EdgeTurning, Engine, FillChoice, Keep, MaxTurning, Midpoint, Order, Request, SizeOf,
-    Switch, TrailingEdge,
+    Strokes, Switch, TrailingEdge,
 };
 use squinch::size::Given;
 use std::path::{Path, PathBuf};
@@ -24,7 +24,7 @@ pub struct Options {
     /// Threads; the result does not depend on it [default: all]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..), allow_hyphen_values = true, help_heading = "General")]
     threads: Option<u64>,
-    /// Format of the input, where suffix and content do not tell: airfoil, poly, node, outline, dxf
+    /// Format of the input, where suffix and content do not tell: airfoil, poly, node, outline, dxf, svg
     #[arg(long, value_name = "FORMAT", help_heading = "Input")]
     input_format: Option<String>,
 
@@ -66,6 +66,9 @@ pub struct Options {
     /// Which faces are inside [default: auto, the file's own rule]
     #[arg(long, value_enum, value_name = "RULE", help_heading = "Input")]
     fill_rule: Option<FillChoice>,
+    /// What becomes of strokes: auto makes centre lines where nothing is filled [default: auto]
+    #[arg(long, value_enum, value_name = "HOW", help_heading = "Input")]
+    strokes: Option<Strokes>,
     /// all: adds a box named `box` and keeps every bounded face [default: inside]
     #[arg(long, value_enum, value_name = "WHAT", help_heading = "Input")]
     keep: Option<Keep>,
@@ -75,6 +78,9 @@ pub struct Options {
     /// Factor on every coordinate [default: 1]
     #[arg(long, value_name = "S", allow_hyphen_values = true, help_heading = "Input")]
     scale: Option<f64>,
+    /// Pixels to an inch, in a drawing that gives no physical size [default: 96]
+    #[arg(long, value_name = "D", help_heading = "Input")]
+    dpi: Option<f64>,
 
     /// Trailing edge of an airfoil [default: keep]
     #[arg(long, value_enum, value_name = "HOW", help_heading = "Airfoils")]

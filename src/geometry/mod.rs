@@ -59,8 +59,17 @@ impl Frame {
     }
 }
 
-/// Metres in a unit of length; `None` of a unit that has no fixed size ("chord", …) or is not known.
+/// Metres in a unit of length, which may have a factor before it ("0.35 mm"); `None` of a unit that has no fixed size ("chord", …) or
+/// is not known.
 pub fn metres(unit: &str) -> Option<f64> {
+    if let Some((factor, unit)) = unit.split_once(' ') {
+        let factor: f64 = factor.parse().ok().filter(|f: &f64| f.is_finite() && *f > 0.0)?;
+        return metres_of_word(unit).map(|metres| factor * metres);
+    }
+    metres_of_word(unit)
+}
+
+fn metres_of_word(unit: &str) -> Option<f64> {
     let metres = match unit {
         "angstrom" => 1e-10,
         "nm" => 1e-9,
@@ -87,8 +96,25 @@ pub fn metres(unit: &str) -> Option<f64> {
         // Resolutions B2 of 2012 and 2015 of the International Astronomical Union.
         "au" => 149_597_870_700.0,
         "ly" => 9_460_730_472_580_800.0,
-        "pc" => 3.085_677_581_491_367e16,
+        "parsec" => 3.085_677_581_491_367e16,
+        "pt" => 0.0254 / 72.0,
+        "pc" => 0.0254 / 6.0, // CSS: a pica
+        "px" => 0.0254 / 96.0,
         _ => return None,
     };
     Some(metres)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_unit_may_have_a_factor() {
+        assert_eq!(metres("0.5 mm"), Some(0.5e-3));
+        assert_eq!(metres("px"), metres("in").map(|inch| inch / 96.0));
+        for wrong in ["chord", "-1 mm", "0 mm", "nan mm", "mm mm", "2 3 mm", " mm", "2 "] {
+            assert_eq!(metres(wrong), None, "{wrong}");
+        }
+    }
 }

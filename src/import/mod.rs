@@ -6,8 +6,10 @@ pub mod dxf;
 pub mod mesh;
 pub mod outline;
 pub mod poly;
+pub mod svg;
 
 pub use airfoil::{AirfoilOptions, TrailingEdge};
+pub use svg::{Strokes, SvgOptions};
 
 use crate::domain::Drawing;
 use std::path::Path;
@@ -57,10 +59,12 @@ pub enum Format {
     Outline,
     /// Drawings of CAD systems.
     Dxf,
+    /// Scalable Vector Graphics, plain or compressed.
+    Svg,
 }
 
 impl Format {
-    pub const ALL: [Self; 5] = [Self::Airfoil, Self::Poly, Self::Node, Self::Outline, Self::Dxf];
+    pub const ALL: [Self; 6] = [Self::Airfoil, Self::Poly, Self::Node, Self::Outline, Self::Dxf, Self::Svg];
 
     /// The name by which a user asks for the format.
     pub fn name(self) -> &'static str {
@@ -70,6 +74,7 @@ impl Format {
             Self::Node => "node",
             Self::Outline => "outline",
             Self::Dxf => "dxf",
+            Self::Svg => "svg",
         }
     }
 
@@ -80,7 +85,8 @@ impl Format {
 
     /// A guess from the first bytes, for files whose suffix says nothing.
     ///
-    /// JSON starts with a brace, DXF with its sentinel or a section. Triangle's first line holds whole numbers of which the second, the dimension, is 2; with one line of
+    /// JSON starts with a brace, DXF with its sentinel or a section, XML and gzip each in their own way. Triangle's first line holds whole
+    /// numbers of which the second, the dimension, is 2; with one line of
     /// that shape more, the segment header, it is a `.poly`. Anything else that has a line of two numbers may be an airfoil.
     pub fn sniff(bytes: &[u8]) -> Option<Self> {
         let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
@@ -89,6 +95,9 @@ impl Format {
         }
         if dxf::sniff(bytes) {
             return Some(Self::Dxf);
+        }
+        if svg::sniff(text) {
+            return Some(Self::Svg);
         }
         if let Some(format) = poly::sniff(text) {
             return Some(format);
@@ -106,6 +115,7 @@ pub fn format_of(path: &Path) -> Option<Format> {
         "node" => Some(Format::Node),
         "json" => Some(Format::Outline),
         "dxf" => Some(Format::Dxf),
+        "svg" | "svgz" => Some(Format::Svg),
         _ => None,
     }
 }
@@ -116,6 +126,7 @@ pub struct Options {
     pub airfoil: AirfoilOptions,
     /// The `.node` file beside a `.poly` file that holds no vertices of its own.
     pub nodes: Option<Vec<u8>>,
+    pub svg: SvgOptions,
 }
 
 /// Reads a drawing. `stem` (the file's name without its suffix) is the title where the file gives none.
@@ -129,6 +140,7 @@ pub fn read(bytes: &[u8], format: Format, stem: &str, options: &Options) -> Resu
         Format::Node => poly::read_node(bytes, stem),
         Format::Outline => outline::read(bytes, stem),
         Format::Dxf => dxf::read(bytes, stem),
+        Format::Svg => svg::read(bytes, stem, &options.svg),
     }
 }
 

@@ -8,7 +8,7 @@ use encoding_rs::Encoding;
 /// The units of `$INSUNITS`, by number.
 const UNITS: [&str; 25] = [
     "", "in", "ft", "mi", "mm", "cm", "m", "km", "uin", "mil", "yd", "angstrom", "nm", "um", "dm", "dam", "hm", "Gm",
-    "au", "ly", "pc", "us-ft", "us-in", "us-yd", "us-mi",
+    "au", "ly", "parsec", "us-ft", "us-in", "us-yd", "us-mi",
 ];
 
 pub(super) struct Header {

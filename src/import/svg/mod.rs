@@ -1,0 +1,653 @@
+//! SVG: what is filled becomes shapes in the order of painting, as exact curves; centre lines of strokes where they are wanted.
+//!
+//! Coordinates are the user units of the outermost `svg` element, with y turned upward: the mirror image in its view box
+//! (y → 2·min-y + height − y), without one in its height, without either about y = 0. [`Drawing::unit`] says what a user unit is.
+//!
+//! Names: the Inkscape layer, else the id of the element or of the nearest group around it (a `use` gives its id to what it shows),
+//! else the colour. A path is drawn up to the first error in its data, as SVG asks. Not applied, but counted: clip paths, masks,
+//! filters, markers, patterns; not read, but counted: text, images, whatever is hidden. Viewports do not clip, and strokes have no width.
+
+mod path;
+mod style;
+mod units;
+mod xml;
+
+use super::ImportError;
+use crate::curve::Curve;
+use crate::domain::{Drawing, DrawnCurve, FillRule, Shape, Skipped};
+use crate::geometry::{Point, Vec2};
+use kurbo::{Affine, Size};
+use path::{HUGE, Outline, Subpath};
+use roxmltree::{Node, NodeId};
+use std::rc::Rc;
+use style::{Declared, Painted, Property, Sheet, Style};
+use units::{Axis, Page, Viewport};
+use xml::Lines;
+
+const SVG: &str = "http://www.w3.org/2000/svg";
+const XLINK: &str = "http://www.w3.org/1999/xlink";
+const INKSCAPE: &str = "http://www.inkscape.org/namespaces/inkscape";
+
+/// Elements and curves that `use` may show over again in one file.
+const EXPANSION_MAX: usize = 1_000_000;
+/// How deep `use` may show `use`.
+const USE_DEPTH_MAX: usize = 64;
+/// A map that squeezes one direction by more than this leaves nothing to see.
+const SQUEEZE_MIN: f64 = 1e-12;
+
+/// What becomes of strokes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Strokes {
+    /// Centre lines where nothing is filled; else what is only stroked is left out.
+    #[default]
+    Auto,
+    /// What is stroked and not filled is kept as centre lines.
+    Lines,
+    /// Left out.
+    Ignore,
+}
+
+/// How a drawing is read.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SvgOptions {
+    pub strokes: Strokes,
+    /// Pixels to an inch.
+    pub dpi: f64,
+}
+
+impl Default for SvgOptions {
+    fn default() -> Self {
+        Self { strokes: Strokes::Auto, dpi: units::CSS_DPI }
+    }
+}
+
+/// Reads an SVG file, or a compressed one (`.svgz`).
+///
+/// # Errors
+/// Where the text is no XML or no SVG, a number is too large for any drawing, or the file unfolds beyond its bounds.
+pub fn read(bytes: &[u8], stem: &str, options: &SvgOptions) -> Result<Drawing, ImportError> {
+    let (text, encoding) = xml::text(bytes)?;
+    let document = xml::parse(&text)?;
+    let root = document.root_element();
+    if local_name(root) != Some("svg") {
+        let what = format!("the outermost element is '{}', not 'svg'", root.tag_name().name());
+        return Err(ImportError::at(Lines::new(&text).place(root.range().start).0, what, "this is no SVG drawing"));
+    }
+    let css = style::sheet_text(&document);
+    let sheet = Sheet::parse(&css);
+    let page = Page::new(root, options.dpi);
+    let mut reader = Reader::new(&text, &sheet);
+    reader.drawing.notes.extend(encoding.into_iter().chain(page.notes));
+    if sheet.unread > 0 {
+        let note = format!("{} selectors or at-rules of the style sheet are of kinds that are not read.", sheet.unread);
+        reader.drawing.notes.push(note);
+    }
+    reader.index(root);
+    reader.walk(root, Context::of(page.viewport, page.upward))?;
+    let mut drawing = reader.drawn(options.strokes);
+    let title = root.children().find(|n| local_name(*n) == Some("title")).and_then(|n| n.text());
+    drawing.title = title.map(str::trim).filter(|t| !t.is_empty()).unwrap_or(stem).to_owned();
+    drawing.format = "svg".into();
+    drawing.unit = Some(page.unit);
+    Ok(drawing)
+}
+
+/// Whether these may be the first bytes of an SVG file: XML that comes to an `svg` element, or anything compressed.
+pub(super) fn sniff(bytes: &[u8]) -> bool {
+    let is_xml = bytes.iter().find(|b| !b.is_ascii_whitespace()) == Some(&b'<');
+    bytes.starts_with(b"\x1f\x8b") || is_xml && bytes.windows(4).any(|w| w == b"<svg" || w == b":svg")
+}
+
+/// The name of an SVG element; files that forget the namespace are read too.
+fn local_name<'a>(node: Node<'a, '_>) -> Option<&'a str> {
+    let name = node.tag_name();
+    (node.is_element() && name.namespace().is_none_or(|n| n == SVG)).then(|| name.name())
+}
+
+/// What an element inherits.
+#[derive(Clone)]
+struct Context<'a> {
+    style: Style<'a>,
+    /// To the drawing.
+    map: Affine,
+    viewport: Viewport,
+    layer: Option<&'a str>,
+    /// The id of the nearest group around.
+    id: Option<&'a str>,
+    /// The id that a `use` gives to the element that it shows.
+    alias: Option<&'a str>,
+    shown_by: Option<Rc<Shown>>,
+    /// Width and height that a `use` gives to a symbol.
+    given_size: [Option<&'a str>; 2],
+}
+
+impl Context<'_> {
+    fn of(viewport: Viewport, map: Affine) -> Self {
+        Self {
+            style: Style::default(),
+            map,
+            viewport,
+            layer: None,
+            id: None,
+            alias: None,
+            shown_by: None,
+            given_size: [None; 2],
+        }
+    }
+}
+
+/// A `use` and those that show it.
+struct Shown {
+    target: NodeId,
+    line: usize,
+    depth: usize,
+    by: Option<Rc<Shown>>,
+}
+
+/// An element with its outline in the drawing's coordinates.
+struct Element {
+    subpaths: Vec<Subpath>,
+    tag: &'static str,
+    filled: bool,
+    even_odd: bool,
+    name: String,
+    entity: String,
+}
+
+struct Reader<'a> {
+    text: &'a str,
+    lines: Lines,
+    sheet: &'a Sheet<'a>,
+    /// Elements by id, sorted; of several with one id the first counts.
+    ids: Vec<(&'a str, Node<'a, 'a>)>,
+    elements: Vec<Element>,
+    drawing: Drawing,
+    /// Elements and curves shown by `use` so far.
+    expanded: usize,
+    /// Commands of no length.
+    empty_commands: usize,
+    stack: Vec<(Node<'a, 'a>, Rc<Context<'a>>)>,
+}
+
+/// Elements that are drawn only through others, or not at all.
+const NOT_DRAWN: &[&str] = &[
+    "defs",
+    "symbol",
+    "clipPath",
+    "mask",
+    "pattern",
+    "marker",
+    "filter",
+    "linearGradient",
+    "radialGradient",
+    "title",
+    "desc",
+    "metadata",
+    "style",
+    "script",
+    "view",
+    "cursor",
+    "color-profile",
+    "font",
+    "font-face",
+    "meshgradient",
+    "hatch",
+    "solidColor",
+];
+
+/// Elements that are left out, and why.
+const LEFT_OUT: &[(&str, &str)] = &[
+    ("text", "text has no outlines here; convert it to paths"),
+    ("image", "a raster image has no curves"),
+    ("foreignObject", "it is no SVG"),
+    ("animate", "animations are not played"),
+    ("animateColor", "animations are not played"),
+    ("animateMotion", "animations are not played"),
+    ("animateTransform", "animations are not played"),
+    ("set", "animations are not played"),
+];
+
+impl<'a> Reader<'a> {
+    fn new(text: &'a str, sheet: &'a Sheet<'a>) -> Self {
+        Self {
+            text,
+            lines: Lines::new(text),
+            sheet,
+            ids: Vec::new(),
+            elements: Vec::new(),
+            drawing: Drawing::default(),
+            expanded: 0,
+            empty_commands: 0,
+            stack: Vec::new(),
+        }
+    }
+
+    fn index(&mut self, root: Node<'a, 'a>) {
+        self.ids = root.descendants().filter_map(|n| Some((n.attribute("id")?, n))).collect();
+        self.ids.sort_by_key(|(id, _)| *id);
+        self.ids.dedup_by_key(|(id, _)| *id);
+    }
+
+    fn by_id(&self, id: &str) -> Option<Node<'a, 'a>> {
+        self.ids.binary_search_by_key(&id, |(id, _)| id).ok().map(|at| self.ids[at].1)
+    }
+
+    fn line(&self, node: Node) -> usize {
+        self.lines.place(node.range().start).0
+    }
+
+    /// Counts an element as left out. `tag` is a word of SVG.
+    fn skip(&mut self, tag: &str, why: &str) {
+        match self.drawing.skipped.iter_mut().find(|s| s.entity == tag && s.why == why) {
+            Some(skipped) => skipped.count += 1,
+            None => self.drawing.skipped.push(Skipped { entity: tag.into(), count: 1, why: why.into() }),
+        }
+    }
+
+    // ---- the walk ----
+
+    /// Visits what is drawn, in the order of painting. Not by recursion: groups nest as deep as they like.
+    fn walk(&mut self, root: Node<'a, 'a>, context: Context<'a>) -> Result<(), ImportError> {
+        self.stack.push((root, Rc::new(context)));
+        while let Some((node, context)) = self.stack.pop() {
+            if context.shown_by.is_some() {
+                self.expand(1)?;
+            }
+            self.visit(node, &context)?;
+        }
+        Ok(())
+    }
+
+    fn expand(&mut self, by: usize) -> Result<(), ImportError> {
+        self.expanded += by;
+        if self.expanded <= EXPANSION_MAX {
+            return Ok(());
+        }
+        let what = format!("use elements show more than {EXPANSION_MAX} elements and curves");
+        Err(ImportError::new(what, "draw less of it, or in several files"))
+    }
+
+    fn visit(&mut self, node: Node<'a, 'a>, around: &Rc<Context<'a>>) -> Result<(), ImportError> {
+        let Some(tag) = local_name(node) else { return Ok(()) };
+        let shown = around.shown_by.as_ref().is_some_and(|s| s.target == node.id());
+        if NOT_DRAWN.contains(&tag) && !(shown && tag == "symbol") {
+            return Ok(());
+        }
+        if let Some((known, why)) = LEFT_OUT.iter().find(|(known, _)| *known == tag) {
+            self.skip(known, why);
+            return Ok(());
+        }
+        let declared = self.sheet.declared(node)?;
+        let Some(context) = self.enter(node, tag, around, &declared)? else { return Ok(()) };
+        match tag {
+            "svg" | "symbol" => {
+                if let Some(context) = self.viewport(node, tag, context) {
+                    self.push_children(node, context);
+                }
+            }
+            "g" | "a" => self.push_children(node, context),
+            "switch" => match node.children().find(|child| local_name(*child).is_some() && is_for_us(*child)) {
+                Some(child) => self.stack.push((child, Rc::new(context))),
+                None => self.skip("switch", "no child is for this reader"),
+            },
+            "use" => self.show(node, context),
+            _ => self.shape(node, tag, &context, &declared)?,
+        }
+        Ok(())
+    }
+
+    /// Pushes children so that the first is visited next.
+    fn push_children(&mut self, node: Node<'a, 'a>, context: Context<'a>) {
+        let context = Rc::new(context);
+        let begin = self.stack.len();
+        self.stack.extend(node.children().filter(Node::is_element).map(|child| (child, context.clone())));
+        self.stack[begin..].reverse();
+    }
+
+    /// The context inside an element; `None` where it is not shown.
+    fn enter(
+        &mut self,
+        node: Node<'a, 'a>,
+        tag: &'a str,
+        around: &Rc<Context<'a>>,
+        declared: &Declared<'a>,
+    ) -> Result<Option<Context<'a>>, ImportError> {
+        let known = known_tag(tag);
+        if declared.get(Property::Display) == Some("none") {
+            self.skip(known, "display is none");
+            return Ok(None);
+        }
+        if declared.is_transparent(Property::Opacity) {
+            self.skip(known, "opacity is 0");
+            return Ok(None);
+        }
+        let effects = [
+            (Property::ClipPath, "clip paths are not applied"),
+            (Property::Mask, "masks are not applied"),
+            (Property::Filter, "filters are not applied"),
+        ];
+        for (property, why) in effects {
+            if declared.get(property).is_some_and(|value| !matches!(value, "none" | "inherit")) {
+                self.skip(known, why);
+            }
+        }
+        let mut context = Context { style: around.style.of(declared), ..(**around).clone() };
+        if let Some(text) = declared.get(Property::Transform) {
+            match units::transform(text) {
+                Some(map) => context.map *= map,
+                None => {
+                    let line = self.line(node);
+                    self.drawing
+                        .notes
+                        .push(format!("{tag} (line {line}): the transform '{}' cannot be read.", cut(text)));
+                }
+            }
+        }
+        self.check_map(node, tag, context.map)?;
+        if is_flat(context.map) {
+            self.skip(known, "its transform leaves no extent");
+            return Ok(None);
+        }
+        let own = node.attribute((INKSCAPE, "label")).filter(|label| !label.trim().is_empty());
+        if node.attribute((INKSCAPE, "groupmode")) == Some("layer") {
+            context.layer = own.or(context.layer);
+        }
+        let is_root = node.parent().is_some_and(|parent| parent.is_root());
+        if !is_root {
+            let id = node.attribute("id").filter(|id| !id.trim().is_empty());
+            context.id = context.alias.take().or(id).or(context.id);
+        }
+        Ok(Some(context))
+    }
+
+    fn check_map(&self, node: Node, tag: &str, map: Affine) -> Result<(), ImportError> {
+        match map.as_coeffs().into_iter().find(|c| c.is_nan() || c.abs() > HUGE) {
+            Some(c) => Err(self.refused(node, tag, c)),
+            None => Ok(()),
+        }
+    }
+
+    fn refused(&self, node: Node, tag: &str, number: f64) -> ImportError {
+        let (line, column) = self.lines.place(node.range().start);
+        let what = format!("{} has a coordinate of {number:e}", label(tag, node));
+        ImportError {
+            column: Some(column),
+            ..ImportError::at(line, what, "correct the number, or take the element out")
+        }
+    }
+
+    /// The context inside an `svg` or a `symbol`: its view box fitted to its viewport. The outermost is its own measure.
+    fn viewport(&mut self, node: Node<'a, 'a>, tag: &str, mut context: Context<'a>) -> Option<Context<'a>> {
+        let given = std::mem::take(&mut context.given_size);
+        if node.parent().is_some_and(|parent| parent.is_root()) {
+            return Some(context);
+        }
+        let read = |text: Option<&str>, axis| text.and_then(|text| context.viewport.length(text, axis));
+        let Size { width, height } = context.viewport.size;
+        let side = |k: usize, name, axis, whole| {
+            read(given[k], axis).or_else(|| read(node.attribute(name), axis)).unwrap_or(whole)
+        };
+        let size = Size::new(side(0, "width", Axis::X, width), side(1, "height", Axis::Y, height));
+        let at = |name, axis| read(node.attribute(name), axis).unwrap_or(0.0);
+        let origin = Vec2::new(at("x", Axis::X), at("y", Axis::Y));
+        let mut map = context.map * Affine::translate(origin);
+        context.viewport.size = size;
+        let view = units::view_box(node);
+        if !(size.width > 0.0 && size.height > 0.0) || view == Some(None) {
+            self.skip(known_tag(tag), "its viewport has no extent");
+            return None;
+        }
+        if let Some(view) = view.flatten() {
+            map *= units::fit(node, view, size);
+            context.viewport.size = Size::new(view.w, view.h);
+        }
+        context.map = map;
+        Some(context)
+    }
+
+    /// Pushes what a `use` refers to.
+    fn show(&mut self, node: Node<'a, 'a>, mut context: Context<'a>) {
+        let href = node.attribute("href").or_else(|| node.attribute((XLINK, "href"))).unwrap_or("").trim();
+        let Some(id) = href.strip_prefix('#') else {
+            return self
+                .skip("use", if href.is_empty() { "it refers to nothing" } else { "it refers to another file" });
+        };
+        let Some(target) = self.by_id(id) else { return self.skip("use", "it refers to nothing") };
+        let around = std::iter::successors(context.shown_by.as_deref(), |s| s.by.as_deref());
+        let depth = context.shown_by.as_ref().map_or(0, |s| s.depth);
+        if target.range().contains(&node.range().start) || around.into_iter().any(|s| s.target == target.id()) {
+            return self.skip("use", "it refers to itself");
+        }
+        if depth == USE_DEPTH_MAX {
+            return self.skip("use", "it is nested too deep");
+        }
+        let at = |name, axis| node.attribute(name).and_then(|t| context.viewport.length(t, axis)).unwrap_or(0.0);
+        context.map *= Affine::translate((at("x", Axis::X), at("y", Axis::Y)));
+        context.given_size = match local_name(target) {
+            Some("svg" | "symbol") => [node.attribute("width"), node.attribute("height")],
+            _ => [None; 2],
+        };
+        context.alias = node.attribute("id").filter(|id| !id.trim().is_empty());
+        let line = self.line(node);
+        let by = context.shown_by.take();
+        context.shown_by = Some(Rc::new(Shown { target: target.id(), line, depth: depth + 1, by }));
+        self.stack.push((target, Rc::new(context)));
+    }
+
+    // ---- shapes ----
+
+    fn shape(
+        &mut self,
+        node: Node<'a, 'a>,
+        tag: &'a str,
+        context: &Context<'a>,
+        declared: &Declared<'a>,
+    ) -> Result<(), ImportError> {
+        let known = known_tag(tag);
+        let Some(outline) = self.outline(node, tag, context)? else {
+            self.skip(known, "it is no element of SVG that is drawn");
+            return Ok(());
+        };
+        if !context.style.visible {
+            self.skip(known, "visibility is hidden");
+            return Ok(());
+        }
+        let markers = [Property::Marker, Property::MarkerStart, Property::MarkerMid, Property::MarkerEnd];
+        if markers.into_iter().any(|m| declared.get(m).is_some_and(|value| value != "none")) {
+            self.skip(known, "markers are not drawn");
+        }
+        if let Some(number) = outline.huge {
+            return Err(self.refused(node, tag, number));
+        }
+        let what = label(tag, node);
+        let shown = context.shown_by.as_ref().map_or(String::new(), |s| format!(", shown by use (line {})", s.line));
+        let entity = format!("{what} (line {}{shown})", self.line(node));
+        if let Some((at, why)) = &outline.broken {
+            let place = self.data_place(node, tag, *at);
+            self.drawing.notes.push(format!("{entity}: drawn up to the error in its data{place}: {why}."));
+        }
+        self.empty_commands += outline.empty;
+        if outline.subpaths.is_empty() {
+            self.skip(known, "it has no extent");
+            return Ok(());
+        }
+        if context.shown_by.is_some() {
+            self.expand(outline.subpaths.iter().map(|s| s.curves.len()).sum())?;
+        }
+        let fill = self.paint_name(known, context.style.fill());
+        let stroke = self.paint_name(known, context.style.stroke());
+        // What lies on a line encloses nothing, whatever fills it.
+        let filled = fill.is_some() && outline.subpaths.iter().any(|s| !s.is_flat());
+        if !filled && stroke.is_none() {
+            self.skip(known, if fill.is_some() { "its fill has no extent" } else { "neither filled nor stroked" });
+            return Ok(());
+        }
+        let colour = if filled { fill } else { stroke }.unwrap_or_default();
+        let name = context.layer.or(context.id).map_or(colour, str::to_owned);
+        let even_odd = context.style.even_odd;
+        let subpaths = outline.subpaths.into_iter().map(|s| s.transformed(context.map)).collect();
+        self.elements.push(Element { subpaths, tag: known, filled, even_odd, name, entity });
+        Ok(())
+    }
+
+    /// The name of a paint, where it shows anything.
+    fn paint_name(&mut self, tag: &'static str, painted: Painted<'a>) -> Option<String> {
+        match painted {
+            Painted::No => None,
+            Painted::Colour(name) => Some(name),
+            Painted::Server(id, fallback) => match self.by_id(id).and_then(|server| local_name(server)) {
+                None => fallback,
+                Some(kind) => {
+                    if kind == "pattern" {
+                        self.skip(tag, "patterns are not drawn; the outline is filled whole");
+                    }
+                    Some(id.to_owned())
+                }
+            },
+        }
+    }
+
+    /// Line and column of an error in the data of a path, as far as they can be told.
+    fn data_place(&self, node: Node, tag: &str, at: Option<usize>) -> String {
+        let name = if tag == "path" { "d" } else { "points" };
+        let Some(attribute) = node.attribute_node(name) else { return String::new() };
+        let raw = &self.text[attribute.range_value()];
+        // Where characters were written as entities, the beginning of the data must do.
+        let plain = raw.chars().count() == attribute.value().chars().count();
+        let offset = match at {
+            Some(at) if plain => raw.char_indices().nth(at).map_or(raw.len(), |(byte, _)| byte),
+            None if plain => raw.len(),
+            _ => 0,
+        };
+        let (line, column) = self.lines.place(attribute.range_value().start + offset);
+        format!(" at line {line}, column {column}")
+    }
+
+    /// The outline of an element in its own coordinates; `None` of an element that is no shape.
+    fn outline(&self, node: Node, tag: &str, context: &Context) -> Result<Option<Outline>, ImportError> {
+        let mut huge = None;
+        let mut length = |name: &str, axis| -> Option<f64> {
+            let value = context.viewport.length(node.attribute(name)?, axis)?;
+            huge = huge.or((value.abs() > HUGE).then_some(value));
+            Some(value)
+        };
+        let mut pair =
+            |x: &str, y: &str| Point::new(length(x, Axis::X).unwrap_or(0.0), length(y, Axis::Y).unwrap_or(0.0));
+        let outline = match tag {
+            "path" => Outline::of_path(node.attribute("d").unwrap_or("")),
+            "polyline" | "polygon" => Outline::of_points(node.attribute("points").unwrap_or(""), tag == "polygon"),
+            "line" => Outline::of_line(pair("x1", "y1"), pair("x2", "y2")),
+            "rect" => {
+                let (corner, size) = (pair("x", "y"), pair("width", "height").to_vec2());
+                // One radius stands for both; a negative one is none.
+                let radius = |value: Option<f64>| value.filter(|r| *r >= 0.0);
+                let (rx, ry) = (radius(length("rx", Axis::X)), radius(length("ry", Axis::Y)));
+                let radii = Vec2::new(rx.or(ry).unwrap_or(0.0), ry.or(rx).unwrap_or(0.0));
+                Outline::of_rect(corner, size, radii)
+            }
+            "circle" => {
+                let center = pair("cx", "cy");
+                let radius = length("r", Axis::Both).unwrap_or(0.0);
+                Outline::of_ellipse(center, Vec2::new(radius, radius))
+            }
+            "ellipse" => {
+                let center = pair("cx", "cy");
+                let (rx, ry) = (length("rx", Axis::X), length("ry", Axis::Y));
+                Outline::of_ellipse(center, Vec2::new(rx.or(ry).unwrap_or(0.0), ry.or(rx).unwrap_or(0.0)))
+            }
+            _ => return Ok(None),
+        };
+        match huge {
+            Some(number) => Err(self.refused(node, tag, number)),
+            None => Ok(Some(outline)),
+        }
+    }
+
+    // ---- the drawing ----
+
+    /// Shapes, and centre lines as asked for.
+    fn drawn(mut self, strokes: Strokes) -> Drawing {
+        let any_filled = self.elements.iter().any(|e| e.filled);
+        let keep_lines = match strokes {
+            Strokes::Auto => !any_filled,
+            Strokes::Lines => true,
+            Strokes::Ignore => false,
+        };
+        for element in std::mem::take(&mut self.elements) {
+            if element.filled {
+                self.add_shape(element);
+            } else if keep_lines {
+                self.add_lines(element);
+            } else {
+                let why = "stroke only; --strokes lines keeps them";
+                self.skip(element.tag, why);
+            }
+        }
+        if self.empty_commands > 0 {
+            let (count, why) = (self.empty_commands, "of no length");
+            self.drawing.skipped.push(Skipped { entity: "path command".into(), count, why: why.into() });
+        }
+        self.drawing.fill = if any_filled { FillRule::Shapes } else { FillRule::Regions };
+        self.drawing
+    }
+
+    fn add_shape(&mut self, element: Element) {
+        let Element { subpaths, even_odd, name, entity, .. } = element;
+        let name = self.drawing.names.intern(&name);
+        let shape = self.drawing.shapes.push(Shape { name, even_odd, entity: entity.clone() });
+        let curves = subpaths.into_iter().flat_map(|subpath| {
+            let closing = subpath.closing();
+            subpath.curves.into_iter().chain(closing)
+        });
+        for (curve, k) in curves.zip(1..) {
+            let entity = format!("{entity}, curve {k}");
+            self.drawing.curves.push(DrawnCurve { curve, name, entity, shape: Some(shape) });
+        }
+    }
+
+    fn add_lines(&mut self, element: Element) {
+        let Element { subpaths, name, entity, .. } = element;
+        for (curve, k) in subpaths.into_iter().flat_map(|subpath| subpath.curves).zip(1..) {
+            self.drawing.add(curve, &name, format!("{entity}, curve {k}"));
+        }
+    }
+}
+
+impl Subpath {
+    fn transformed(self, map: Affine) -> Self {
+        Self { curves: self.curves.iter().map(|curve: &Curve| curve.transformed(map)).collect() }
+    }
+}
+
+/// Whether a child of a switch is for a reader that has no extensions and reads English.
+fn is_for_us(node: Node) -> bool {
+    let english = |list: &str| list.split(',').any(|language| language.trim().to_ascii_lowercase().starts_with("en"));
+    node.attribute("requiredExtensions").is_none() && node.attribute("systemLanguage").is_none_or(english)
+}
+
+fn is_flat(map: Affine) -> bool {
+    let [a, b, c, d, ..] = map.as_coeffs();
+    let size = a * a + b * b + c * c + d * d;
+    map.determinant().abs() <= SQUEEZE_MIN * size
+}
+
+/// The element's word, where it is one of SVG.
+fn known_tag(tag: &str) -> &'static str {
+    const TAGS: &[&str] = &[
+        "svg", "g", "a", "use", "symbol", "switch", "path", "rect", "circle", "ellipse", "line", "polyline", "polygon",
+    ];
+    TAGS.iter().find(|known| **known == tag).unwrap_or(&"unknown element")
+}
+
+/// `path "wing"`.
+fn label(tag: &str, node: Node) -> String {
+    match node.attribute("id") {
+        Some(id) => format!("{} \"{}\"", cut(tag), cut(id)),
+        None => cut(tag).to_owned(),
+    }
+}
+
+/// As much of a text of the file as a message should hold.
+fn cut(text: &str) -> &str {
+    text.char_indices().nth(60).map_or(text, |(end, _)| &text[..end])
+}
