@@ -36,6 +36,8 @@ pub struct Source<'a> {
 pub enum Exit {
     /// Every promise kept.
     Done = 0,
+    /// Of a batch: any input ended otherwise.
+    SomeFailed = 1,
     Usage = 2,
     Unreadable = 3,
     Geometry = 4,

@@ -125,7 +125,7 @@ pub fn mesh_with_progress(input: &Input, request: &Request, volume: Volume) -> O
 }
 
 /// A mesh as the bytes of its files, stamped with what it was asked for.
-fn encode(mesh: &mesh::Mesh, outcome: &Outcome, request: &Request, format: Format) -> io::Result<Vec<Vec<u8>>> {
+pub fn encode(mesh: &mesh::Mesh, outcome: &Outcome, request: &Request, format: Format) -> io::Result<Vec<Vec<u8>>> {
     let request = toml::to_string(request).expect("a request holds only words, numbers and lists of them");
     let stamps =
         [("program".to_owned(), format!("squinch {}", env!("CARGO_PKG_VERSION"))), (REQUEST_STAMP.to_owned(), request)];

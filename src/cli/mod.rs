@@ -1,5 +1,6 @@
 //! The command line: one file a verb, what they share, and the exit code.
 
+mod batch;
 mod check;
 mod convert;
 mod draw;
@@ -38,6 +39,7 @@ struct Cli {
 const EXIT_CODES: &str = "\
 Exit codes:
   0    done, every promise kept
+  1    batch: an input ended otherwise
   2    usage
   3    input unreadable
   4    geometry invalid
@@ -52,6 +54,8 @@ enum Verb {
     Mesh(Box<mesh::Mesh>),
     /// The judge's verdict on a mesh file
     Check(Box<check::Check>),
+    /// Many drawings, in parallel, each for itself
+    Batch(Box<batch::Batch>),
     /// One mesh format to another, names kept
     Convert(convert::Convert),
     /// What is in a file: curves, names, regions, corners, every repair and flaw with its place
@@ -117,6 +121,7 @@ fn dispatch(verb: Verb, volume: Volume) -> Result<Exit, Halt> {
     match verb {
         Verb::Mesh(verb) => verb.run(volume),
         Verb::Check(verb) => verb.run(volume),
+        Verb::Batch(verb) => verb.run(volume),
         Verb::Convert(verb) => verb.run(volume),
         Verb::Inspect(verb) => verb.run(volume),
         Verb::Draw(verb) => verb.run(volume),
@@ -126,8 +131,7 @@ fn dispatch(verb: Verb, volume: Volume) -> Result<Exit, Halt> {
 }
 
 /// Options and verbs of the contract that this version does not have yet.
-const LATER: &[&str] =
-    &["--size", "--seed", "--steiner", "--delta1", "--delta2", "--mu", "--radius-edge", "--max-volume", "batch"];
+const LATER: &[&str] = &["--seed", "--steiner", "--delta1", "--delta2", "--mu", "--radius-edge", "--max-volume"];
 
 fn usage(error: clap::Error) -> ExitCode {
     use clap::error::{ContextKind, ContextValue};

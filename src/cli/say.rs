@@ -260,6 +260,25 @@ pub fn repair_line(repair: &Repair) -> String {
     format!("{} {}, moved by {}", place(repair.at), repair.what, number(repair.size, 3))
 }
 
+/// How a batch ended: how many inputs with each exit code, `earlier` of them in an earlier run.
+pub fn batch(exits: &BTreeMap<u8, usize>, earlier: usize, seconds: f64) {
+    let inputs: usize = exits.values().sum();
+    let before = if earlier > 0 { format!(", {} of them earlier", count(earlier)) } else { String::new() };
+    line(&format!("{} {}{before}, {seconds:.1} s", Ink::stderr().bold("squinch"), plural(inputs, "input", "inputs")));
+    for (exit, n) in exits {
+        let what = match exit {
+            0 => "done, every promise kept",
+            2 => "with options that do not fit",
+            3 => "unreadable",
+            4 => "geometry invalid",
+            5 => "a requested bound missed, or a budget ran out",
+            6 => "output not written",
+            _ => "our bug",
+        };
+        line(&format!("  {:>8}  {what} ({exit})", count(*n)));
+    }
+}
+
 /// The end of a run: what went in, what came out, what of it is promised. Without a mesh the failure says it all.
 pub fn summary(outcome: &Outcome, wrote: &[String], volume: Volume) {
     let report = &outcome.report;
@@ -420,6 +439,35 @@ impl Bar {
         let (vertices, queued) = (count(progress.vertices), count(progress.queued));
         bar.set_message(format!("{}: {vertices} vertices, {queued} waiting", progress.phase));
         bar.tick();
+    }
+}
+
+/// How many inputs of a batch are done, while it lasts.
+pub struct Count(Option<ProgressBar>);
+
+impl Count {
+    pub fn new(volume: Volume, inputs: usize) -> Self {
+        let shown = volume > Volume::Quiet && io::stderr().is_terminal();
+        Self(shown.then(|| {
+            let bar = ProgressBar::new(inputs as u64);
+            let template = "{bar:40} {pos} of {len}  {elapsed}, {eta} to go";
+            bar.set_style(ProgressStyle::with_template(template).expect("a right template"));
+            bar
+        }))
+    }
+
+    pub fn one_more(&self) {
+        if let Some(bar) = &self.0 {
+            bar.inc(1);
+        }
+    }
+}
+
+impl Drop for Count {
+    fn drop(&mut self) {
+        if let Some(bar) = &self.0 {
+            bar.finish_and_clear();
+        }
     }
 }
 

@@ -1,0 +1,262 @@
+//! What is done of a batch: recorded as it happens, printed in the order of the inputs, counted at the end.
+//!
+//! The record is a file of JSON lines: first the request that all inputs had, then a line when an input is begun and one when it is done,
+//! each written at once. An input is done once its files have their names, so that whatever ends the program, what is recorded as
+//! done is there, and the rest is done by `--resume`.
+
+use crate::cli::files;
+use crate::cli::{Halt, Volume, say};
+use serde::{Deserialize, Serialize};
+use squinch::export::Format;
+use squinch::pipeline::{self, Exit, Outcome};
+use squinch::report::{FailureKind, FailureReport};
+use squinch::request::Request;
+use std::collections::BTreeMap;
+use std::fs::{File, OpenOptions};
+use std::io::{self, Write};
+use std::path::Path;
+use std::sync::{Mutex, PoisonError};
+use std::time::Instant;
+
+/// What came of one input: a line of the record and of standard output.
+#[derive(Serialize)]
+pub struct Line {
+    pub input: String,
+    pub exit: u8,
+    /// How it ended, in words.
+    pub ending: String,
+    pub kept: bool,
+    pub outputs: Vec<String>,
+    pub vertices: usize,
+    pub triangles: usize,
+    pub min_angle_deg: Option<f64>,
+    /// Triangles below the angle asked for that a corner excuses.
+    pub excused: usize,
+    pub repairs: usize,
+    pub skipped: usize,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub failure: Option<FailureReport>,
+    pub seconds: f64,
+}
+
+impl Line {
+    pub fn of(input: String, outcome: &Outcome) -> Self {
+        let report = &outcome.report;
+        Self {
+            input,
+            exit: outcome.exit as u8,
+            ending: pipeline::ending(outcome),
+            kept: report.promise.as_ref().is_some_and(|p| p.kept),
+            outputs: Vec::new(),
+            vertices: report.mesh.as_ref().map_or(0, |m| m.vertices),
+            triangles: report.mesh.as_ref().map_or(0, |m| m.triangles),
+            min_angle_deg: report.quality.as_ref().map(|q| q.min_angle_deg),
+            excused: report.promise.as_ref().map_or(0, |p| p.excused.count),
+            repairs: report.input.repairs.len(),
+            skipped: report.input.skipped.iter().map(|s| s.count).sum(),
+            failure: report.failure.clone(),
+            seconds: 0.0,
+        }
+    }
+
+    /// Of an input that did not come to a run.
+    pub fn failed(input: String, failure: FailureReport) -> Self {
+        Self {
+            input,
+            exit: failure.kind.exit() as u8,
+            ending: failure.what.clone(),
+            kept: false,
+            outputs: Vec::new(),
+            vertices: 0,
+            triangles: 0,
+            min_angle_deg: None,
+            excused: 0,
+            repairs: 0,
+            skipped: 0,
+            failure: Some(failure),
+            seconds: 0.0,
+        }
+    }
+}
+
+/// A line of the record as it is read back.
+#[derive(Deserialize)]
+#[serde(untagged)]
+enum Entry {
+    Head { request: String, formats: Vec<String> },
+    Begun { begun: String },
+    Done { input: String, exit: u8, outputs: Vec<String> },
+}
+
+/// An input at which the program itself ended so often is not begun again.
+const TRIES: usize = 2;
+
+pub struct Record {
+    path: String,
+    file: File,
+    /// Exit codes of the inputs that an earlier run finished.
+    done: BTreeMap<String, u8>,
+    /// Inputs that an earlier run began and did not finish, and how often.
+    begun: BTreeMap<String, usize>,
+}
+
+impl Record {
+    /// Opens the record to go on with it, or begins it anew.
+    pub fn open(path: &Path, resume: bool, request: &Request, formats: &[Format]) -> Result<Self, Halt> {
+        let shown = path.display().to_string();
+        let request = toml::to_string(request).expect("a request holds only words, numbers and lists of them");
+        let formats: Vec<String> = formats.iter().map(|f| f.name().to_owned()).collect();
+        let text = match std::fs::read(path) {
+            Ok(bytes) if resume => String::from_utf8_lossy(&bytes).into_owned(),
+            Err(error) if resume && error.kind() != io::ErrorKind::NotFound => {
+                return Err(Halt::Unreadable(format!("{shown}: {error}")));
+            }
+            _ => String::new(),
+        };
+        let mut entries = text.lines().filter_map(|line| serde_json::from_str(line).ok());
+        match entries.next() {
+            None => {}
+            Some(Entry::Head { request: r, formats: f }) if r == request && f == formats => {}
+            Some(_) => {
+                let what = format!("{shown} is of a batch with other options: use them again, or another --out-dir");
+                return Err(Halt::Usage(what));
+            }
+        }
+        let mut opened = OpenOptions::new();
+        opened.create(true).write(true);
+        let file = if resume { opened.append(true).open(path) } else { opened.truncate(true).open(path) };
+        let file = file.map_err(|e| Halt::Unwritable(format!("{shown}: {e}")))?;
+        let mut record = Self { path: shown, file, done: BTreeMap::new(), begun: BTreeMap::new() };
+        entries.for_each(|entry| record.recall(entry));
+        let begins = if text.is_empty() {
+            record.write(&serde_json::json!({ "request": request, "formats": formats }))
+        } else if text.ends_with('\n') {
+            Ok(())
+        } else {
+            // The last line was cut short.
+            record.file.write_all(b"\n")
+        };
+        begins.map_err(|e| record.unwritable(&e))?;
+        Ok(record)
+    }
+
+    fn recall(&mut self, entry: Entry) {
+        match entry {
+            Entry::Head { .. } => {}
+            Entry::Begun { begun } => *self.begun.entry(begun).or_default() += 1,
+            Entry::Done { input, exit, outputs } => {
+                self.begun.remove(&input);
+                if outputs.iter().all(|path| Path::new(path).exists()) {
+                    self.done.insert(input, exit);
+                }
+            }
+        }
+    }
+
+    /// The exit code of an input that an earlier run finished.
+    pub fn done(&self, input: &str) -> Option<u8> {
+        self.done.get(input).copied()
+    }
+
+    fn write(&mut self, line: &impl Serialize) -> io::Result<()> {
+        let mut text = serde_json::to_string(line)?;
+        text.push('\n');
+        self.file.write_all(text.as_bytes())
+    }
+
+    fn unwritable(&self, error: &io::Error) -> Halt {
+        Halt::Unwritable(format!("{}: {error}", self.path))
+    }
+}
+
+/// Where the workers of a batch report.
+pub struct Desk {
+    state: Mutex<State>,
+    earlier: usize,
+    volume: Volume,
+}
+
+struct State {
+    record: Record,
+    bar: say::Count,
+    /// The next line to be printed, and those that wait for their turn.
+    next: usize,
+    waiting: BTreeMap<usize, String>,
+    /// How many inputs ended with each exit code.
+    exits: BTreeMap<u8, usize>,
+    /// The first thing that could not be written: the batch goes on, and ends with it.
+    unwritten: Option<Halt>,
+}
+
+impl Desk {
+    /// For so many inputs; `earlier` are the exit codes of those that were done before.
+    pub fn new(record: Record, earlier: &[u8], inputs: usize, volume: Volume) -> Self {
+        let mut exits: BTreeMap<u8, usize> = BTreeMap::new();
+        earlier.iter().for_each(|&exit| *exits.entry(exit).or_default() += 1);
+        let bar = say::Count::new(volume, inputs);
+        let state = State { record, bar, next: 0, waiting: BTreeMap::new(), exits, unwritten: None };
+        Self { state: Mutex::new(state), earlier: earlier.len(), volume }
+    }
+
+    fn state(&self) -> std::sync::MutexGuard<'_, State> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Notes that an input is begun.
+    ///
+    /// # Errors
+    /// Where the program ended at it before, more than once: memory, or a fault of ours that cannot be caught.
+    pub fn begin(&self, input: &str) -> Result<(), FailureReport> {
+        let mut state = self.state();
+        if state.record.begun.get(input).is_some_and(|&n| n >= TRIES) {
+            let what = format!("the program ended {TRIES} times while it worked on this input");
+            return Err(FailureReport::new(FailureKind::Bug, what, "mesh it alone, with --max-vertices and --timeout"));
+        }
+        state.write(&serde_json::json!({ "begun": input }));
+        Ok(())
+    }
+
+    /// Records what came of the k-th input, and prints it when all before it are.
+    pub fn end(&self, k: usize, line: &Line) {
+        let mut state = self.state();
+        let text = serde_json::to_string(line).expect("a line holds only words, numbers and lists of them");
+        state.write(line);
+        *state.exits.entry(line.exit).or_default() += 1;
+        state.bar.one_more();
+        state.waiting.insert(k, text);
+        let next = state.next;
+        let mut ready = String::new();
+        for turn in next.. {
+            let Some(text) = state.waiting.remove(&turn) else { break };
+            ready.push_str(&text);
+            ready.push('\n');
+            state.next = turn + 1;
+        }
+        if let Err(halt) = files::print(&ready) {
+            state.unwritten.get_or_insert(halt);
+        }
+    }
+
+    /// The summary and the exit code.
+    pub fn close(self, start: Instant) -> Result<Exit, Halt> {
+        let state = self.state.into_inner().unwrap_or_else(PoisonError::into_inner);
+        drop(state.bar);
+        if let Some(halt) = state.unwritten {
+            return Err(halt);
+        }
+        let failed: usize = state.exits.iter().filter(|(exit, _)| **exit != 0).map(|(_, n)| n).sum();
+        if self.volume > Volume::Quiet {
+            say::batch(&state.exits, self.earlier, start.elapsed().as_secs_f64());
+        }
+        Ok(if failed > 0 { Exit::SomeFailed } else { Exit::Done })
+    }
+}
+
+impl State {
+    fn write(&mut self, line: &impl Serialize) {
+        if let Err(error) = self.record.write(line) {
+            let halt = self.record.unwritable(&error);
+            self.unwritten.get_or_insert(halt);
+        }
+    }
+}
