@@ -1,7 +1,7 @@
 //! From bytes to a judged mesh: read → arrange → split to turning → refine → verify. Each stage can be had alone.
 
 use crate::domain::{ArrangeError, ArrangeOptions, Domain, Drawing, DrawnCurve, SizeRequest};
-use crate::geometry::Point;
+use crate::geometry::{Point, metres};
 use crate::import::{self, AirfoilOptions, Format, ImportError};
 use crate::mesh::Mesh;
 use crate::mesh::elevate::elevate;
@@ -11,7 +11,7 @@ use crate::plane;
 use crate::plane::lopping::{self, Lopping, RefineError, Refined, Shrinking};
 use crate::refine::{Progress, Stop, StopReason};
 use crate::report::{FailureKind, FailureReport, MeshReport, PromiseReport, Report, StopReport};
-use crate::request::{BallShrinking, Keep, Midpoint, Order, Request, SizeOf, TrailingEdge, metres};
+use crate::request::{BallShrinking, Keep, Midpoint, Order, Request, SizeOf, TrailingEdge};
 use crate::size::{Sizing, Source as SizeSource};
 use kurbo::Affine;
 use std::collections::BTreeSet;
@@ -228,9 +228,11 @@ pub fn read(source: &Source, request: &Request) -> Result<Drawing, FailureReport
             incidence_deg: request.incidence,
         },
         nodes: source.nodes.map(<[u8]>::to_vec),
+        face: request.face.clone(),
     };
     let mut drawing = import::read(source.bytes, format, stem, &options)?;
     drawing.notes.extend(unused_options(format, request));
+    drawing.notes.extend(unused_face(format, request));
     in_units(drawing, request)
 }
 
@@ -245,6 +247,10 @@ fn unused_options(format: Format, request: &Request) -> Option<String> {
     let given: Vec<&str> = of_airfoils.into_iter().filter(|(_, given)| *given).map(|(option, _)| option).collect();
     let unused = format != Format::Airfoil && !given.is_empty();
     unused.then(|| format!("{}: only for airfoils, and not used here", given.join(", ")))
+}
+
+fn unused_face(format: Format, request: &Request) -> Option<String> {
+    (format != Format::Step && request.face.is_some()).then(|| "--face: only for solids, and not used here".into())
 }
 
 impl From<ImportError> for FailureReport {
@@ -275,6 +281,9 @@ fn scaled(mut drawing: Drawing, factor: f64) -> Drawing {
     let point = |p: Point| Point::new(p.x * factor, p.y * factor);
     if let Some(frame) = &mut drawing.frame {
         frame.origin = frame.origin.map(|x| x * factor);
+    }
+    for face in &mut drawing.faces {
+        face.area = face.area.map(|area| area * factor * factor);
     }
     for DrawnCurve { curve, .. } in &mut drawing.curves {
         *curve = curve.transformed(Affine::scale(factor));

@@ -62,6 +62,9 @@ pub struct Request {
     pub far_field: f64,
     /// Degrees.
     pub incidence: f64,
+    /// The face of a solid to be meshed: its entity number, its name, or `largest`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub face: Option<String>,
 }
 
 impl Default for Request {
@@ -92,6 +95,7 @@ impl Default for Request {
             trailing_edge: TrailingEdge::Keep,
             far_field: 20.0,
             incidence: 0.0,
+            face: None,
         }
     }
 }
@@ -525,25 +529,6 @@ impl fmt::Display for SizeOf {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}={}", self.name, self.edge)
     }
-}
-
-/// Metres in a unit of length; `None` of a unit that has no fixed size ("chord", …) or is not known.
-pub fn metres(unit: &str) -> Option<f64> {
-    let metres = match unit {
-        "nm" => 1e-9,
-        "um" | "µm" => 1e-6,
-        "mm" => 1e-3,
-        "cm" => 1e-2,
-        "dm" => 0.1,
-        "m" => 1.0,
-        "km" => 1e3,
-        "in" => 0.0254,
-        "ft" => 0.3048,
-        "yd" => 0.9144,
-        "mi" => 1609.344,
-        _ => return None,
-    };
-    Some(metres)
 }
 
 #[cfg(test)]

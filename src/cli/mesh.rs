@@ -16,7 +16,7 @@ use std::time::Instant;
 
 #[derive(Args)]
 pub struct Mesh {
-    /// A drawing: airfoil .dat, .poly, .node, outline .json; - for standard input
+    /// A drawing: airfoil .dat, .poly, .node, outline .json, .step; - for standard input
     #[arg(value_name = "IN")]
     input: PathBuf,
     /// Where the mesh goes: .vtu, .svg or .png; - for standard output; may be repeated

@@ -1,8 +1,9 @@
-//! Ground floor: points and vectors, exact signs, insertion order, box hierarchy. Numbers only, nothing of meshes.
+//! Ground floor: points and vectors, exact signs, insertion order, box hierarchy, planes in space. Numbers only, nothing of meshes.
 
 pub mod boxes;
 pub mod exact;
 pub mod order;
+pub mod space;
 
 pub use kurbo::{Point, Rect, Vec2};
 
@@ -52,4 +53,23 @@ impl Frame {
     pub fn place(&self, p: Point) -> [f64; 3] {
         std::array::from_fn(|k| self.origin[k] + p.x * self.x[k] + p.y * self.y[k])
     }
+}
+
+/// Metres in a unit of length; `None` of a unit that has no fixed size ("chord", …) or is not known.
+pub fn metres(unit: &str) -> Option<f64> {
+    let metres = match unit {
+        "nm" => 1e-9,
+        "um" | "µm" => 1e-6,
+        "mm" => 1e-3,
+        "cm" => 1e-2,
+        "dm" => 0.1,
+        "m" => 1.0,
+        "km" => 1e3,
+        "in" => 0.0254,
+        "ft" => 0.3048,
+        "yd" => 0.9144,
+        "mi" => 1609.344,
+        _ => return None,
+    };
+    Some(metres)
 }

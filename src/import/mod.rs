@@ -4,6 +4,8 @@
 pub mod airfoil;
 pub mod outline;
 pub mod poly;
+#[cfg(feature = "cad")]
+pub mod step;
 pub mod vtu;
 
 pub use airfoil::{AirfoilOptions, TrailingEdge};
@@ -54,10 +56,12 @@ pub enum Format {
     Node,
     /// Our own curves, as JSON.
     Outline,
+    /// STEP (ISO 10303-21): one planar face of a solid. Read where the feature `cad` is on.
+    Step,
 }
 
 impl Format {
-    pub const ALL: [Self; 4] = [Self::Airfoil, Self::Poly, Self::Node, Self::Outline];
+    pub const ALL: [Self; 5] = [Self::Airfoil, Self::Poly, Self::Node, Self::Outline, Self::Step];
 
     /// The name by which a user asks for the format.
     pub fn name(self) -> &'static str {
@@ -66,6 +70,7 @@ impl Format {
             Self::Poly => "poly",
             Self::Node => "node",
             Self::Outline => "outline",
+            Self::Step => "step",
         }
     }
 
@@ -76,10 +81,13 @@ impl Format {
 
     /// A guess from the first bytes, for files whose suffix says nothing.
     ///
-    /// JSON starts with a brace. Triangle's first line holds whole numbers of which the second, the dimension, is 2; with one line of
+    /// STEP says so, JSON starts with a brace. Triangle's first line holds whole numbers of which the second, the dimension, is 2; with one line of
     /// that shape more, the segment header, it is a `.poly`. Anything else that has a line of two numbers may be an airfoil.
     pub fn sniff(bytes: &[u8]) -> Option<Self> {
         let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+        if text.trim_ascii_start().starts_with(b"ISO-10303-21") {
+            return Some(Self::Step);
+        }
         if text.iter().find(|b| !b.is_ascii_whitespace()) == Some(&b'{') {
             return Some(Self::Outline);
         }
@@ -98,6 +106,7 @@ pub fn format_of(path: &Path) -> Option<Format> {
         "poly" => Some(Format::Poly),
         "node" => Some(Format::Node),
         "json" => Some(Format::Outline),
+        "step" | "stp" => Some(Format::Step),
         _ => None,
     }
 }
@@ -108,6 +117,8 @@ pub struct Options {
     pub airfoil: AirfoilOptions,
     /// The `.node` file beside a `.poly` file that holds no vertices of its own.
     pub nodes: Option<Vec<u8>>,
+    /// The face of a solid: its number or name, or `largest`; `None`: the largest.
+    pub face: Option<String>,
 }
 
 /// Reads a drawing. `stem` (the file's name without its suffix) is the title where the file gives none.
@@ -120,6 +131,10 @@ pub fn read(bytes: &[u8], format: Format, stem: &str, options: &Options) -> Resu
         Format::Poly => poly::read_poly(bytes, stem, options.nodes.as_deref()),
         Format::Node => poly::read_node(bytes, stem),
         Format::Outline => outline::read(bytes, stem),
+        #[cfg(feature = "cad")]
+        Format::Step => step::read(bytes, stem, options.face.as_deref()),
+        #[cfg(not(feature = "cad"))]
+        Format::Step => Err(ImportError::new("this build has no STEP reader", "build with --features cad")),
     }
 }
 
