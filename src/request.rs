@@ -570,7 +570,7 @@ mod tests {
         assert_eq!(request.chord_error, Some(ChordError::Percent(2.0)));
         assert_eq!(request.chord_error.unwrap().length(Some(50.0)), Some(1.0));
         assert_eq!(request.edge_turning, EdgeTurning::Deg(7.5));
-        for wrong in ["max-turning = 'much'", "max-trning = 1", "size-of = ['0.1']", "order = 2", "engine = 'gcdr'"] {
+        for wrong in ["max-turning = 'much'", "max-trning = 1", "size-of = ['0.1']", "order = 3", "engine = 'gcdr'"] {
             assert!(toml::from_str::<Request>(wrong).is_err(), "{wrong}");
         }
     }

@@ -207,7 +207,8 @@ fn face_row(face: &FaceInfo) -> String {
         (Some(area), _) => format!("area {}", say::number(*area, 9)),
         (None, flaw) => flaw.clone().unwrap_or_default(),
     };
-    format!("#{} {}: normal ({normal}), {what}", face.id, face.name)
+    let name = if face.name.is_empty() { String::new() } else { format!(" {}", face.name) };
+    format!("#{}{name}: normal ({normal}), {what}", face.id)
 }
 
 fn boundaries(drawing: &Drawing) -> Vec<Boundary> {

@@ -122,7 +122,7 @@ fn broken(error: &step_io::Error) -> ImportError {
     let text = error.to_string();
     let what = match (&span, text.split_once(": ")) {
         (Some(_), Some((_, what))) => what.to_owned(),
-        _ => text,
+        _ => text.trim_start_matches("parse error: ").to_owned(),
     };
     let mut error = ImportError::new(what, "the file is damaged or not a STEP file: export it anew");
     error.line = span.map(|span| span.line as usize);
@@ -248,6 +248,8 @@ struct Faces {
 
 struct Planar {
     id: u64,
+    /// Empty where it has none.
+    name: String,
     frame: Frame,
     face: Result<Face>,
 }
@@ -275,18 +277,25 @@ fn others(infos: &[FaceInfo], chosen: usize) -> Option<String> {
     }
     let area = |info: &FaceInfo| info.area.unwrap_or(0.0);
     others.sort_by(|a, b| area(b).total_cmp(&area(a)));
+    let label = |info: &FaceInfo| match info.name.as_str() {
+        "" => format!("#{}", info.id),
+        name => format!("#{} {name}", info.id),
+    };
     let listed = others.iter().take(MOST_LISTED).map(|info| {
         let [x, y, z] = info.normal.map(|n| (n * 1e3).round() / 1e3 + 0.0);
-        format!("#{} {} (area {}, normal {x} {y} {z})", info.id, info.name, area(info))
+        format!("{} (area {}, normal {x} {y} {z})", label(info), six_digits(area(info)))
     });
     let listed: Vec<String> = listed.collect();
     let more = match others.len() - listed.len() {
         0 => String::new(),
-        n => format!(", and {n} smaller ones, which inspect lists"),
+        n => format!(", and {n} more, which inspect lists"),
     };
-    let (id, name) = (infos[chosen].id, &infos[chosen].name);
     let list = listed.join(", ");
-    Some(format!("planar face #{id} {name} was read; --face picks another: {list}{more}"))
+    Some(format!("planar face {} was read; --face picks another: {list}{more}", label(&infos[chosen])))
+}
+
+fn six_digits(value: f64) -> String {
+    format!("{value:.5e}").parse::<f64>().unwrap_or(value).to_string()
 }
 
 impl Faces {
@@ -351,7 +360,8 @@ impl<'a> File<'a> {
                 Ok(Surface::Plane(frame)) => {
                     let face = self.face(&entity, frame, uncertainty);
                     let frame = face.as_ref().map_or(frame, |face| face.frame);
-                    faces.planar.push(Planar { id: entity.id, frame, face });
+                    let name = entity.name().unwrap_or_default().to_owned();
+                    faces.planar.push(Planar { id: entity.id, name, frame, face });
                 }
                 Ok(Surface::Curved(kind)) => faces.curved.entry(kind).or_default().push(entity.id),
                 Err(error) => faces
@@ -377,7 +387,7 @@ impl<'a> File<'a> {
 
     fn info(&self, planar: &Planar) -> FaceInfo {
         let flat = planar.face.as_ref().map_err(|e| e.what.clone()).and_then(|f| f.flat().map_err(|e| e.to_string()));
-        let name = planar.face.as_ref().map_or_else(|_| String::new(), |face| face.name.clone());
+        let name = planar.name.clone();
         let (area, flaw) = match flat {
             Ok(flat) => (Some(flat.area), None),
             Err(flaw) => (None, Some(flaw)),
@@ -387,7 +397,9 @@ impl<'a> File<'a> {
 
     /// The planar face of a number or a name.
     fn wanted(&self, faces: &Faces, wanted: &str) -> Result<usize> {
-        let id: Option<u64> = wanted.strip_prefix('#').unwrap_or(wanted).parse().ok();
+        // As the file writes it, as regions are named, or the number alone.
+        let number = wanted.strip_prefix("face ").unwrap_or(wanted);
+        let id: Option<u64> = number.strip_prefix('#').unwrap_or(number).parse().ok();
         if let Some(found) = faces.planar.iter().position(|planar| Some(planar.id) == id) {
             return Ok(found);
         }
@@ -396,16 +408,17 @@ impl<'a> File<'a> {
             let what = format!("face {wanted} lies on a {kind}: only planar faces can be meshed yet");
             return Err(ImportError::new(what, "pick a planar face; inspect lists them"));
         }
-        let named = |planar: &&Planar| planar.face.as_ref().is_ok_and(|face| face.name == wanted);
-        let found: Vec<u64> = faces.planar.iter().filter(named).map(|planar| planar.id).collect();
+        let named = faces.planar.iter().enumerate().filter(|(_, planar)| !wanted.is_empty() && planar.name == wanted);
+        let found: Vec<usize> = named.map(|(i, _)| i).collect();
         match found.as_slice() {
-            [id] => Ok(faces.planar.iter().position(|planar| planar.id == *id).unwrap_or(0)),
+            [one] => Ok(*one),
             [] => {
                 let help = format!("inspect lists the {} planar faces of the file", faces.planar.len());
                 Err(ImportError::new(format!("--face {wanted}: there is no planar face of this number or name"), help))
             }
             many => {
-                let ids: Vec<String> = many.iter().take(MOST_LISTED).map(|id| format!("#{id}")).collect();
+                let ids: Vec<String> =
+                    many.iter().take(MOST_LISTED).map(|i| format!("#{}", faces.planar[*i].id)).collect();
                 let what = format!("--face {wanted}: {} faces have this name", many.len());
                 Err(ImportError::new(what, format!("pick one by its number: {}", ids.join(", "))))
             }
