@@ -249,6 +249,7 @@ fn unused_options(format: Format, request: &Request) -> Option<String> {
     unused.then(|| format!("{}: only for airfoils, and not used here", given.join(", ")))
 }
 
+/// Says that a drawing of this format has no faces to choose from.
 fn unused_face(format: Format, request: &Request) -> Option<String> {
     (format != Format::Step && request.face.is_some()).then(|| "--face: only for solids, and not used here".into())
 }

@@ -61,12 +61,6 @@ fn refs(ids: &[usize]) -> String {
     ids.iter().map(|id| format!("#{id}")).collect::<Vec<_>>().join(",")
 }
 
-/// An edge with its vertices.
-#[derive(Clone, Copy)]
-struct Drawn {
-    edge: usize,
-}
-
 impl Step {
     fn new(frame: Frame, turned: Turned) -> Self {
         let unit = "(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.MILLI.,.METRE.))";
@@ -104,13 +98,13 @@ impl Step {
     }
 
     /// An edge whose curve runs from `a` to `b`, unless all is turned.
-    fn edge(&mut self, name: &str, a: usize, b: usize, curve: usize) -> Drawn {
+    fn edge(&mut self, name: &str, a: usize, b: usize, curve: usize) -> usize {
         let (a, b, same) = if self.turned.edges { (b, a, false) } else { (a, b, true) };
         let same = truth(same != self.turned.curves);
-        Drawn { edge: self.add(&format!("EDGE_CURVE('{name}',#{a},#{b},#{curve},{same})")) }
+        self.add(&format!("EDGE_CURVE('{name}',#{a},#{b},#{curve},{same})"))
     }
 
-    fn line(&mut self, name: &str, a: (usize, Point), b: (usize, Point)) -> Drawn {
+    fn line(&mut self, name: &str, a: (usize, Point), b: (usize, Point)) -> usize {
         let (from, to) = if self.turned.curves { (b, a) } else { (a, b) };
         let along = unit(minus(self.frame.place(to.1), self.frame.place(from.1))).unwrap();
         let start = self.point(from.1);
@@ -121,7 +115,7 @@ impl Step {
     }
 
     /// Counter-clockwise about the center.
-    fn arc(&mut self, name: &str, a: usize, b: usize, center: Point, radii: [f64; 2], angle: f64) -> Drawn {
+    fn arc(&mut self, name: &str, a: usize, b: usize, center: Point, radii: [f64; 2], angle: f64) -> usize {
         let at = self.placement(center, angle, self.turned.curves);
         let [u, v] = radii;
         let curve = match u == v {
@@ -138,7 +132,7 @@ impl Step {
         degree: usize,
         knots: &[(f64, usize)],
         net: &[(Point, f64)],
-    ) -> Drawn {
+    ) -> usize {
         let mut net = net.to_vec();
         let mut knots = knots.to_vec();
         if self.turned.curves {
@@ -161,7 +155,7 @@ impl Step {
     }
 
     /// A loop of edges in the order and sense in which they are passed.
-    fn bound(&mut self, edges: &[Drawn]) -> usize {
+    fn bound(&mut self, edges: &[usize]) -> usize {
         let mut edges = edges.to_vec();
         let along = !self.turned.bounds;
         if !along {
@@ -169,7 +163,7 @@ impl Step {
         }
         let sense = truth(along != self.turned.edges);
         let oriented: Vec<usize> =
-            edges.iter().map(|drawn| self.add(&format!("ORIENTED_EDGE('',*,*,#{},{sense})", drawn.edge))).collect();
+            edges.iter().map(|edge| self.add(&format!("ORIENTED_EDGE('',*,*,#{edge},{sense})"))).collect();
         let path = self.add(&format!("EDGE_LOOP('',({}))", refs(&oriented)));
         self.add(&format!("FACE_BOUND('',#{path},{})", truth(along)))
     }
@@ -185,7 +179,7 @@ impl Step {
     fn rectangle(&mut self, [x0, y0, x1, y1]: [f64; 4], names: [&str; 4]) -> usize {
         let corners = [(x0, y0), (x1, y0), (x1, y1), (x0, y1)].map(|(x, y)| Point::new(x, y));
         let at = corners.map(|p| (self.vertex(p), p));
-        let edges: Vec<Drawn> = (0..4).map(|i| self.line(names[i], at[i], at[(i + 1) % 4])).collect();
+        let edges: Vec<usize> = (0..4).map(|i| self.line(names[i], at[i], at[(i + 1) % 4])).collect();
         self.bound(&edges)
     }
 
@@ -333,7 +327,7 @@ fn ellipses_have_their_areas_whole_and_cut() {
 
 #[test]
 fn parabolas_and_hyperbolas_are_exact() {
-    // y² = 4 F x, cut off by the chord between t = −1 and t = 2: (4/3) · F² · ... by the parallelogram rule, F² · 27 / 3.
+    // The chord from t = −1 to t = 2 cuts F² Δ³ / 3 off the parabola (F t², 2 F t).
     let focal = 0.6;
     let on = |t: f64| Point::new(focal * t * t, 2.0 * focal * t);
     let cut = |step: &mut Step, from: Point, to: Point, curve: usize| {
@@ -360,11 +354,16 @@ fn parabolas_and_hyperbolas_are_exact() {
     });
 }
 
+/// Control points with their weights.
+type Net = Vec<(Point, f64)>;
+/// Distinct knots with their multiplicities.
+type Knots = Vec<(f64, usize)>;
+
 /// A circle of radius 2 as four rational quadratics.
-fn circle_net() -> (Vec<(f64, usize)>, Vec<(Point, f64)>) {
+fn circle_net() -> (Knots, Net) {
     let corner = 0.5_f64.sqrt();
     let around = [(2, 0), (2, 2), (0, 2), (-2, 2), (-2, 0), (-2, -2), (0, -2), (2, -2), (2, 0)];
-    let weight = |i: usize| if i % 2 == 0 { 1.0 } else { corner };
+    let weight = |i: usize| if i.is_multiple_of(2) { 1.0 } else { corner };
     let net = around.iter().enumerate().map(|(i, (x, y))| (Point::new(f64::from(*x), f64::from(*y)), weight(i)));
     (vec![(0.0, 3), (1.0, 2), (2.0, 2), (3.0, 2), (4.0, 3)], net.collect())
 }
@@ -396,14 +395,58 @@ fn rational_splines_are_kept_and_trimmed_by_their_vertices() {
 }
 
 #[test]
+fn polylines_and_curves_that_stand_for_others_are_read() {
+    has_area(PI * 2.0 + 8.0, |step| {
+        let [a, b] = [Point::new(2.0, 0.0), Point::new(-2.0, 0.0)].map(|p| (step.vertex(p), p));
+        // Half a circle over a box of 4 by 2, whose three sides are one edge.
+        let at = step.placement(Point::ORIGIN, 0.0, !step.turned.curves);
+        let circle = step.add(&format!("CIRCLE('',#{at},2.)"));
+        let trimmed = step.add(&format!("TRIMMED_CURVE('',#{circle},(#{}),(#{}),.F.,.CARTESIAN.)", a.0, b.0));
+        let arc = step.add(&format!("SURFACE_CURVE('',#{trimmed},(),.CURVE_3D.)"));
+        let arc = step.edge("arc", a.0, b.0, arc);
+        let mut corners = [(-2.0, 0.0), (-2.0, -2.0), (2.0, -2.0), (2.0, 0.0)].map(|(x, y)| Point::new(x, y));
+        if step.turned.curves {
+            corners.reverse();
+        }
+        let points = corners.map(|p| step.point(p));
+        let sides = step.add(&format!("POLYLINE('',({}))", refs(&points)));
+        let sides = step.edge("sides", b.0, a.0, sides);
+        let bound = step.bound(&[arc, sides]);
+        step.face("arch", &[bound]);
+    });
+}
+
+#[test]
+fn a_flat_spline_surface_is_a_plane_with_its_own_normal() {
+    for turned in every_turn() {
+        let mut step = Step::new(tilted(), turned);
+        let bound = step.rectangle([0.0, 0.0, 4.0, 3.0], ["a", "b", "c", "d"]);
+        let mut net = [[(-1.0, -1.0), (-1.0, 5.0)], [(6.0, -1.0), (6.0, 5.0)]];
+        if turned.plane {
+            net.reverse();
+        }
+        let rows = net.map(|row| refs(&row.map(|(x, y)| step.point(Point::new(x, y))))).map(|row| format!("({row})"));
+        let surface = step.add(&format!(
+            "B_SPLINE_SURFACE_WITH_KNOTS('',1,1,({}),.PLANE_SURF.,.F.,.F.,.F.,(2,2),(2,2),(0.,1.),(0.,1.),.UNSPECIFIED.)",
+            rows.join(",")
+        ));
+        let face = step.add(&format!("ADVANCED_FACE('sheet',(#{bound}),#{surface},{})", truth(!turned.plane)));
+        step.faces.push(face);
+        let drawing = read(&step.text());
+        assert_relative_eq!(area_of(&drawing), 12.0, max_relative = 1e-12);
+        assert!(dot(drawing.frame.unwrap().normal(), tilted().normal()) > 1.0 - 1e-12, "{turned:?}");
+    }
+}
+
+#[test]
 fn an_edge_that_is_passed_both_ways_is_a_slit() {
     // A ring whose inner loop hangs on the outer one by a seam.
     let mut step = Step::new(tilted(), Turned::default());
     let (outer, inner) = (Point::new(3.0, 0.0), Point::new(1.0, 0.0));
     let (o, i) = (step.vertex(outer), step.vertex(inner));
-    let rim = step.arc("rim", o, o, Point::ORIGIN, [3.0; 2], 0.0).edge;
-    let bore = step.arc("bore", i, i, Point::ORIGIN, [1.0; 2], 0.0).edge;
-    let seam = step.line("seam", (o, outer), (i, inner)).edge;
+    let rim = step.arc("rim", o, o, Point::ORIGIN, [3.0; 2], 0.0);
+    let bore = step.arc("bore", i, i, Point::ORIGIN, [1.0; 2], 0.0);
+    let seam = step.line("seam", (o, outer), (i, inner));
     let oriented = [(rim, true), (seam, true), (bore, false), (seam, false)]
         .map(|(edge, along)| step.add(&format!("ORIENTED_EDGE('',*,*,#{edge},{})", truth(along))));
     let path = step.add(&format!("EDGE_LOOP('',({}))", refs(&oriented)));
@@ -509,8 +552,8 @@ fn units_are_told_and_converted() {
         max_relative = 1e-9
     );
     let origin = tilted().place(Point::new(-1.0, 0.5));
-    for k in 0..3 {
-        assert_relative_eq!(frame.origin[k], 25.4 * origin[k], max_relative = 1e-12);
+    for (read, drawn) in frame.origin.iter().zip(origin) {
+        assert_relative_eq!(*read, 25.4 * drawn, max_relative = 1e-12);
     }
 }
 

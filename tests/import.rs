@@ -12,7 +12,7 @@ fn section_only() -> Options {
 }
 
 fn airfoil(trailing_edge: TrailingEdge, far_field: f64, incidence_deg: f64) -> Options {
-    Options { airfoil: AirfoilOptions { trailing_edge, far_field, incidence_deg }, nodes: None }
+    Options { airfoil: AirfoilOptions { trailing_edge, far_field, incidence_deg }, ..Options::default() }
 }
 
 fn dat(text: &str) -> Drawing {
@@ -923,6 +923,20 @@ fn the_shared_graphs_read() {
             assert!(drawing.points.len() <= count);
         }
     }
+}
+
+// ---- STEP ----
+
+#[test]
+#[cfg(not(feature = "cad"))]
+fn a_build_without_the_step_reader_says_how_to_get_one() {
+    assert_eq!(format_of(Path::new("part.stp")), Some(Format::Step));
+    assert_eq!(Format::sniff(b"\xef\xbb\xbf ISO-10303-21;\nHEADER;"), Some(Format::Step));
+    let error = read(b"ISO-10303-21;", Format::Step, "part", &Options::default()).expect_err("no reader");
+    assert_eq!(
+        (error.what.as_str(), error.help.as_str()),
+        ("this build has no STEP reader", "build with --features cad")
+    );
 }
 
 // ---- any bytes ----

@@ -469,7 +469,7 @@ impl<'a> File<'a> {
         let (edge, along) = (oriented.reference(3)?, oriented.flag(4)?);
         let edge = self.entity(edge, &["EDGE_CURVE"])?;
         let ends = [self.vertex(edge.reference(1)?)?, self.vertex(edge.reference(2)?)?];
-        let (curve, with_basis) = self.curve(edge.reference(3)?, MOST_NESTING)?;
+        let (curve, with_basis) = self.curve(edge.reference(3)?)?;
         Ok(Edge {
             curve,
             ends,
@@ -482,6 +482,14 @@ impl<'a> File<'a> {
 }
 
 // ---- geometry (ISO 10303-42) ----
+
+/// Curves that stand for another, which is their second attribute.
+const STAND_INS: [&str; 5] =
+    ["SURFACE_CURVE", "SEAM_CURVE", "INTERSECTION_CURVE", "BOUNDED_SURFACE_CURVE", "TRIMMED_CURVE"];
+
+/// The types that hold a spline's degree and control points; of a complex entity, the first.
+const SPLINES: [&str; 5] =
+    ["B_SPLINE_CURVE", "B_SPLINE_CURVE_WITH_KNOTS", "BEZIER_CURVE", "QUASI_UNIFORM_CURVE", "UNIFORM_CURVE"];
 
 enum Surface {
     Plane(Frame),
@@ -549,73 +557,54 @@ impl File<'_> {
     }
 
     /// The curve in space that an entity is or stands for, and whether it runs the same way.
-    fn curve(&self, id: u64, nesting: usize) -> Result<(SpaceCurve, bool)> {
-        let known = [
-            "LINE",
-            "CIRCLE",
-            "ELLIPSE",
-            "PARABOLA",
-            "HYPERBOLA",
-            "POLYLINE",
-            "SURFACE_CURVE",
-            "SEAM_CURVE",
-            "INTERSECTION_CURVE",
-            "BOUNDED_SURFACE_CURVE",
-            "TRIMMED_CURVE",
-            "B_SPLINE_CURVE",
-            "B_SPLINE_CURVE_WITH_KNOTS",
-            "BEZIER_CURVE",
-            "QUASI_UNIFORM_CURVE",
-            "UNIFORM_CURVE",
-        ];
-        let entity = self.entity(id, &known)?;
-        let axes = |u: f64, v: f64| -> Result<([f64; 3], [f64; 3], [f64; 3])> {
-            let frame = self.placement(entity.reference(1)?)?;
-            Ok((frame.origin, times(frame.x, u), times(frame.y, v)))
+    fn curve(&self, id: u64) -> Result<(SpaceCurve, bool)> {
+        let (mut id, mut along) = (id, true);
+        for _ in 0..MOST_NESTING {
+            let Ok(stand_in) = self.entity(id, &STAND_INS) else { return Ok((self.space_curve(id)?, along)) };
+            id = stand_in.reference(1)?;
+            if stand_in.kind == "TRIMMED_CURVE" {
+                along = along == stand_in.flag(4)?;
+            }
+        }
+        Err(self.first(id)?.fail("stands for itself"))
+    }
+
+    fn space_curve(&self, id: u64) -> Result<SpaceCurve> {
+        if let Ok(spline) = self.entity(id, &SPLINES) {
+            return self.spline(id, &spline);
+        }
+        let Ok(entity) = self.entity(id, &["LINE", "POLYLINE", "CIRCLE", "ELLIPSE", "PARABOLA", "HYPERBOLA"]) else {
+            return Err(self.first(id)?.fail("is no curve that is read here"));
         };
-        let positive = |i: usize| {
-            entity
-                .real(i)
-                .and_then(|r| if r > 0.0 { Ok(r) } else { Err(entity.fail("has a size that is not positive")) })
+        match entity.kind {
+            "LINE" => Ok(SpaceCurve::Line),
+            "POLYLINE" => self.polyline(&entity),
+            _ => self.conic(&entity),
+        }
+    }
+
+    fn polyline(&self, entity: &Entity) -> Result<SpaceCurve> {
+        let points = entity.references(1)?.into_iter().map(|id| self.point(id)).collect::<Result<Vec<_>>>()?;
+        // Clamped: the first knot and the last are twofold.
+        let last = points.len().saturating_sub(1);
+        let knots = (0..points.len() + 2).map(|i| i.saturating_sub(1).min(last) as f64).collect();
+        Ok(SpaceCurve::Nurbs { degree: 1, knots, points, weights: None })
+    }
+
+    fn conic(&self, entity: &Entity) -> Result<SpaceCurve> {
+        let size = |i: usize| match entity.real(i)? {
+            size if size > 0.0 => Ok(size),
+            size => Err(entity.fail(format!("has the size {size}"))),
         };
-        let curve = match entity.kind {
-            "LINE" => SpaceCurve::Line,
-            "CIRCLE" => {
-                let (center, u, v) = axes(positive(2)?, positive(2)?)?;
-                SpaceCurve::Ellipse { center, u, v }
-            }
-            "ELLIPSE" => {
-                let (center, u, v) = axes(positive(2)?, positive(3)?)?;
-                SpaceCurve::Ellipse { center, u, v }
-            }
-            "PARABOLA" => {
-                let (apex, u, v) = axes(positive(2)?, 2.0 * positive(2)?)?;
-                SpaceCurve::Parabola { apex, u, v }
-            }
-            "HYPERBOLA" => {
-                let (center, u, v) = axes(positive(2)?, positive(3)?)?;
-                SpaceCurve::Hyperbola { center, u, v }
-            }
-            "POLYLINE" => {
-                let points = entity.references(1)?.into_iter().map(|id| self.point(id)).collect::<Result<Vec<_>>>()?;
-                let inner = (1..points.len().saturating_sub(1)).map(|i| i as f64);
-                let last = points.len().saturating_sub(1) as f64;
-                let knots = [0.0, 0.0].into_iter().chain(inner).chain([last, last]).collect();
-                SpaceCurve::Nurbs { degree: 1, knots, points, weights: None }
-            }
-            "TRIMMED_CURVE" if nesting > 0 => {
-                let (curve, same) = self.curve(entity.reference(1)?, nesting - 1)?;
-                return Ok((curve, same == entity.flag(4)?));
-            }
-            "SURFACE_CURVE" | "SEAM_CURVE" | "INTERSECTION_CURVE" | "BOUNDED_SURFACE_CURVE" if nesting > 0 => {
-                return self.curve(entity.reference(1)?, nesting - 1);
-            }
-            "TRIMMED_CURVE" | "SURFACE_CURVE" | "SEAM_CURVE" | "INTERSECTION_CURVE" | "BOUNDED_SURFACE_CURVE" => {
-                return Err(entity.fail("stands for itself"));
-            }
-            _ => self.spline(id, &entity)?,
-        };
-        Ok((curve, true))
+        let Frame { origin, x, y } = self.placement(entity.reference(1)?)?;
+        let first = size(2)?;
+        Ok(match entity.kind {
+            "CIRCLE" => SpaceCurve::Ellipse { center: origin, u: times(x, first), v: times(y, first) },
+            "ELLIPSE" => SpaceCurve::Ellipse { center: origin, u: times(x, first), v: times(y, size(3)?) },
+            // The first size is the focal distance.
+            "PARABOLA" => SpaceCurve::Parabola { apex: origin, u: times(x, first), v: times(y, 2.0 * first) },
+            _ => SpaceCurve::Hyperbola { center: origin, u: times(x, first), v: times(y, size(3)?) },
+        })
     }
 
     fn spline(&self, id: u64, entity: &Entity) -> Result<SpaceCurve> {
@@ -658,7 +647,7 @@ fn with_multiplicities(entity: &Entity, first: usize, degree: usize, points: usi
     let (counts, distinct) = (entity.reals(first)?, entity.reals(first + 1)?);
     let total: f64 = counts.iter().sum();
     let expected = points + degree + 1;
-    if counts.len() != distinct.len() || counts.iter().any(|n| !(*n >= 1.0)) || total != expected as f64 {
+    if counts.len() != distinct.len() || counts.iter().any(|n| *n < 1.0) || total != expected as f64 {
         return Err(entity.fail(format!("has multiplicities that do not give {expected} knots")));
     }
     // The total bounds each of them.
