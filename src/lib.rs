@@ -30,6 +30,8 @@
 //! [`pipeline::run`] does all of this from the bytes of a file, as the command line does.
 #![forbid(unsafe_code)]
 
+#[cfg(feature = "cad")]
+pub mod cad;
 pub mod canvas;
 pub mod case;
 pub mod curve;

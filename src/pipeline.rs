@@ -256,9 +256,11 @@ pub fn read(source: &Source, request: &Request) -> Result<Drawing, FailureReport
             },
             dpi: request.dpi,
         },
+        face: request.face.clone(),
     };
     let mut drawing = import::read(source.bytes, format, stem, &options)?;
     drawing.notes.extend(unused_options(format, request));
+    drawing.notes.extend(unused_face(format, request));
     in_units(drawing, request)
 }
 
@@ -273,6 +275,11 @@ fn unused_options(format: Format, request: &Request) -> Option<String> {
     let given: Vec<&str> = of_airfoils.into_iter().filter(|(_, given)| *given).map(|(option, _)| option).collect();
     let unused = format != Format::Airfoil && !given.is_empty();
     unused.then(|| format!("{}: only for airfoils, and not used here", given.join(", ")))
+}
+
+/// Says that a drawing of this format has no faces to choose from.
+fn unused_face(format: Format, request: &Request) -> Option<String> {
+    (format != Format::Step && request.face.is_some()).then(|| "--face: only for solids, and not used here".into())
 }
 
 impl From<ImportError> for FailureReport {
@@ -307,6 +314,9 @@ fn scaled(mut drawing: Drawing, factor: f64) -> Drawing {
     let point = |p: Point| Point::new(p.x * factor, p.y * factor);
     if let Some(frame) = &mut drawing.frame {
         frame.origin = frame.origin.map(|x| x * factor);
+    }
+    for face in &mut drawing.faces {
+        face.area = face.area.map(|area| area * factor * factor);
     }
     for DrawnCurve { curve, .. } in &mut drawing.curves {
         *curve = curve.transformed(Affine::scale(factor));

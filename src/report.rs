@@ -109,6 +109,7 @@ pub struct RequestReport {
     pub trailing_edge: String,
     pub far_field_chords: f64,
     pub incidence_deg: f64,
+    pub face: Option<String>,
 }
 
 impl RequestReport {
@@ -144,6 +145,7 @@ impl RequestReport {
             trailing_edge: word(&request.trailing_edge),
             far_field_chords: request.far_field,
             incidence_deg: request.incidence,
+            face: request.face.clone(),
         }
     }
 }

@@ -69,6 +69,9 @@ pub struct Request {
     pub far_field: f64,
     /// Degrees.
     pub incidence: f64,
+    /// The face of a solid to be meshed: its entity number, its name, or `largest`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub face: Option<String>,
 }
 
 impl Default for Request {
@@ -102,6 +105,7 @@ impl Default for Request {
             trailing_edge: TrailingEdge::Keep,
             far_field: 20.0,
             incidence: 0.0,
+            face: None,
         }
     }
 }

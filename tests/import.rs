@@ -925,6 +925,20 @@ fn the_shared_graphs_read() {
     }
 }
 
+// ---- STEP ----
+
+#[test]
+#[cfg(not(feature = "cad"))]
+fn a_build_without_the_step_reader_says_how_to_get_one() {
+    assert_eq!(format_of(Path::new("part.stp")), Some(Format::Step));
+    assert_eq!(Format::sniff(b"\xef\xbb\xbf ISO-10303-21;\nHEADER;"), Some(Format::Step));
+    let error = read(b"ISO-10303-21;", Format::Step, "part", &Options::default()).expect_err("no reader");
+    assert_eq!(
+        (error.what.as_str(), error.help.as_str()),
+        ("this build has no STEP reader", "build with --features cad")
+    );
+}
+
 // ---- any bytes ----
 
 fn reads_or_refuses(bytes: &[u8]) {

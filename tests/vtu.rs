@@ -2,7 +2,7 @@
 
 use proptest::prelude::*;
 use squinch::export::{Format, encode, format_of, vtu};
-use squinch::geometry::Point;
+use squinch::geometry::{Frame, Point};
 use squinch::ids::{CurveId, PointId, RegionId, VertexId};
 use squinch::import::mesh::{MeshFile, vtu::read};
 use squinch::mesh::{Ball, BallReason, CurveEdge, CurveLink, Mesh};
@@ -84,6 +84,63 @@ fn what_is_written_is_read_back_bit_for_bit() {
 fn an_empty_mesh_and_one_without_names_are_kept() {
     for mesh in [Mesh::default(), Mesh { edges: Vec::new(), balls: Vec::new(), points: Vec::new(), ..grid(2, PLAIN) }] {
         same(&mesh, &read(&written(&mesh, &[])).expect("our own file").mesh);
+    }
+}
+
+/// The grid, small and on a tilted plane far from the origin.
+fn tilted() -> Mesh {
+    let mut mesh = grid(4, PLAIN);
+    mesh.nodes = mesh.nodes.iter().map(|p| Point::new(p.x + 1e7, p.y * 1e7)).collect();
+    mesh.frame = Frame::of_plane([1e3, -2e3, 5e2], [0.3, -0.2, 0.9], [1.0, 1.0, 0.0]);
+    mesh
+}
+
+#[test]
+fn a_mesh_in_space_is_written_where_it_lies_and_read_back_into_its_plane() {
+    let mesh = tilted();
+    let bytes = written(&mesh, &[]);
+    let back = read(&bytes).expect("our own file").mesh;
+    same(&mesh, &back);
+    assert_eq!(back.frame, mesh.frame);
+    // For whoever knows nothing of frames, the points are places in space.
+    let text = String::from_utf8(bytes).expect("text");
+    let error = read(text.replace("\"frame\"", "\"fr\"").as_bytes()).expect_err("not flat in z");
+    assert!(error.what.starts_with("the mesh is not flat: point 0 has z = "), "{}", error.what);
+    // Where the coordinates in the plane are lost, the points are laid into it.
+    let laid = read(text.replace("\"plane\"", "\"pl\"").as_bytes()).expect("flat in its frame").mesh;
+    for (a, b) in laid.nodes.iter().zip(mesh.nodes.iter()) {
+        assert!(a.distance(*b) < 1e-11, "{a:?} {b:?}");
+    }
+}
+
+#[test]
+fn coordinates_in_the_plane_count_only_where_they_are_of_the_points() {
+    let mesh = tilted();
+    let moved = Mesh { nodes: mesh.nodes.iter().map(|p| Point::new(p.x + 1.0, p.y)).collect(), ..mesh.clone() };
+    let [text, other] = [&mesh, &moved].map(|m| String::from_utf8(written(m, &[])).expect("text"));
+    let points = |text: &str| {
+        let from = text.find("<Points>").expect("points");
+        text[from..text.find("</Points>").expect("their end")].to_owned()
+    };
+    let mixed = text.replace(&points(&text), &points(&other));
+    let laid = read(mixed.as_bytes()).expect("flat in its frame").mesh;
+    for (a, b) in laid.nodes.iter().zip(moved.nodes.iter()) {
+        assert!(a.distance(*b) < 1e-11, "{a:?} {b:?}");
+    }
+}
+
+#[test]
+fn frames_that_are_none_are_refused() {
+    let mut mesh = tilted();
+    for (frame, what) in [
+        (
+            Frame { origin: [0.0; 3], x: [2.0, 0.0, 0.0], y: [0.0, 1.0, 0.0] },
+            "the axes of the frame are not orthonormal",
+        ),
+        (Frame { origin: [f64::NAN; 3], x: [1.0, 0.0, 0.0], y: [0.0, 1.0, 0.0] }, "point 0 is at (NaN, NaN, NaN)"),
+    ] {
+        mesh.frame = Some(frame);
+        assert_eq!(read(&written(&mesh, &[])).expect_err("no frame").what, what);
     }
 }
 

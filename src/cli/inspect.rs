@@ -5,7 +5,7 @@ use super::options::{Options, Resolved};
 use super::{Halt, Volume, remember, say};
 use clap::Args;
 use serde::Serialize;
-use squinch::domain::{Domain, Drawing, Repair, Skipped};
+use squinch::domain::{Domain, Drawing, FaceInfo, Repair, Skipped};
 use squinch::ids::Id;
 use squinch::pipeline::{self, Exit};
 use squinch::report::{FailureReport, SCHEMA, kinds};
@@ -15,7 +15,7 @@ use std::path::PathBuf;
 
 #[derive(Args)]
 pub struct Inspect {
-    /// A drawing: .svg, .dxf, airfoil .dat, .poly, .node, outline .json; - for standard input
+    /// A drawing: .svg, .dxf, .step, airfoil .dat, .poly, .node, outline .json; - for standard input
     #[arg(value_name = "IN")]
     input: PathBuf,
     /// As JSON
@@ -65,6 +65,8 @@ struct Findings {
     boundaries: Vec<Boundary>,
     /// Absent where the drawing could not be arranged.
     domain: Option<DomainFindings>,
+    /// Of a solid: its planar faces, one of which was read.
+    faces: Vec<FaceInfo>,
     skipped: Vec<Skipped>,
     notes: Vec<String>,
     repairs: Vec<Repair>,
@@ -130,6 +132,7 @@ impl Findings {
             seeds: drawing.seeds.len(),
             boundaries: boundaries(drawing),
             domain: arranged.as_ref().ok().map(DomainFindings::new),
+            faces: drawing.faces.clone(),
             skipped: drawing.skipped.clone(),
             notes: drawing.notes.clone(),
             repairs: arranged.as_ref().map(|d| d.repairs().to_vec()).unwrap_or_default(),
@@ -179,6 +182,7 @@ impl Findings {
         if let Some(domain) = &self.domain {
             domain.rows(&mut row);
         }
+        self.faces.iter().for_each(|face| row("face", &face_row(face)));
         for skipped in &self.skipped {
             row("left out", &format!("{} {}: {}", skipped.count, skipped.entity, skipped.why));
         }
@@ -197,6 +201,16 @@ impl Findings {
         }
         text
     }
+}
+
+fn face_row(face: &FaceInfo) -> String {
+    let normal = face.normal.map(|n| say::number(n, 6)).join(", ");
+    let what = match (&face.area, &face.flaw) {
+        (Some(area), _) => format!("area {}", say::number(*area, 9)),
+        (None, flaw) => flaw.clone().unwrap_or_default(),
+    };
+    let name = if face.name.is_empty() { String::new() } else { format!(" {}", face.name) };
+    format!("#{}{name}: normal ({normal}), {what}", face.id)
 }
 
 fn boundaries(drawing: &Drawing) -> Vec<Boundary> {

@@ -16,7 +16,7 @@ use std::time::Instant;
 
 #[derive(Args)]
 pub struct Mesh {
-    /// A drawing: .svg, .dxf, airfoil .dat, .poly, .node, outline .json; - for standard input
+    /// A drawing: .svg, .dxf, .step, airfoil .dat, .poly, .node, outline .json; - for standard input
     #[arg(value_name = "IN")]
     input: PathBuf,
     /// Where the mesh goes: .vtu, .vtk, .msh, .su2, .inp, .xdmf, .node/.ele/.poly, .glb, .gltf, .obj, .stl; a picture: .svg, .png; - for

@@ -24,7 +24,7 @@ pub struct Options {
     /// Threads; the result does not depend on it [default: all]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..), allow_hyphen_values = true, help_heading = "General")]
     threads: Option<u64>,
-    /// Format of the input, where suffix and content do not tell: airfoil, poly, node, outline, dxf, svg
+    /// Format of the input, where suffix and content do not tell: airfoil, poly, node, outline, dxf, svg, step
     #[arg(long, value_name = "FORMAT", help_heading = "Input")]
     input_format: Option<String>,
 
@@ -91,6 +91,10 @@ pub struct Options {
     /// Angle of incidence in degrees, nose up [default: 0]
     #[arg(long, value_name = "DEG", allow_hyphen_values = true, help_heading = "Airfoils")]
     incidence: Option<f64>,
+
+    /// The planar face to mesh, by its entity number or name, or largest [default: largest]
+    #[arg(long, value_name = "ID|NAME|largest", help_heading = "Solids")]
+    face: Option<String>,
 
     /// Vertices after which refinement stops [default: 5000000]
     #[arg(long, value_name = "N", allow_hyphen_values = true, help_heading = "Budget")]
@@ -234,6 +238,7 @@ mod tests {
             unit: Some("mm".into()),
             scale: Some(1.0),
             timeout: Some(1.0),
+            face: Some("largest".into()),
             ..Request::default()
         };
         assert_eq!(given, keys(toml::Table::try_from(full).unwrap()));

@@ -22,6 +22,8 @@ pub struct Drawing {
     pub unit: Option<(String, String)>,
     /// Where the plane of the drawing lies in space, of a face of a solid.
     pub frame: Option<Frame>,
+    /// The planar faces of the solid that the drawing is one of, by their numbers.
+    pub faces: Vec<FaceInfo>,
     /// What the reader left out, counted.
     pub skipped: Vec<Skipped>,
     /// What the reader noticed or mended (format quirks), one sentence each.
@@ -100,6 +102,20 @@ pub enum FillRule {
     Regions,
     /// A face is inside where a shape fills it, by the shape's own rule; the topmost one names it.
     Shapes,
+}
+
+/// A planar face of a solid.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct FaceInfo {
+    /// Its number in the file.
+    pub id: u64,
+    /// Empty where it has none.
+    pub name: String,
+    /// In the square of the drawing's unit; `None` where `flaw` says why it cannot be drawn.
+    pub area: Option<f64>,
+    /// Unit vector out of the solid.
+    pub normal: [f64; 3],
+    pub flaw: Option<String>,
 }
 
 /// Entities that a reader left out.

@@ -7,6 +7,6 @@ mod locate;
 mod planar;
 
 pub use arrange::{ArrangeError, ArrangeOptions, Repair, RepairKind, Unarranged};
-pub use drawing::{Drawing, DrawnCurve, DrawnPoint, FillRule, Seed, SeedKind, Shape, SizeRequest, Skipped};
+pub use drawing::{Drawing, DrawnCurve, DrawnPoint, FaceInfo, FillRule, Seed, SeedKind, Shape, SizeRequest, Skipped};
 pub use locate::Locator;
 pub use planar::{Corner, Domain, DomainCurve, Incident, Region};

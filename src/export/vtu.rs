@@ -9,7 +9,9 @@
 //! | field | `region:NAME`, `boundary:NAME` Int32 | the numbers that carry the name |
 //! | field | `point_id`, `point_node` Int32 | the points of P and their nodes |
 //! | field | `ball_corner_point`, `ball_radius`, `ball_why` | protecting balls; why: 0 lfs₀, 1 encroached, 2 size |
-//! | field | `unit` UInt8 | the physical unit of a coordinate, as UTF-8
+//! | field | `unit` UInt8 | the physical unit of a coordinate, as UTF-8 |
+//! | field | `frame` 9 × Float64 | of a mesh in a plane in space: the plane's origin and its two unit axes |
+//! | points | `plane` 2 × Float64 | of a mesh in a plane in space: every node in the coordinates of the plane |
 //! | field | `squinch:KEY` | a stamp: Float64 where the text is a number's, else its UTF-8 bytes as UInt8 |
 //!
 //! Names are names of arrays, not VTK string arrays: meshio 5.3 refuses a whole file that has an array of type
@@ -20,6 +22,7 @@
 //! compresses one block after the other; here each array is made, compressed in parallel blocks and written before
 //! the next.
 
+use crate::geometry::Frame;
 use crate::ids::{Id, NameId};
 use crate::mesh::{BallReason, CurveEdge, Mesh};
 use base64::Engine;
@@ -52,7 +55,13 @@ pub fn write(mesh: &Mesh, stamps: &[(String, String)], out: &mut impl Write) -> 
     writeln!(out, "</FieldData>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{cells}\">\n<Points>", mesh.nodes.len())?;
     let points: Vec<f64> = mesh.places().flatten().collect();
     Array::of_f64("Points", 3, points).write(out)?;
-    writeln!(out, "</Points>\n<Cells>")?;
+    writeln!(out, "</Points>")?;
+    if mesh.frame.is_some() {
+        writeln!(out, "<PointData>")?;
+        Array::of_f64("plane", 2, mesh.nodes.iter().flat_map(|p| [p.x, p.y])).write(out)?;
+        writeln!(out, "</PointData>")?;
+    }
+    writeln!(out, "<Cells>")?;
     write_cells(mesh, out)?;
     writeln!(out, "</Cells>\n<CellData>")?;
     write_cell_data(mesh, &boundaries, out)?;
@@ -94,6 +103,9 @@ fn write_fields(
     }
     if let Some(unit) = &mesh.unit {
         Array::of_u8("unit", unit.as_bytes().to_vec()).write_field(out)?;
+    }
+    if let Some(Frame { origin, x, y }) = mesh.frame {
+        Array::of_f64("frame", 9, [origin, x, y].concat()).write_field(out)?;
     }
     // In the order of first use, so that the file is the same whatever the order of the table of names.
     let mut numbers: BTreeMap<NameId, Vec<i32>> = BTreeMap::new();

@@ -1,8 +1,9 @@
-//! Ground floor: points and vectors, exact signs, insertion order, box hierarchy. Numbers only, nothing of meshes.
+//! Ground floor: points and vectors, exact signs, insertion order, box hierarchy, planes in space. Numbers only, nothing of meshes.
 
 pub mod boxes;
 pub mod exact;
 pub mod order;
+pub mod space;
 
 pub use kurbo::{Point, Rect, Vec2};
 

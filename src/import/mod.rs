@@ -6,6 +6,8 @@ pub mod dxf;
 pub mod mesh;
 pub mod outline;
 pub mod poly;
+#[cfg(feature = "cad")]
+pub mod step;
 pub mod svg;
 
 pub use airfoil::{AirfoilOptions, TrailingEdge};
@@ -61,10 +63,12 @@ pub enum Format {
     Dxf,
     /// Scalable Vector Graphics, plain or compressed.
     Svg,
+    /// STEP (ISO 10303-21): one planar face of a solid. Read where the feature `cad` is on.
+    Step,
 }
 
 impl Format {
-    pub const ALL: [Self; 6] = [Self::Airfoil, Self::Poly, Self::Node, Self::Outline, Self::Dxf, Self::Svg];
+    pub const ALL: [Self; 7] = [Self::Airfoil, Self::Poly, Self::Node, Self::Outline, Self::Dxf, Self::Svg, Self::Step];
 
     /// The name by which a user asks for the format.
     pub fn name(self) -> &'static str {
@@ -75,6 +79,7 @@ impl Format {
             Self::Outline => "outline",
             Self::Dxf => "dxf",
             Self::Svg => "svg",
+            Self::Step => "step",
         }
     }
 
@@ -85,11 +90,14 @@ impl Format {
 
     /// A guess from the first bytes, for files whose suffix says nothing.
     ///
-    /// JSON starts with a brace, DXF with its sentinel or a section, XML and gzip each in their own way. Triangle's first line holds whole
-    /// numbers of which the second, the dimension, is 2; with one line of
+    /// STEP says so, JSON starts with a brace, DXF with its sentinel or a section, XML and gzip each in their own way. Triangle's first line
+    /// holds whole numbers of which the second, the dimension, is 2; with one line of
     /// that shape more, the segment header, it is a `.poly`. Anything else that has a line of two numbers may be an airfoil.
     pub fn sniff(bytes: &[u8]) -> Option<Self> {
         let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+        if text.trim_ascii_start().starts_with(b"ISO-10303-21") {
+            return Some(Self::Step);
+        }
         if text.iter().find(|b| !b.is_ascii_whitespace()) == Some(&b'{') {
             return Some(Self::Outline);
         }
@@ -116,6 +124,7 @@ pub fn format_of(path: &Path) -> Option<Format> {
         "json" => Some(Format::Outline),
         "dxf" => Some(Format::Dxf),
         "svg" | "svgz" => Some(Format::Svg),
+        "step" | "stp" => Some(Format::Step),
         _ => None,
     }
 }
@@ -127,6 +136,8 @@ pub struct Options {
     /// The `.node` file beside a `.poly` file that holds no vertices of its own.
     pub nodes: Option<Vec<u8>>,
     pub svg: SvgOptions,
+    /// The face of a solid: its number or name, or `largest`; `None`: the largest.
+    pub face: Option<String>,
 }
 
 /// Reads a drawing. `stem` (the file's name without its suffix) is the title where the file gives none.
@@ -141,6 +152,10 @@ pub fn read(bytes: &[u8], format: Format, stem: &str, options: &Options) -> Resu
         Format::Outline => outline::read(bytes, stem),
         Format::Dxf => dxf::read(bytes, stem),
         Format::Svg => svg::read(bytes, stem, &options.svg),
+        #[cfg(feature = "cad")]
+        Format::Step => step::read(bytes, stem, options.face.as_deref()),
+        #[cfg(not(feature = "cad"))]
+        Format::Step => Err(ImportError::new("this build has no STEP reader", "build with --features cad")),
     }
 }
 

@@ -4,13 +4,15 @@
 //! Read are triangles (types 5 and 22) and lines (types 3 and 21) in a plane; vertices (types 1 and 2) are left out and counted,
 //! any other cell is an error. What our writer adds is read back bit for bit. In a
 //! foreign file, regions and boundaries are the values of the first of the cell arrays [`FOREIGN`] that it has, named
-//! by their numbers.
+//! by their numbers. A mesh in a plane in space is read into the coordinates of that plane, which our writer tells.
 //!
 //! Nothing is believed: every count is held against the bytes at hand, and all arrays together may grow to no more
 //! than `GROWTH` times the file plus `ALLOWANCE`.
 
 use super::draft::plane;
 use super::{MeshError, MeshFile, Result, broken, unsupported};
+use crate::geometry::space::{dot, length, minus};
+use crate::geometry::{Frame, Point};
 use crate::ids::{CurveId, PointId, RegionId, VertexId};
 use crate::mesh::{Ball, BallReason, CurveEdge, CurveLink};
 use base64::Engine;
@@ -43,6 +45,7 @@ pub fn read(bytes: &[u8]) -> Result<MeshFile> {
 enum Section {
     Field,
     Points,
+    PointData,
     Cells,
     CellData,
     Other,
@@ -138,7 +141,7 @@ impl<'a> File<'a> {
                 Event::Empty(start) => (start, true),
                 Event::End(end) => {
                     // Not so after elements inside an array: VTK puts `InformationKey` there.
-                    if matches!(end.local_name().as_ref(), b"FieldData" | b"Points" | b"Cells" | b"CellData") {
+                    if is_section(end.local_name().as_ref()) {
                         section = Section::Other;
                     }
                     ended |= end.local_name().as_ref() == b"VTKFile";
@@ -161,7 +164,7 @@ impl<'a> File<'a> {
                 b"Points" => section = Section::Points,
                 b"Cells" => section = Section::Cells,
                 b"CellData" => section = Section::CellData,
-                b"PointData" => section = Section::Other,
+                b"PointData" => section = Section::PointData,
                 b"DataArray" => {
                     let from = position(&reader);
                     let text = if empty { &bytes[0..0] } else { text_after(bytes, from) };
@@ -184,7 +187,7 @@ impl<'a> File<'a> {
                 }
                 _ => {}
             }
-            if empty && matches!(name.as_ref(), b"FieldData" | b"Points" | b"Cells" | b"CellData") {
+            if empty && is_section(name.as_ref()) {
                 section = Section::Other;
             }
         }
@@ -219,6 +222,10 @@ impl<'a> File<'a> {
     fn array(&self, section: Section, name: &str) -> Option<&Array<'a>> {
         self.arrays.iter().find(|a| a.section == section && (a.name == name || section == Section::Points))
     }
+}
+
+fn is_section(name: &[u8]) -> bool {
+    matches!(name, b"FieldData" | b"Points" | b"PointData" | b"Cells" | b"CellData")
 }
 
 fn position(reader: &Reader<&[u8]>) -> usize {
@@ -549,13 +556,17 @@ impl Builder {
         if values.len() as u64 != points.saturating_mul(3) {
             return Err(broken(format!("there are {} coordinates for {points} points", values.len())));
         }
-        for (i, p) in values.chunks_exact(3).enumerate() {
-            if p.iter().any(|v| !v.is_finite()) {
-                return Err(broken(format!("point {i} is at ({}, {}, {})", p[0], p[1], p[2])));
-            }
-        }
         let places: Vec<[f64; 3]> = values.chunks_exact(3).map(|p| [p[0], p[1], p[2]]).collect();
-        (self.file.mesh.nodes, self.file.mesh.frame) = plane(&places)?;
+        if let Some((i, [x, y, z])) = places.iter().enumerate().find(|(_, p)| p.iter().any(|v| !v.is_finite())) {
+            return Err(broken(format!("point {i} is at ({x}, {y}, {z})")));
+        }
+        match frame(unpacker)? {
+            Some(frame) => {
+                self.file.mesh.nodes = in_plane(unpacker, &places, &frame)?.into();
+                self.file.mesh.frame = Some(frame);
+            }
+            None => (self.file.mesh.nodes, self.file.mesh.frame) = plane(&places)?,
+        }
         Ok(())
     }
 
@@ -683,6 +694,40 @@ impl Builder {
         }
         Ok(())
     }
+}
+
+/// The frame of the plane that the mesh lies in, where our writer says so.
+fn frame(unpacker: &mut Unpacker) -> Result<Option<Frame>> {
+    let Some(array) = unpacker.file.array(Section::Field, "frame") else { return Ok(None) };
+    let values = unpacker.numbers(array, 9)?;
+    let [o0, o1, o2, x0, x1, x2, y0, y1, y2] = values[..] else {
+        return Err(broken(format!("the frame has {} numbers, not 9", values.len())));
+    };
+    let frame = Frame { origin: [o0, o1, o2], x: [x0, x1, x2], y: [y0, y1, y2] };
+    // Orthonormal up to rounding; NaN is not.
+    let near = |value: f64, wanted: f64| (value - wanted).abs() <= 1e-12;
+    let [xx, yy, xy] = [dot(frame.x, frame.x), dot(frame.y, frame.y), dot(frame.x, frame.y)];
+    let right = frame.origin.iter().all(|v| v.is_finite()) && near(xx, 1.0) && near(yy, 1.0) && near(xy, 0.0);
+    if right { Ok(Some(frame)) } else { Err(broken("the axes of the frame are not orthonormal")) }
+}
+
+/// The points in the coordinates of a plane: those that the file gives, where they are of these very points, else the points laid
+/// into the plane.
+fn in_plane(unpacker: &mut Unpacker, places: &[[f64; 3]], frame: &Frame) -> Result<Vec<Point>> {
+    if let Some(array) = unpacker.file.array(Section::PointData, "plane") {
+        let values = unpacker.numbers(array, 2 * places.len() as u64)?;
+        let told: Vec<Point> = values.chunks_exact(2).map(|p| Point::new(p[0], p[1])).collect();
+        if told.iter().map(|p| frame.place(*p)).eq(places.iter().copied()) {
+            return Ok(told);
+        }
+    }
+    let reach = places.iter().map(|p| length(minus(*p, frame.origin))).fold(0.0, f64::max);
+    let off = places.iter().enumerate().find(|(_, p)| frame.height(**p).abs() > 1e-9 * reach); // rounding, generously
+    if let Some((i, p)) = off {
+        let what = format!("the mesh is not flat: point {i} lies {} off the plane of its frame", frame.height(*p));
+        return Err(unsupported(what, "only meshes in a plane can be read"));
+    }
+    Ok(places.iter().map(|p| frame.flat(*p)).collect())
 }
 
 fn ball_reason(why: i32) -> Result<BallReason> {

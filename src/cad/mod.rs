@@ -1,0 +1,146 @@
+//! Planar faces of solids → [`Drawing`]: curves in space are laid into the plane of the face, each in its own kind.
+//!
+//! `truck.rs` brings the faces of truck's solids, `import/step.rs` those of STEP files. Curved faces and solids are later work.
+
+mod edge;
+pub mod truck;
+
+pub use edge::{Edge, SpaceCurve};
+
+use crate::curve::Curve;
+use crate::domain::{Drawing, DrawnCurve, FillRule, Shape};
+use crate::geometry::{Frame, Point, Rect, bounds_of};
+
+/// How far, as a share of the face's diagonal, an edge may leave the plane or miss its vertices, where the file does not ask for
+/// more: what modellers with six digits write. It is also the widest gap that [`Drawing::arrange`] closes unasked.
+const SLACK: f64 = 1e-6;
+/// From this share of the diagonal on, what was projected is told.
+const ROUNDING: f64 = 1e-9;
+
+/// A planar face in space: a region of its plane, bounded by closed loops of edges.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Face {
+    /// Its normal points out of the solid.
+    pub frame: Frame,
+    pub name: String,
+    /// Where it came from, for messages: "ADVANCED_FACE #12".
+    pub entity: String,
+    /// The edges of each loop, end to end, in whatever sense.
+    pub loops: Vec<Vec<Edge>>,
+    /// How exact the file says that it is, as a length; 0 where it does not say.
+    pub uncertainty: f64,
+}
+
+/// Why a face cannot be laid into its plane.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{entity} {what} near ({}, {}, {})", at[0], at[1], at[2])]
+pub struct FaceError {
+    /// The face, or the edge of it.
+    pub entity: String,
+    pub what: String,
+    /// A place in space.
+    pub at: [f64; 3],
+}
+
+/// A face in its plane.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FlatFace {
+    /// Curves of each edge, in the order of the loops, with the edge's index in its loop.
+    loops: Vec<Vec<(Curve, usize)>>,
+    pub area: f64,
+    /// How far the edges leave the plane at most.
+    pub off_plane: f64,
+    /// How far the curves miss the vertices at most.
+    pub gap: f64,
+    /// The diagonal of the box around it.
+    pub diagonal: f64,
+}
+
+impl Face {
+    /// The face's curves in the coordinates of its frame.
+    ///
+    /// # Errors
+    /// Where an edge leaves the plane or misses its vertices by more than the file's tolerance, or is no curve at all.
+    pub fn flat(&self) -> Result<FlatFace, FaceError> {
+        let mut flat = FlatFace { loops: Vec::new(), area: 0.0, off_plane: 0.0, gap: 0.0, diagonal: 0.0 };
+        let mut worst: [Option<&Edge>; 2] = [None; 2];
+        for edges in &self.loops {
+            let mut curves = Vec::new();
+            for (index, edge) in edges.iter().enumerate() {
+                let laid = edge.flat(&self.frame, self.uncertainty).map_err(|what| edge.error(what))?;
+                if laid.off_plane > flat.off_plane {
+                    (flat.off_plane, worst[0]) = (laid.off_plane, Some(edge));
+                }
+                if laid.gap > flat.gap {
+                    (flat.gap, worst[1]) = (laid.gap, Some(edge));
+                }
+                curves.extend(laid.curves.into_iter().map(|curve| (curve, index)));
+            }
+            flat.loops.push(curves);
+        }
+        flat.measure();
+        let slack = self.uncertainty.max(SLACK * flat.diagonal);
+        for (value, edge, what) in [
+            (flat.off_plane, worst[0], "leaves the plane of its face"),
+            (flat.gap, worst[1], "has a vertex off its curve"),
+        ] {
+            if let Some(edge) = edge.filter(|_| value > slack) {
+                return Err(edge.error(format!("{what} by {value:.3e}, more than the tolerance {slack:.3e},")));
+            }
+        }
+        if flat.area > 0.0 {
+            return Ok(flat);
+        }
+        Err(FaceError { entity: self.entity.clone(), what: "encloses no area".into(), at: self.frame.origin })
+    }
+
+    /// The face as a drawing: one shape of the face's name, filled between its loops, and a boundary a named edge.
+    ///
+    /// # Errors
+    /// Those of [`Face::flat`].
+    pub fn drawing(&self) -> Result<Drawing, FaceError> {
+        let flat = self.flat()?;
+        let mut drawing = Drawing { fill: FillRule::Shapes, frame: Some(self.frame), ..Drawing::default() };
+        let name = drawing.names.intern(&self.name);
+        let shape = Some(drawing.shapes.push(Shape { name, even_odd: true, entity: self.entity.clone() }));
+        for (edges, curves) in self.loops.iter().zip(&flat.loops) {
+            for (curve, index) in curves {
+                let edge = &edges[*index];
+                let name = drawing.names.intern(&edge.name);
+                drawing.curves.push(DrawnCurve { curve: curve.clone(), name, entity: edge.entity.clone(), shape });
+            }
+        }
+        if flat.off_plane > ROUNDING * flat.diagonal {
+            let what = "edges leave the plane of the face and are projected onto it, the farthest by";
+            drawing.notes.push(format!("{what} {:.3e}", flat.off_plane));
+        }
+        if flat.gap > ROUNDING * flat.diagonal {
+            drawing
+                .notes
+                .push(format!("curves miss their vertices and are moved onto them, the farthest by {:.3e}", flat.gap));
+        }
+        Ok(drawing)
+    }
+}
+
+impl FlatFace {
+    /// Fills in the diagonal and the area: that of the largest loop less the others', whatever the file says of which is the outer
+    /// one and which way it runs.
+    fn measure(&mut self) {
+        let boxes = self.loops.iter().flatten().map(|(curve, _)| curve.bounds());
+        let Some(bounds) = boxes.reduce(|a, b| a.union(b)) else { return };
+        self.diagonal = libm::hypot(bounds.width(), bounds.height());
+        let enclosed = |curves: &Vec<(Curve, usize)>| -> f64 {
+            let area: f64 = curves.iter().map(|(curve, _)| curve.green(bounds.center())).sum();
+            area.abs()
+        };
+        let areas: Vec<f64> = self.loops.iter().map(enclosed).collect();
+        let largest = areas.iter().copied().fold(0.0, f64::max);
+        self.area = 2.0 * largest - areas.iter().sum::<f64>();
+    }
+}
+
+/// The box around points, and its diagonal; 0 of none.
+fn diagonal(points: impl IntoIterator<Item = Point>) -> f64 {
+    bounds_of(points).map_or(0.0, |b: Rect| libm::hypot(b.width(), b.height()))
+}
