@@ -923,3 +923,28 @@ fn shapes_nested_deep_are_painted_in_turn() {
     let wanted: Vec<f64> = (0..rings).map(ring).collect();
     assert!(areas(&domain).iter().zip(wanted).all(|(f, w)| (f - w).abs() < 1e-6));
 }
+
+/// Corner nodes as drawing programs write them: two cubics joined where neither has a handle.
+#[test]
+fn corners_between_curves_without_handles_are_corners() {
+    let cubic = |q: [(f64, f64); 4]| Curve::bezier(q.map(|(x, y)| p(x, y)).to_vec()).unwrap();
+    let outline = [
+        cubic([(66.495, 18.376), (66.495, 18.376), (61.377, 41.67), (59.613, 58.435)]),
+        cubic([(59.613, 58.435), (57.849, 75.2), (56.613, 104.317), (56.613, 104.317)]),
+        cubic([(56.613, 104.317), (56.613, 104.317), (71.436, 115.258), (92.436, 128.67)]),
+        line((92.436, 128.67), (66.495, 18.376)),
+    ];
+    for exponent in [-300, -30, 0, 30, 300] {
+        let scale = 2f64.powi(exponent);
+        let domain = regions(&drawing(outline.iter().map(|curve| curve.scaled(scale))));
+        assert_eq!((domain.points().len(), domain.curves().len(), domain.regions().len()), (4, 4, 1));
+    }
+    // A needle: both sides leave the tip in the same direction, where the angle is 0.
+    let needle = [
+        cubic([(0.0, 0.0), (0.0, 0.0), (1.0, 0.0), (2.0, 1.0)]),
+        line((2.0, 1.0), (2.0, -1.0)),
+        cubic([(2.0, -1.0), (1.0, 0.0), (0.0, 0.0), (0.0, 0.0)]),
+    ];
+    let domain = regions(&drawing(needle));
+    assert_eq!((domain.points().len(), domain.curves().len(), domain.regions().len()), (3, 3, 1));
+}

@@ -286,7 +286,7 @@ impl<'c> Search<'c> {
         overlaps.sort_by(|p, q| p.t[0].total_cmp(&q.t[0]).then(p.u[0].total_cmp(&q.u[0])));
         let near = |track: &Track, t: f64, other: f64| {
             let seam = t.min(other) == 0.0 && t.max(other) == 1.0 && track.curve.start() == track.curve.end();
-            seam || (t - other).abs() <= tolerance / track.size
+            seam || contact::is_near(track.curve, t, other, tolerance)
         };
         let is_one = |at: Point, t: f64, u: f64, other: &Meeting| {
             length(at - other.at) <= tolerance && near(&a, t, other.t) && near(&b, u, other.u)

@@ -42,11 +42,21 @@ impl<'c> Track<'c> {
         self.knots[above] - self.knots[above - 1]
     }
 
-    /// The change of parameter at t that moves the curve's point by about `distance`.
+    /// The change of parameter at t that moves the curve's point by about `distance`, either way.
     fn step_of(&self, t: f64, distance: f64) -> f64 {
+        let (velocity, bend) = (length(self.curve.derivative(t)), length(self.curve.second_derivative(t)));
         // Where a curve stands still it soon moves on: the floor is a sixteenth of its least mean speed.
-        let speed = length(self.curve.derivative(t)).max(self.size / 16.0);
-        if speed > distance { distance / speed } else { 1.0 }
+        let speed = velocity.max(self.size / 16.0);
+        let steady = if speed > distance { distance / speed } else { 1.0 };
+        // At a handle of no length it moves by the square of the step: |γ′| h + |γ″| h²/2 = distance.
+        let start = 0.5 * (velocity + (velocity * velocity + 2.0 * bend * distance).sqrt());
+        if start * steady >= distance {
+            return steady.min(distance / start);
+        }
+        let slow = if start > distance { distance / start } else { 1.0 };
+        let here = self.curve.point(t);
+        let stays = |s: f64| length(self.curve.point(s.clamp(0.0, 1.0)) - here) <= 2.0 * distance;
+        if [-slow, -0.5 * slow, 0.5 * slow, slow].into_iter().all(|step| stays(t + step)) { slow } else { steady }
     }
 
     fn inner_knots(&self) -> &[f64] {
@@ -172,12 +182,15 @@ impl<'c> Contacts<'c> {
             let (velocity, other) = (a.derivative(t), b.derivative(u));
             let ratio = if other == Vec2::ZERO { 0.0 } else { velocity.dot(other) / other.hypot2() };
             step = step.min(self.a.span(t) / samples);
-            if ratio.abs() * step > 0.5 * self.b.span(u) / samples {
-                step = (0.5 * self.b.span(u) / samples / ratio.abs()).max(first_step);
+            let room = 0.5 * self.b.span(u) / samples;
+            if ratio.abs() * step > room {
+                // As far as b goes within the room: by its points, since it may stand still at u and soon move on.
+                let reach = [u - room, u + room].map(|v| length(b.point(v) - b.point(u)));
+                step = step.min(reach[0].max(reach[1]) / length(velocity)).max(first_step);
             }
             let next = (t + sense * step).clamp(0.0, 1.0);
             let p = a.point(next);
-            let (foot, gap) = foot(b, p, u + ratio * (next - t));
+            let (foot, gap) = foot(b, p, u + (ratio * (next - t)).clamp(-room, room));
             let jumps = (foot - u).abs() > self.b.span(u).max(self.b.span(foot)) / samples;
             let beside = self.same && foot - next <= (from[1] - from[0]) / samples;
             let at_end = is_end(foot);
@@ -210,9 +223,9 @@ impl<'c> Contacts<'c> {
     /// Where the end `e` of b (0 or 1) lies beside a between two parameters, if it does.
     fn end_of_b_between(&self, e: f64, t: f64, next: f64) -> Option<[f64; 2]> {
         let (beside, gap) = foot(self.a.curve, self.b.curve.point(e), t);
-        let slack = self.a.step_of(t, self.tolerance);
-        let (low, high) = (t.min(next), t.max(next));
-        (gap <= self.tolerance && low - slack <= beside && beside <= high + slack).then(|| [beside.clamp(low, high), e])
+        // In space, not by parameter: near a handle of no length a curve stays within the tolerance for long.
+        let between = beside.clamp(t.min(next), t.max(next));
+        (gap <= self.tolerance && is_near(self.a.curve, beside, between, self.tolerance)).then_some([between, e])
     }
 
     fn what_is(&self, walk: &[[f64; 2]], at: [f64; 2], root: bool, before: Stop, after: Stop) -> Finding {
@@ -425,7 +438,7 @@ fn is_end(x: f64) -> bool {
 }
 
 /// Whether the curve between two parameters stays about a place: both ends of a closed curve are not near.
-fn is_near(curve: &Curve, x: f64, y: f64, distance: f64) -> bool {
+pub(super) fn is_near(curve: &Curve, x: f64, y: f64, distance: f64) -> bool {
     let from = curve.point(x);
     length(curve.point(y) - from) <= distance && length(curve.point(0.5 * (x + y)) - from) <= distance
 }

@@ -1,4 +1,5 @@
 use super::*;
+use crate::curve::End;
 use crate::geometry::Rect;
 use std::f64::consts::{PI, TAU};
 
@@ -676,4 +677,55 @@ fn twenty_thousand_random_cubic_pairs_are_quick() {
     // Under a second on an idle machine; ten times that is a fault whatever else runs.
     assert!(start.elapsed().as_secs() < 10);
     assert!(count > pairs / 2);
+}
+
+/// A curve from the origin that heads along `angle` with a handle of the length `handle` there and `far` at its other end, and bends to
+/// the left; of each kind that may have handles. Reversed where `end` is.
+fn with_handles(kind: usize, angle: f64, handle: f64, far: f64, end: End) -> Curve {
+    let ahead = Vec2::new(libm::cos(angle), libm::sin(angle));
+    let place = |x: f64, y: f64| Point::ORIGIN + ahead * x + Vec2::new(-ahead.y, ahead.x) * y;
+    let (first, last) = (Point::ORIGIN, place(1.0, 0.3));
+    let (near, beside) = (place(handle, 0.0), place(1.0, 0.3 - far));
+    let curve = match kind {
+        0 => Curve::bezier(vec![first, near, last]),
+        1 => Curve::bezier(vec![first, near, beside, last]),
+        2 => Curve::rational_bezier(vec![first, near, beside, last], vec![1.0, 3.0, 0.5, 2.0]),
+        3 => Curve::bezier(vec![first, near, near, place(0.6, 0.1), beside, last]),
+        _ => {
+            let knots = [0.0, 0.0, 0.0, 0.0, 0.4, 1.0, 1.0, 1.0, 1.0];
+            Curve::nurbs(3, &knots, &[first, near, place(0.6, 0.1), beside, last], None)
+        }
+    };
+    let curve = curve.unwrap();
+    if end == End::Finish { curve.reversed() } else { curve }
+}
+
+#[test]
+fn a_common_end_is_one_touching_however_short_the_handles_are() {
+    let handles = [[0.0, 0.0], [0.0, 0.3], [0.3, 0.0], [1e-14, 1e-11], [1e-9, 1e-9], [1e-6, 0.0], [1e-3, 1e-3]];
+    let ends = [End::Start, End::Finish].map(|e| [End::Start, End::Finish].map(|f| [e, f])).concat();
+    for kinds in (0..5).flat_map(|i| (0..5).map(move |j| [i, j])) {
+        for (angle, handles) in [1e-2, 0.3, PI / 2.0, 2.5, PI].into_iter().flat_map(|x| handles.map(|h| (x, h))) {
+            for &ends in &ends {
+                for (scale, offset) in [(1.0, 0.0), (1.0, 3.0), (2f64.powi(-200), 0.0), (2f64.powi(200), 0.0)] {
+                    let by = kurbo::Affine::translate((offset, offset / 7.0));
+                    let curve = |k: usize, angle| {
+                        with_handles(kinds[k], angle, handles[k], handles[1], ends[k]).transformed(by).scaled(scale)
+                    };
+                    let (a, b) = (curve(0, 0.0), curve(1, angle));
+                    let found = meetings(&a, &b, 1e-9 * scale);
+                    let what =
+                        format!("{kinds:?}, {angle}, handles {handles:?}, {ends:?}, {scale:e}, {offset}: {found:?}");
+                    let found = found.expect(&what);
+                    let parameter = |end: End| f64::from(u8::from(end == End::Finish));
+                    let is_end = |m: &&Meeting| [m.t, m.u] == ends.map(parameter);
+                    let common = a.point(parameter(ends[0]));
+                    let there = |m: &&Meeting| length(m.at - common) <= 4e-9 * scale;
+                    assert_eq!(found.points.iter().filter(is_end).count(), 1, "{what}");
+                    assert_eq!(found.points.iter().filter(there).count(), 1, "{what}");
+                    assert!(found.overlaps.is_empty(), "{what}");
+                }
+            }
+        }
+    }
 }
