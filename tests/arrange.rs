@@ -948,3 +948,25 @@ fn corners_between_curves_without_handles_are_corners() {
     let domain = regions(&drawing(needle));
     assert_eq!((domain.points().len(), domain.curves().len(), domain.regions().len()), (3, 3, 1));
 }
+
+/// A map traced three times: two long curves that part slowly, and beside them a short one that ends before they do.
+#[test]
+fn curves_that_part_slowly_are_ordered_beside_a_short_one() {
+    let crest = |q: [(f64, f64); 7]| {
+        let cubic = |q: &[(f64, f64)]| Curve::bezier(q.iter().map(|&(x, y)| p(x, y)).collect()).unwrap();
+        [cubic(&q[..4]), cubic(&q[3..]), line(q[6], q[0])]
+    };
+    let traces = [
+        [(0.0, 3.82395), (0.61997, 1.83070), (3.91641, 0.0), (6.88973, 0.0), (9.36961, 0.0), (11.70933, 2.45457)],
+        [(0.0, 3.82395), (0.61997, 1.83070), (3.91739, 0.0), (6.88973, 0.0), (9.36961, 0.0), (11.71030, 2.45457)],
+        [(0.00292, 3.82395), (0.62289, 1.83070), (3.91933, 0.0), (6.89265, 0.0), (9.37253, 0.0), (11.71322, 2.45457)],
+    ];
+    let lasts = [(12.4529, 5.83568), (12.4529, 5.83666), (12.45582, 5.83568)];
+    let mut curves = square(-300.0, -230.0, 463.0);
+    for (trace, last) in traces.into_iter().zip(lasts) {
+        let [a, b, c, d, e, f] = trace;
+        curves.extend(crest([a, b, c, d, e, f, last]));
+    }
+    let domain = regions(&drawing(curves));
+    assert!(domain.regions().len() >= 4, "{:?}", areas(&domain));
+}

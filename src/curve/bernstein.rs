@@ -253,7 +253,11 @@ pub(super) fn crossing(f: impl Fn(f64) -> f64, change: &SignChange) -> f64 {
         (true, true) => {}
         (true, false) => fb = -fa,
         (false, true) => fa = -fb,
-        (false, false) => (fa, fb) = (-1.0, 1.0),
+        // Both are lost: as large as between them, so that the same steps are taken at every scale.
+        (false, false) => {
+            fb = f(0.5 * (a + b)).abs().max(f64::MIN_POSITIVE);
+            fa = -fb;
+        }
     }
     let mut step = 0.5;
     for _ in 0..BUDGET {

@@ -9,6 +9,7 @@ use crate::ids::{CurveId, Id, IdVec, PointId};
 use crate::watch::{Progress, Watch};
 use std::cmp::Ordering;
 use std::f64::consts::PI;
+use std::ops::Range;
 
 /// Tangents that differ by less than this (rad) are not trusted to tell the order. Two curves that leave at an angle θ may bend towards
 /// each other and cross at once, θ²/κ deep; at 1e-3 that is more than rounding (1e-14) for radii of curvature down to 1e-8.
@@ -62,15 +63,32 @@ fn order(at: Point, star: &mut Vec<Incident>, curves: &IdVec<CurveId, DomainCurv
     Ok(())
 }
 
-/// Sorts curves that leave in one direction by where they first leave a circle around the point, from right to left. Curves that meet
-/// nowhere inside it and keep to the half plane ahead leave it in the order in which they lie, whatever its radius: the largest
-/// circle that all of them reach so tells them apart best.
+/// Sorts curves that leave in one direction, from right to left. A circle may part some of them only: a short curve allows none that is
+/// large enough for two long ones beside it. Those that it leaves together are parted by circles of their own.
 fn order_tied(
     at: Point,
     ahead: Vec2,
     tied: &mut [Incident],
     curves: &IdVec<CurveId, DomainCurve>,
 ) -> Result<(), ArrangeError> {
+    let mut rest = vec![0..tied.len()];
+    while let Some(range) = rest.pop() {
+        let start = range.start;
+        let together = part(at, ahead, &mut tied[range], curves)?;
+        rest.extend(together.into_iter().map(|run| start + run.start..start + run.end));
+    }
+    Ok(())
+}
+
+/// Sorts curves by where they first leave a circle around the point, and tells which of them, next to each other, it did not part.
+/// Curves that meet nowhere inside it and keep to the half plane ahead leave it in the order in which they lie, whatever its radius:
+/// the largest circle that all of them reach so tells them apart best.
+fn part(
+    at: Point,
+    ahead: Vec2,
+    tied: &mut [Incident],
+    curves: &IdVec<CurveId, DomainCurve>,
+) -> Result<Vec<Range<usize>>, ArrangeError> {
     let reach = |i: &Incident| {
         let curve = &curves[i.curve].curve;
         (0..=8).map(|k| curve.point(f64::from(k) / 8.0).distance(at)).fold(0.0, f64::max)
@@ -84,9 +102,15 @@ fn order_tied(
             around.sort_by(|a, b| turn_from(b.0 - at, a.0 - at).total_cmp(&0.0).then(a.1.curve.cmp(&b.1.curve)));
             // Rounding cannot have swapped neighbours that are 64 units in the last place apart.
             let noise = 64.0 * f64::EPSILON * at.x.abs().max(at.y.abs()).max(radius);
-            if around.windows(2).all(|w| w[0].0.distance(w[1].0) > noise) {
+            let mut from = 0;
+            let runs = around.chunk_by(|a, b| a.0.distance(b.0) <= noise).map(|run| {
+                from += run.len();
+                from - run.len()..from
+            });
+            let runs: Vec<Range<usize>> = runs.collect();
+            if runs.len() > 1 {
                 tied.iter_mut().zip(around).for_each(|(place, (_, incident))| *place = incident);
-                return Ok(());
+                return Ok(runs.into_iter().filter(|run| run.len() > 1).collect());
             }
         }
         radius /= 2.0;
