@@ -71,7 +71,7 @@ fn order_tied(
     tied: &mut [Incident],
     curves: &IdVec<CurveId, DomainCurve>,
 ) -> Result<(), ArrangeError> {
-    let mut rest = vec![0..tied.len()];
+    let mut rest = Vec::from([Range { start: 0, end: tied.len() }]);
     while let Some(range) = rest.pop() {
         let start = range.start;
         let together = part(at, ahead, &mut tied[range], curves)?;
