@@ -1,6 +1,8 @@
 //! From bytes to a judged mesh: read → arrange → split to turning → refine → verify. Each stage can be had alone.
 
-use crate::domain::{ArrangeError, ArrangeOptions, Domain, DomainCurve, Drawing, DrawnCurve, SizeRequest, Unarranged};
+use crate::domain::{
+    ArrangeError, ArrangeOptions, Domain, DomainCurve, Drawing, DrawnCurve, Repair, RepairKind, SizeRequest, Unarranged,
+};
 use crate::geometry::{Point, metres};
 use crate::ids::Id;
 use crate::import::{self, AirfoilOptions, Format, ImportError, SvgOptions};
@@ -9,6 +11,7 @@ use crate::mesh::elevate::elevate;
 use crate::mesh::quality::Quality;
 use crate::mesh::verify::{Status, Verdict, verify};
 use crate::plane;
+use crate::plane::lopping::demand::{Demand, Sliver, slivers};
 use crate::plane::lopping::{self, Lopping, RefineError, Refined, Shrinking};
 use crate::refine::{Stop, StopReason};
 use crate::report::{FailureKind, FailureReport, MeshReport, PromiseReport, Report, StopReport};
@@ -138,6 +141,7 @@ impl Outcome {
         self.report.request.note_use(drawing, &arranged, &plan);
         self.report.seconds.arrange = clock.lap();
 
+        plan.afford(&domain, watch)?;
         let (refined, more) = match steps {
             None => (plan.refine(&domain, watch), "--timeout"),
             Some(steps) => (plan.refine_steps(&domain, steps), "--until"),
@@ -346,14 +350,22 @@ fn scaled(mut drawing: Drawing, factor: f64) -> Drawing {
     drawing
 }
 
+/// Slivers that would take more vertices than this are a drawing's fault, where they are narrower than what the gap tolerance closes.
+const SLIVER_VERTICES: f64 = 50_000.0;
+
+/// The same where `--min-edge` asks for what is finer to be simplified.
+const SIMPLIFIED_VERTICES: f64 = 1000.0;
+
+/// A drawing whose regions would lose more than this part of their area to a coarser tolerance consists of such slivers.
+const SLIVER_AREA: f64 = 1e-3;
+
 /// Drawing → domain, as long as `watch` says to go on.
+///
+/// Where no tolerance was given and slivers narrower than the gap tolerance (1e-6 of the diagonal), or than what `--min-edge` lets be
+/// simplified, would take more than fifty thousand vertices (a thousand with `--min-edge`), the drawing is welded within that instead. This is the first repair of
+/// the list. A drawing that consists of such slivers, or cannot be arranged so coarsely, stays as it is.
 pub fn arrange(drawing: &Drawing, request: &Request, watch: &mut Watch) -> Result<Domain, FailureReport> {
-    let options = ArrangeOptions {
-        tolerance: request.tolerance,
-        fill: request.fill_rule.rule(),
-        keep_all: request.keep == Keep::All,
-    };
-    let domain = drawing.arrange_watched(&options, watch)?;
+    let domain = arranged(drawing, request, request.tolerance, watch)?;
     if domain.regions().is_empty() {
         let help = "close the outline, name another --fill-rule, or mesh everything by --keep all";
         return Err(FailureReport::new(
@@ -362,7 +374,59 @@ pub fn arrange(drawing: &Drawing, request: &Request, watch: &mut Watch) -> Resul
             help,
         ));
     }
-    Ok(domain)
+    let Some(tolerance) = coarser_tolerance(drawing, request) else { return Ok(domain) };
+    let Some(raised) = raised_tolerance(&domain, tolerance, request, watch)? else { return Ok(domain) };
+    match arranged(drawing, request, Some(tolerance), watch) {
+        Ok(mut coarser) if (coarser.measure() - domain.measure()).abs() <= SLIVER_AREA * domain.measure() => {
+            coarser.itemise_first(raised);
+            Ok(coarser)
+        }
+        _ => Ok(domain),
+    }
+}
+
+/// The repair that welds within `tolerance`, where the narrower slivers would take too many vertices.
+fn raised_tolerance(
+    domain: &Domain,
+    tolerance: f64,
+    request: &Request,
+    watch: &mut Watch,
+) -> Result<Option<Repair>, Stopped> {
+    let taken = |s: &Sliver| s.vertices(request.angle_min_rad(), 0.0);
+    let narrow: Vec<Sliver> = slivers(domain, watch)?.into_iter().filter(|s| s.width < tolerance).collect();
+    let vertices: f64 = narrow.iter().map(taken).sum();
+    let dearest = narrow.iter().max_by(|a, b| taken(a).total_cmp(&taken(b)));
+    let most = if request.min_edge.is_some() { SIMPLIFIED_VERTICES } else { SLIVER_VERTICES };
+    Ok(dearest.filter(|_| vertices > most).map(|dearest| Repair {
+        kind: RepairKind::ToleranceRaised,
+        at: [dearest.at.x, dearest.at.y],
+        size: tolerance,
+        what: format!(
+            "slivers narrower than {tolerance:.2e} would take {vertices:.1e} vertices or more: all was welded within that, not {:.2e}",
+            domain.tolerance()
+        ),
+    }))
+}
+
+fn arranged(
+    drawing: &Drawing,
+    request: &Request,
+    tolerance: Option<f64>,
+    watch: &mut Watch,
+) -> Result<Domain, Unarranged> {
+    let options = ArrangeOptions { tolerance, fill: request.fill_rule.rule(), keep_all: request.keep == Keep::All };
+    drawing.arrange_watched(&options, watch)
+}
+
+/// The distance within which slivers may go, where no tolerance was asked for: the gap tolerance, or a third of the edges that need not be refined (a loop is safe from
+/// three tolerances on).
+fn coarser_tolerance(drawing: &Drawing, request: &Request) -> Option<f64> {
+    if request.tolerance.is_some() {
+        return None;
+    }
+    let diagonal = drawing.bounds().map(|b| libm::hypot(b.width(), b.height()))?;
+    let simplified = request.min_edge.map_or(0.0, |edge| edge / 3.0);
+    Some((1e-6 * diagonal).max(simplified)).filter(|&t| t < diagonal / 4.0)
 }
 
 impl From<ArrangeError> for FailureReport {
@@ -457,6 +521,32 @@ impl Plan {
 
     pub fn sizing(&self) -> &Sizing {
         &self.options.sizing
+    }
+
+    /// Refuses at once what takes more vertices than the budget.
+    ///
+    /// # Errors
+    /// With the dearest places; and where the watch says stop.
+    pub fn afford(&self, domain: &Domain, watch: &mut Watch) -> Result<(), FailureReport> {
+        let demand = Demand::of(domain, &self.options, watch)?;
+        let (vertices, budget) = (demand.vertices(), self.options.max_vertices as f64);
+        if vertices <= budget {
+            return Ok(());
+        }
+        let stop =
+            Stop { reason: StopReason::VertexBudget, owed: (vertices - budget) as usize, places: demand.places() };
+        let (why, help) = if demand.by_size >= demand.by_slivers() {
+            ("the sizes asked for", "ask for larger sizes, or give more by --max-vertices".to_owned())
+        } else {
+            let width = demand.width_over(budget);
+            let help = format!(
+                "curves run that near to each other: weld what is nearer than {width:.1e} by --tolerance, leave edges below a \
+                 length by --min-edge, or give more by --max-vertices"
+            );
+            ("slivers between curves", help)
+        };
+        let what = format!("{why} take {vertices:.3e} vertices or more");
+        Err(FailureReport { what, help, ..no_mesh(&stop, "--max-vertices") })
     }
 
     /// Refines a domain whose curves turn at most τ.

@@ -331,7 +331,7 @@ fn a_missed_bound_and_an_ended_budget_are_5() {
     let bench = Bench::new("missed");
     let output = bench.ends(
         5,
-        &["mesh", "square.poly", "-o", "a.vtu", "--max-area", "1e-6", "--max-vertices", "50", "--report", "r.json"],
+        &["mesh", "square.poly", "-o", "a.vtu", "--max-area", "0.006", "--max-vertices", "50", "--report", "r.json"],
     );
     assert!(said(&output).contains("budget"), "{}", said(&output));
     let report = bench.report("r.json");
@@ -783,7 +783,7 @@ fn a_case_is_replayed_and_reduced() {
 fn an_interrupt_is_130_and_leaves_nothing() {
     let bench = Bench::new("interrupt");
     let child = bench
-        .command(&["mesh", "square.poly", "-o", "a.vtu", "--max-area", "1e-9"])
+        .command(&["mesh", "square.poly", "-o", "a.vtu", "--max-area", "1e-9", "--max-vertices", "4000000000"])
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())
         .spawn()
@@ -855,7 +855,10 @@ fn the_time_ends_arranging_too() {
 #[test]
 fn a_mesh_that_is_there_when_the_time_ends_is_judged_and_written() {
     let bench = Bench::new("timeout-refine");
-    bench.ends(5, &with(&["--max-area", "1e-12", "--timeout", "0.5", "--report", "r.json"]));
+    bench.ends(
+        5,
+        &with(&["--max-area", "1e-9", "--max-vertices", "4000000000", "--timeout", "0.5", "--report", "r.json"]),
+    );
     let report = bench.report("r.json");
     assert_eq!(report["stop"]["reason"], "timeout");
     assert!(report["stop"]["owed"].as_u64() > Some(0));
@@ -968,4 +971,70 @@ fn the_shards_of_a_batch_are_the_whole() {
     assert_eq!(inputs, ["square.poly", "lens.json"]);
     assert!(bench.has("out/batch-1-of-2.jsonl") && bench.has("out/batch-2-of-2.jsonl"));
     bench.ends(2, &["batch", "square.poly", "--out-dir", "out", "--format", "vtu", "--shard", "3/2"]);
+}
+
+/// Two disks that touch, a shelf that passes their contact by two millionths, and a box around all.
+const CONTACT: &str = r#"{ "squinch": 1, "fill": "regions", "curves": [
+    { "name": "left", "arc": { "from": [0, 0], "to": [-10, 0], "bulge": 1 } },
+    { "name": "left", "arc": { "from": [-10, 0], "to": [0, 0], "bulge": 1 } },
+    { "name": "right", "arc": { "from": [0, 0], "to": [10, 0], "bulge": 1 } },
+    { "name": "right", "arc": { "from": [10, 0], "to": [0, 0], "bulge": 1 } },
+    { "name": "shelf", "line": [[-20, 2e-6], [20, 2e-6]] },
+    { "name": "box", "line": [[-20, -20], [20, -20]] }, { "name": "box", "line": [[20, -20], [20, 20]] },
+    { "name": "box", "line": [[20, 20], [-20, 20]] }, { "name": "box", "line": [[-20, 20], [-20, -20]] } ] }"#;
+
+#[test]
+fn slivers_that_nobody_drew_on_purpose_are_welded_and_itemised() {
+    let bench = Bench::new("slivers");
+    fs::write(bench.0.join("contact.json"), CONTACT).unwrap();
+    let output = bench.ends(0, &["mesh", "contact.json", "-o", "a.vtu", "--report", "r.json"]);
+    assert!(said(&output).contains("1 tolerance raised"), "{}", said(&output));
+    let report = bench.report("r.json");
+    let raised = &report["input"]["repairs"][0];
+    assert_eq!(raised["kind"], "tolerance_raised");
+    assert_eq!(raised["size"], report["request"]["tolerance"]);
+    assert!(report["mesh"]["vertices"].as_u64() < Some(2000), "{}", report["mesh"]["vertices"]);
+    bench.ends(0, &["check", "a.vtu", "--against", "contact.json"]);
+    // A tolerance that was asked for is kept.
+    bench.ends(0, &["inspect", "contact.json", "--tolerance", "1e-9", "--json"]);
+    let asked = ["--tolerance", "1e-9", "--max-vertices", "5000", "--report", "r.json"];
+    bench.ends(5, &[&["mesh", "contact.json", "-o", "b.vtu"], &asked[..]].concat());
+    let report = bench.report("r.json");
+    assert!(report["input"]["repairs"].as_array().unwrap().iter().all(|r| r["kind"] != "tolerance_raised"));
+    assert_eq!(report["request"]["tolerance"], 1e-9);
+}
+
+#[test]
+fn a_drawing_of_slivers_is_not_welded_away() {
+    let bench = Bench::new("film");
+    let side = |[[a, b], [c, d]]: [[f64; 2]; 2]| format!(r#"{{ "name": "film", "line": [[{a}, {b}], [{c}, {d}]] }}"#);
+    let h = 5e-7;
+    let sides = [[[0.0, 0.0], [1.0, 0.0]], [[1.0, 0.0], [1.0, h]], [[1.0, h], [0.0, h]], [[0.0, h], [0.0, 0.0]]];
+    let film = format!(r#"{{ "squinch": 1, "curves": [{}] }}"#, sides.map(side).join(","));
+    fs::write(bench.0.join("film.json"), film).unwrap();
+    let output = bench.ends(0, &["inspect", "film.json"]);
+    assert!(!said(&output).contains("raised"), "{}", said(&output));
+}
+
+#[test]
+fn what_the_budget_cannot_hold_is_refused_before_it_is_tried() {
+    let bench = Bench::new("demand");
+    let refused = |arguments: &[&str], option: &str| {
+        bench.ends(5, &[&["mesh"], arguments, &["-o", "a.vtu", "--report", "r.json"]].concat());
+        let report = bench.report("r.json");
+        assert_eq!(report["stop"]["reason"], "vertex budget");
+        assert!(!report["stop"]["places"].as_array().unwrap().is_empty());
+        assert!(report["failure"]["help"].as_str().unwrap().contains(option), "{}", report["failure"]["help"]);
+        assert!(report["seconds"]["mesh"].as_f64() < Some(1.0) && !bench.has("a.vtu"));
+    };
+    refused(&["square.poly", "--max-area", "1e-12"], "--max-vertices");
+    refused(&["square.poly", "--max-edge", "1e-7"], "--max-vertices");
+    refused(&["lens.json", "--chord-error", "1e-18"], "--max-vertices");
+    refused(&["lens.json", "--edge-turning", "1e-7"], "--max-vertices");
+    // A corner of 0.0006° in a box, between sides that are long beyond its ball.
+    let wedge = "7 2 0 0\n1 0 0\n2 1 0\n3 1 1e-5\n4 -1 -1\n5 2 -1\n6 2 1\n7 -1 1\n\
+                 7 0\n1 1 2\n2 2 3\n3 3 1\n4 4 5\n5 5 6\n6 6 7\n7 7 4\n0\n";
+    fs::write(bench.0.join("wedge.poly"), wedge).unwrap();
+    refused(&["wedge.poly", "--max-vertices", "2000"], "--min-edge");
+    bench.ends(0, &["mesh", "wedge.poly", "--max-vertices", "2000", "--min-edge", "0.01", "-o", "b.vtu"]);
 }

@@ -8,6 +8,7 @@ use squinch::ids::PointId;
 use squinch::mesh::verify::{Status, Verdict, guaranteed_angle, verify};
 use squinch::mesh::{BallReason, Mesh, quality};
 use squinch::plane::Midpoint;
+use squinch::plane::lopping::demand::Demand;
 use squinch::plane::lopping::{self, Options, Refined, Shrinking, arc_turning};
 use squinch::refine::StopReason;
 use squinch::size::Sizing;
@@ -269,4 +270,56 @@ fn balls_answer_to_acute_corners_only() {
     let mesh = kept(&wedge(45.0), 0.5, &Options::default()).0;
     let corners: Vec<PointId> = mesh.balls.iter().map(|b| b.corner).collect();
     assert_eq!(corners.len(), 1, "{corners:?}");
+}
+
+/// What is told before a run, and what the run takes.
+fn told_and_taken(drawing: &Drawing, options: &Options) -> (f64, f64) {
+    let domain = domain_of(drawing, 0.5);
+    let told = Demand::of(&domain, options, &mut |_| true).expect("nobody says stop").vertices();
+    (told, refine(&domain, options).mesh.expect("a mesh").nodes.len() as f64)
+}
+
+#[test]
+fn slivers_take_at_least_what_is_told() {
+    let strip = |gap: f64| {
+        let mut curves = boxed(2.0);
+        curves.extend([(-1.0, 0.0, 1.0, 0.0, 0.3), (-0.9, gap, 0.9, gap, 0.3)]);
+        drawing_of(&curves)
+    };
+    let ring = |gap: f64| {
+        let (r, s) = (1.0, 1.0 + gap);
+        drawing_of(&[(-r, 0.0, r, 0.0, 1.0), (r, 0.0, -r, 0.0, 1.0), (-s, 0.0, s, 0.0, 1.0), (s, 0.0, -s, 0.0, 1.0)])
+    };
+    for drawing in [wedge(0.1), wedge(0.01), ring(1e-3), ring(1e-4), strip(1e-3), strip(1e-4)] {
+        for min_edge in [None, Some(1e-2)] {
+            let options = Options { sizing: Sizing { min_edge, ..Sizing::default() }, ..Options::default() };
+            let (told, taken) = told_and_taken(&drawing, &options);
+            assert!(told <= taken, "{told} told, {taken} taken");
+            assert!(min_edge.is_some() || taken <= 40.0 * told, "{told} told, {taken} taken");
+        }
+    }
+}
+
+#[test]
+fn sizes_take_at_least_what_is_told() {
+    let mut curves = boxed(2.0);
+    curves.extend([(0.0, 0.0, 1.0, 0.0, 0.3), (0.0, 0.0, 1.0, 0.5, 0.3)]);
+    for sizing in [
+        Sizing { max_edge: Some(0.02), ..Sizing::default() },
+        Sizing { max_area: Some(0.001), ..Sizing::default() },
+        Sizing { edge_turning_rad: Some(0.001), ..Sizing::default() },
+        Sizing { chord_error: Some(1e-8), ..Sizing::default() },
+    ] {
+        let options = Options { sizing, ..Options::default() };
+        let (told, taken) = told_and_taken(&drawing_of(&curves), &options);
+        assert!(told <= taken && taken <= 12.0 * told, "{told} told, {taken} taken: {:?}", options.sizing);
+    }
+}
+
+#[test]
+fn the_complexes_of_the_bench_take_at_least_what_is_told() {
+    for seed in 0..24 {
+        let (told, taken) = told_and_taken(&curved_complex(seed), &Options::default());
+        assert!(told <= taken, "seed {seed}: {told} told, {taken} taken");
+    }
 }

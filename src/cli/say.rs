@@ -240,6 +240,7 @@ pub fn repair_kinds(repairs: &[Repair]) -> String {
         *kinds.entry(repair.kind).or_default() += 1;
     }
     let word = |kind: RepairKind| match kind {
+        RepairKind::ToleranceRaised => ["tolerance raised", "tolerances raised"],
         RepairKind::Weld => ["weld", "welds"],
         RepairKind::GapClosed => ["gap closed", "gaps closed"],
         RepairKind::Split => ["split", "splits"],

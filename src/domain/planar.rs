@@ -87,6 +87,10 @@ impl Domain {
     pub fn tolerance(&self) -> f64 {
         self.tolerance
     }
+    /// Puts a repair of the drawing as a whole before the others.
+    pub(crate) fn itemise_first(&mut self, repair: Repair) {
+        self.repairs.insert(0, repair);
+    }
     /// Curves at a point, counter-clockwise.
     pub fn star(&self, p: PointId) -> &[Incident] {
         &self.stars[p]

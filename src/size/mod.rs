@@ -230,6 +230,17 @@ impl SizeField {
         self.region_edges[region].min(self.limit_at(at))
     }
 
+    /// Longest edge allowed anywhere on a curve.
+    pub fn longest_edge(&self, curve: CurveId) -> f64 {
+        self.curve_edges[curve].min(self.flat)
+    }
+
+    /// Largest triangle allowed anywhere in a region: by area, and by its edges, of which equal ones enclose the most.
+    pub fn largest_triangle(&self, region: RegionId) -> f64 {
+        let edge = self.region_edges[region].min(self.flat);
+        self.region_areas[region].min(0.25 * 3f64.sqrt() * edge * edge)
+    }
+
     /// Largest area allowed in a region.
     pub fn area_in(&self, region: RegionId) -> f64 {
         self.region_areas[region]

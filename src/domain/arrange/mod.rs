@@ -60,6 +60,8 @@ pub struct Repair {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum RepairKind {
+    /// The whole drawing was welded within more than the default tolerance: its slivers would have taken too many vertices.
+    ToleranceRaised,
     /// Ends within the tolerance became one vertex.
     Weld,
     /// An open gap was closed to the nearest free end.

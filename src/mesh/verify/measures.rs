@@ -8,6 +8,7 @@ use crate::geometry::Point;
 use crate::ids::{Id, NameId, RegionId, VertexId};
 use crate::mesh::quality;
 use crate::size::{SizeField, Source};
+use std::collections::BTreeSet;
 
 /// A length is measured from rounded coordinates: a few ε, and 1e-12 is thousands of them.
 const MEASURED: f64 = 1.0 + 1e-12;
@@ -215,20 +216,20 @@ fn names_of_boundaries(domain: &Domain) -> impl Iterator<Item = NameId> {
 }
 
 /// Distinct names of the mesh.
-fn in_use<'a>(ev: &Evidence<'a>, names: impl Iterator<Item = NameId>) -> Vec<&'a str> {
+fn in_use<'a>(ev: &Evidence<'a>, names: impl Iterator<Item = NameId>) -> BTreeSet<&'a str> {
     distinct(names).into_iter().map(|name| ev.mesh.names.text(name)).collect()
 }
 
 fn every_name(
     domain: &Domain,
     asked: impl Iterator<Item = NameId>,
-    has: &[&str],
+    has: &BTreeSet<&str>,
     tally: &mut Tally,
     sentence: impl Fn(&str) -> String,
 ) {
     for name in distinct(asked).into_iter().map(|name| domain.name(name)) {
         tally.count();
-        if !has.contains(&name) {
+        if !has.contains(name) {
             tally.flaw(|| sentence(name));
         }
     }
@@ -236,8 +237,8 @@ fn every_name(
 
 /// Whether a mesh calls any region as the domain does.
 fn kept_regions(ev: &Evidence, domain: &Domain) -> bool {
-    let known = |name: &&str| domain.regions().iter().any(|r| domain.name(r.name) == *name);
-    !ev.promise.foreign || in_use(ev, ev.mesh.triangle_regions.iter().map(|&r| ev.mesh.regions[r])).iter().any(known)
+    let has = in_use(ev, ev.mesh.triangle_regions.iter().map(|&r| ev.mesh.regions[r]));
+    !ev.promise.foreign || !has.is_disjoint(&in_domain(domain, domain.regions().iter().map(|r| r.name)))
 }
 
 /// Whether a mesh calls any boundary as the domain does. Numbers that do not fit are another program's numbers: formats without
@@ -247,11 +248,11 @@ fn kept_boundaries(ev: &Evidence, domain: &Domain) -> bool {
     let has = in_use(ev, ev.mesh.edges.iter().map(|e| e.name));
     let are_numbers = has.iter().all(|name| name.parse::<i64>().is_ok());
     let fits = |p: &Piece| p.name.is_none_or(|name| ev.mesh.names.text(name) == name_asked(domain, p));
-    let known = has.iter().any(|name| asked.contains(name));
+    let known = !has.is_disjoint(&asked);
     !ev.promise.foreign || known && (!are_numbers || ev.pieces.iter().all(fits))
 }
 
-fn in_domain(domain: &Domain, names: impl Iterator<Item = NameId>) -> Vec<&str> {
+fn in_domain(domain: &Domain, names: impl Iterator<Item = NameId>) -> BTreeSet<&str> {
     distinct(names).into_iter().map(|name| domain.name(name)).collect()
 }
 
@@ -278,7 +279,7 @@ fn names_of_edges(ev: &Evidence, domain: &Domain, tally: &mut Tally) {
     let asked = in_domain(domain, names_of_boundaries(domain));
     for edge in ev.mesh.edges.iter().filter(|e| on_curves.binary_search(&ascending(e.nodes)).is_err()) {
         let has = ev.mesh.names.text(edge.name);
-        if asked.contains(&has) {
+        if asked.contains(has) {
             tally.count();
             tally.flaw(|| format!("{} is of \"{has}\", but lies on no curve", ev.tell_edge(edge.nodes)));
         }

@@ -31,6 +31,7 @@
 
 mod begin;
 mod corner_arcs;
+pub mod demand;
 mod harvest;
 mod splitball;
 mod splitcurve;

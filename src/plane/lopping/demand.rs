@@ -1,0 +1,257 @@
+//! What a mesh takes at least, told before it is made.
+//!
+//! *Slivers.* Beside a place where the face is w wide, an edge of the border is no longer than w·(cot κ + tan κ): the apex of its triangle
+//! is no farther away than w, both angles at the edge are κ or more, and the apex is not in the edge's diametral circle. So a sliver of
+//! length L takes L/(w·(cot κ + tan κ)) vertices on either side; a corner of angle θ takes about 1/θ for every doubling of the distance
+//! from its ball. Within two radii of a ball at birth triangles are excused, and so are those with a circumradius below `min_edge` (edges
+//! up to twice that). Widths are seen along normals at samples, and a stretch counts by its widest.
+//!
+//! *Sizes.* A region takes its area over that of the largest triangle, a curve its length over the longest edge, its turning over that of
+//! an edge, and √(κ/8E) a unit of length for a chord error E. There are at most two triangles a vertex.
+//!
+//! Sizes that vary with the place are left out. Of both counts the larger is halved: a curve with slivers on either side is counted twice,
+//! and widths and curvatures are known by samples only. Runs take some ten times as many.
+
+use super::Options;
+use crate::curve::{Curve, End};
+use crate::domain::{Domain, DomainCurve};
+use crate::geometry::boxes::BoxHierarchy;
+use crate::geometry::{Point, Rect, Vec2};
+use crate::ids::{CurveId, Id, IdVec, PointId};
+use crate::size::SizeField;
+use crate::watch::{Progress, Stopped, Watch};
+use std::f64::consts::SQRT_2;
+
+/// A sliver is this many times as long as it is wide: what is wider costs a handful of vertices.
+const SLENDER: f64 = 16.0;
+
+/// Samples on one side of a curve at most. Between curves that part from a tangent, down to what
+/// coordinates can hold, it takes some 1500.
+const SAMPLES_MAX: usize = 4096;
+
+/// Stretches are halved until the widths on them differ by no more than this factor.
+const ALIKE: f64 = 1.25;
+
+/// For curves with slivers on both sides, and for what samples do not see.
+const CAUTION: f64 = 0.5;
+
+/// A stretch of a curve with another curve near beside it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sliver {
+    pub at: Point,
+    /// Its largest width.
+    pub width: f64,
+    pub length: f64,
+    /// Whether it belongs to a region.
+    pub kept: bool,
+}
+
+/// How many vertices a mesh takes at least, and where.
+#[derive(Clone, Debug, Default)]
+pub struct Demand {
+    /// Because of sizes.
+    pub by_size: f64,
+    /// Of the region or the curve that takes the most by its size.
+    pub largest: Option<(f64, Point)>,
+    /// Slivers of regions, and the vertices that each takes; the dearest first.
+    pub slivers: Vec<(f64, Sliver)>,
+}
+
+impl Demand {
+    /// What a domain of curves that turn at most π/3 takes.
+    ///
+    /// # Errors
+    /// [`Stopped`] where the watch says so.
+    pub fn of(domain: &Domain, options: &Options, watch: &mut Watch) -> Result<Self, Stopped> {
+        let mut demand = Self::default();
+        demand.add_sizes(domain, &SizeField::new(&options.sizing, domain));
+        let least_edge = 2.0 * options.sizing.min_edge.unwrap_or(0.0);
+        let found = slivers(domain, watch)?.into_iter().filter(|s| s.kept);
+        demand.slivers = found.map(|s| (s.vertices(options.angle_min_rad, least_edge), s)).collect();
+        demand.slivers.sort_by(|a, b| b.0.total_cmp(&a.0));
+        Ok(demand)
+    }
+
+    pub fn by_slivers(&self) -> f64 {
+        self.slivers.iter().map(|(n, _)| n).sum()
+    }
+
+    /// At least so many vertices.
+    pub fn vertices(&self) -> f64 {
+        self.by_size.max(self.by_slivers())
+    }
+
+    /// The dearest places.
+    pub fn places(&self) -> Vec<Point> {
+        const PLACES: usize = 16;
+        match self.largest {
+            Some((_, at)) if self.by_size >= self.by_slivers() => vec![at],
+            _ => self.slivers.iter().map(|(_, s)| s.at).take(PLACES).collect(),
+        }
+    }
+
+    /// The width up to which slivers must go for the others to take no more than `budget` vertices.
+    pub fn width_over(&self, budget: f64) -> f64 {
+        let mut by_width = self.slivers.clone();
+        by_width.sort_by(|a, b| b.1.width.total_cmp(&a.1.width));
+        let mut left = budget;
+        let first = by_width.iter().find(|(n, _)| {
+            left -= n;
+            left < 0.0
+        });
+        first.map_or(0.0, |(_, s)| s.width)
+    }
+
+    fn add_sizes(&mut self, domain: &Domain, field: &SizeField) {
+        let mut most = 0.0;
+        for (id, region) in domain.regions().enumerate() {
+            most += self.note(0.5 * region.area / field.largest_triangle(id), || {
+                let border = domain.curves().iter().find(|c| c.sides.contains(&Some(id)));
+                border.map_or(Point::ORIGIN, |c| c.curve.point(0.5))
+            });
+        }
+        let mut on_curves = 0.0;
+        for (id, DomainCurve { curve, .. }) in domain.curves().enumerate() {
+            on_curves += self.note(edges_on(curve, field.longest_edge(id), field), || curve.point(0.5));
+        }
+        self.by_size = CAUTION * f64::max(most, on_curves);
+    }
+
+    fn note(&mut self, vertices: f64, at: impl Fn() -> Point) -> f64 {
+        if vertices > self.largest.map_or(0.0, |(n, _)| n) {
+            self.largest = Some((vertices, at()));
+        }
+        vertices
+    }
+}
+
+/// Edges that a curve takes by its length, its turning and the chord error.
+fn edges_on(curve: &Curve, longest: f64, field: &SizeField) -> f64 {
+    let length = curve.length();
+    let mut edges = length / longest;
+    if curve.is_straight() {
+        return edges;
+    }
+    if let Some(limit) = field.sizing().edge_turning_rad {
+        edges = edges.max(curve.turning(0.0, 1.0) / limit);
+    }
+    if let Some(limit) = field.sizing().chord_error.filter(|&e| curve.chord_error(0.0, 1.0) > e) {
+        const SAMPLES: u32 = 8;
+        let curvatures = (0..SAMPLES).map(|k| curve.curvature((f64::from(k) + 0.5) / f64::from(SAMPLES)).abs());
+        let mean = curvatures.map(|c| (0.125 * c / limit).sqrt()).sum::<f64>() / f64::from(SAMPLES);
+        edges = edges.max(length * mean);
+    }
+    edges
+}
+
+impl Sliver {
+    /// Vertices on one side of it, of a mesh with angles of κ and more; edges up to `least_edge` need none.
+    pub fn vertices(&self, kappa_rad: f64, least_edge: f64) -> f64 {
+        let slope = libm::tan(kappa_rad);
+        let longest = (self.width * (1.0 / slope + slope)).max(least_edge);
+        CAUTION * (self.length / longest - 1.0).max(0.0)
+    }
+}
+
+/// The slivers of a domain, kept or not, in the order of its curves; each is found from both sides.
+///
+/// # Errors
+/// [`Stopped`] where the watch says so.
+pub fn slivers(domain: &Domain, watch: &mut Watch) -> Result<Vec<Sliver>, Stopped> {
+    let mut survey = Survey {
+        domain,
+        boxes: BoxHierarchy::new(domain.curves().iter().map(|c| c.curve.bounds())),
+        lfs0: domain.lfs0(),
+        found: Vec::new(),
+    };
+    for id in domain.curves().ids() {
+        let queued = domain.curves().len() - id.index();
+        Progress { phase: "estimating", vertices: domain.points().len(), queued }.tell(watch)?;
+        for side in [0, 1] {
+            survey.look_along(id, side);
+        }
+    }
+    Ok(survey.found)
+}
+
+struct Survey<'a> {
+    domain: &'a Domain,
+    boxes: BoxHierarchy,
+    lfs0: IdVec<PointId, f64>,
+    found: Vec<Sliver>,
+}
+
+impl Survey<'_> {
+    /// Halves one side of a curve until the widths on each stretch are alike.
+    fn look_along(&mut self, id: CurveId, side: usize) {
+        let Some(whole) = self.outside_balls(id) else { return };
+        let tips = self.domain.curves()[id].ends.map(|end| self.tip(end));
+        let kept = self.domain.curves()[id].sides[side].is_some();
+        let shape = &self.domain.curves()[id].curve;
+        let mut samples = 0;
+        let mut stretches = vec![whole];
+        while let Some([t0, t1]) = stretches.pop() {
+            let length = shape.length_of(t0, t1);
+            samples += 3;
+            let widths = [1.0 / 6.0, 0.5, 5.0 / 6.0].map(|f| self.width_at(id, side, t0 + f * (t1 - t0), length));
+            let least = widths.into_iter().fold(f64::INFINITY, f64::min);
+            let largest = widths.into_iter().fold(0.0, f64::max);
+            let at_tip = t0 == whole[0] && length > tips[0] || t1 == whole[1] && length > tips[1];
+            if samples > SAMPLES_MAX || length < SLENDER * least && !at_tip {
+                continue;
+            }
+            let middle = 0.5 * (t0 + t1);
+            if largest <= ALIKE * least && least < f64::INFINITY {
+                self.found.push(Sliver { at: shape.point(middle), width: largest, length, kept });
+            } else if t0 < middle && middle < t1 {
+                stretches.extend([[t0, middle], [middle, t1]]);
+            }
+        }
+    }
+
+    /// How near to the ball of a sharp corner slivers are looked for, where there is none to be seen at first: two radii. Infinite of others.
+    fn tip(&self, end: PointId) -> f64 {
+        let sharp = self.domain.corner(end).is_some_and(|corner| corner.angle_rad < 1.0 / SLENDER);
+        if sharp { self.excused(end) } else { f64::INFINITY }
+    }
+
+    /// Two radii of the ball of a point at birth, 0 of one that has none.
+    fn excused(&self, end: PointId) -> f64 {
+        if self.domain.is_acute(end) { 2.0 * (SQRT_2 - 1.0) * self.lfs0[end] } else { 0.0 }
+    }
+
+    /// The part of a curve farther than two radii from the balls of its ends, as they are at birth.
+    fn outside_balls(&self, id: CurveId) -> Option<[f64; 2]> {
+        let DomainCurve { curve, ends, .. } = &self.domain.curves()[id];
+        let leaves = |end: End, radius: f64, whole: f64| match radius > 0.0 {
+            true => curve.leaves_ball(end, radius, 0.0, 1.0),
+            false => Some(whole),
+        };
+        let part = [leaves(End::Start, self.excused(ends[0]), 0.0)?, leaves(End::Finish, self.excused(ends[1]), 1.0)?];
+        (part[0] < part[1]).then_some(part)
+    }
+
+    /// The distance to the first other curve along the normal; infinite where none is within the sixteenth part of `length`.
+    fn width_at(&self, id: CurveId, side: usize, t: f64, length: f64) -> f64 {
+        let shape = &self.domain.curves()[id].curve;
+        let from = shape.point(t);
+        let along = shape.tangent(t, End::Start);
+        let normal = Vec2::new(-along.y, along.x) * if side == 0 { 1.0 } else { -1.0 };
+        let mut nearest = length / SLENDER;
+        let mut width = f64::INFINITY;
+        self.boxes.meeting(Rect::from_points(from, from + nearest * normal), |i| {
+            let other = CurveId::from_index(i);
+            if other != id {
+                let other = &self.domain.curves()[other].curve;
+                for t in other.line_crossings(from, normal, 0.0, 1.0) {
+                    let away = (other.point(t) - from).dot(normal);
+                    if 0.0 < away && away <= nearest {
+                        (nearest, width) = (away, away);
+                    }
+                }
+            }
+            true
+        });
+        width
+    }
+}
