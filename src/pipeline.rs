@@ -1,8 +1,8 @@
 //! From bytes to a judged mesh: read → arrange → split to turning → refine → verify. Each stage can be had alone.
 
-use crate::domain::{
-    ArrangeError, ArrangeOptions, Domain, DomainCurve, Drawing, DrawnCurve, Repair, RepairKind, SizeRequest, Unarranged,
-};
+mod healing;
+
+use crate::domain::{ArrangeError, Domain, DomainCurve, Drawing, DrawnCurve, SizeRequest, Unarranged};
 use crate::geometry::{Point, metres};
 use crate::ids::Id;
 use crate::import::{self, AirfoilOptions, Format, ImportError, SvgOptions};
@@ -11,13 +11,14 @@ use crate::mesh::elevate::elevate;
 use crate::mesh::quality::Quality;
 use crate::mesh::verify::{Status, Verdict, verify};
 use crate::plane;
-use crate::plane::lopping::demand::{Demand, Sliver, slivers};
+use crate::plane::lopping::demand::Demand;
 use crate::plane::lopping::{self, Lopping, RefineError, Refined, Shrinking};
 use crate::refine::{Stop, StopReason};
 use crate::report::{FailureKind, FailureReport, MeshReport, PromiseReport, Report, StopReport};
-use crate::request::{BallShrinking, Keep, Midpoint, Order, Request, SizeOf, Strokes, TrailingEdge};
+use crate::request::{BallShrinking, Midpoint, Order, Request, SizeOf, Strokes, TrailingEdge};
 use crate::size::{ByPlace, Given, SAMPLE_GRADE, Sizing, Source as SizeSource};
 use crate::watch::{Progress, Stopped, Watch};
+use healing::Healing;
 use kurbo::Affine;
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -135,19 +136,26 @@ impl Outcome {
     ) -> Result<(), FailureReport> {
         self.report.input.describe(drawing);
         let mut clock = Clock::start();
-        let arranged = arrange(drawing, request, watch)?;
-        self.report.input.repairs = arranged.repairs().to_vec();
-        let (domain, plan) = Plan::new(drawing, &arranged, request, watch)?;
-        self.report.request.note_use(drawing, &arranged, &plan);
-        self.report.seconds.arrange = clock.lap();
-
-        plan.afford(&domain, watch)?;
-        let (refined, more) = match steps {
-            None => (plan.refine(&domain, watch), "--timeout"),
-            Some(steps) => (plan.refine_steps(&domain, steps), "--until"),
+        let mut healing = Healing::new(drawing, request);
+        let mut arranged = healing.arrange(watch)?;
+        let (domain, plan, refined) = loop {
+            self.report.input.repairs = arranged.repairs().to_vec();
+            let (domain, plan) = Plan::new(drawing, &arranged, request, watch)?;
+            self.report.request.note_use(drawing, &arranged, &plan);
+            self.report.seconds.arrange += clock.lap();
+            plan.afford(&domain, watch)?;
+            let refined = match steps {
+                None => plan.refine(&domain, watch),
+                Some(steps) => plan.refine_steps(&domain, steps),
+            };
+            self.report.seconds.mesh += clock.lap();
+            match refined {
+                Ok(refined) => break (domain, plan, refined),
+                Err(failure) => arranged = healing.retreat(&failure, watch)?.ok_or(failure)?,
+            }
         };
-        self.report.seconds.mesh = clock.lap();
-        let Refined { mesh, stop, counters } = refined?;
+        let more = if steps.is_none() { "--timeout" } else { "--until" };
+        let Refined { mesh, stop, counters } = refined;
         self.report.stop = Some(StopReport::new(&stop));
         self.report.counters = counters;
         let mut mesh = mesh.ok_or_else(|| no_mesh(&stop, more))?;
@@ -350,83 +358,9 @@ fn scaled(mut drawing: Drawing, factor: f64) -> Drawing {
     drawing
 }
 
-/// Slivers that would take more vertices than this are a drawing's fault, where they are narrower than what the gap tolerance closes.
-const SLIVER_VERTICES: f64 = 50_000.0;
-
-/// The same where `--min-edge` asks for what is finer to be simplified.
-const SIMPLIFIED_VERTICES: f64 = 1000.0;
-
-/// A drawing whose regions would lose more than this part of their area to a coarser tolerance consists of such slivers.
-const SLIVER_AREA: f64 = 1e-3;
-
-/// Drawing → domain, as long as `watch` says to go on.
-///
-/// Where no tolerance was given and slivers narrower than the gap tolerance (1e-6 of the diagonal), or than what `--min-edge` lets be
-/// simplified, would take more than fifty thousand vertices (a thousand with `--min-edge`), the drawing is welded within that instead. This is the first repair of
-/// the list. A drawing that consists of such slivers, or cannot be arranged so coarsely, stays as it is.
+/// Drawing → domain, as long as `watch` says to go on, within the request's tolerance or the one that [`Healing`] takes.
 pub fn arrange(drawing: &Drawing, request: &Request, watch: &mut Watch) -> Result<Domain, FailureReport> {
-    let domain = arranged(drawing, request, request.tolerance, watch)?;
-    if domain.regions().is_empty() {
-        let help = "close the outline, name another --fill-rule, or mesh everything by --keep all";
-        return Err(FailureReport::new(
-            FailureKind::Geometry,
-            "nothing to mesh: the curves enclose no kept region",
-            help,
-        ));
-    }
-    let Some(tolerance) = coarser_tolerance(drawing, request) else { return Ok(domain) };
-    let Some(raised) = raised_tolerance(&domain, tolerance, request, watch)? else { return Ok(domain) };
-    match arranged(drawing, request, Some(tolerance), watch) {
-        Ok(mut coarser) if (coarser.measure() - domain.measure()).abs() <= SLIVER_AREA * domain.measure() => {
-            coarser.itemise_first(raised);
-            Ok(coarser)
-        }
-        _ => Ok(domain),
-    }
-}
-
-/// The repair that welds within `tolerance`, where the narrower slivers would take too many vertices.
-fn raised_tolerance(
-    domain: &Domain,
-    tolerance: f64,
-    request: &Request,
-    watch: &mut Watch,
-) -> Result<Option<Repair>, Stopped> {
-    let taken = |s: &Sliver| s.vertices(request.angle_min_rad(), 0.0);
-    let narrow: Vec<Sliver> = slivers(domain, watch)?.into_iter().filter(|s| s.width < tolerance).collect();
-    let vertices: f64 = narrow.iter().map(taken).sum();
-    let dearest = narrow.iter().max_by(|a, b| taken(a).total_cmp(&taken(b)));
-    let most = if request.min_edge.is_some() { SIMPLIFIED_VERTICES } else { SLIVER_VERTICES };
-    Ok(dearest.filter(|_| vertices > most).map(|dearest| Repair {
-        kind: RepairKind::ToleranceRaised,
-        at: [dearest.at.x, dearest.at.y],
-        size: tolerance,
-        what: format!(
-            "slivers narrower than {tolerance:.2e} would take {vertices:.1e} vertices or more: all was welded within that, not {:.2e}",
-            domain.tolerance()
-        ),
-    }))
-}
-
-fn arranged(
-    drawing: &Drawing,
-    request: &Request,
-    tolerance: Option<f64>,
-    watch: &mut Watch,
-) -> Result<Domain, Unarranged> {
-    let options = ArrangeOptions { tolerance, fill: request.fill_rule.rule(), keep_all: request.keep == Keep::All };
-    drawing.arrange_watched(&options, watch)
-}
-
-/// The distance within which slivers may go, where no tolerance was asked for: the gap tolerance, or a third of the edges that need not be refined (a loop is safe from
-/// three tolerances on).
-fn coarser_tolerance(drawing: &Drawing, request: &Request) -> Option<f64> {
-    if request.tolerance.is_some() {
-        return None;
-    }
-    let diagonal = drawing.bounds().map(|b| libm::hypot(b.width(), b.height()))?;
-    let simplified = request.min_edge.map_or(0.0, |edge| edge / 3.0);
-    Some((1e-6 * diagonal).max(simplified)).filter(|&t| t < diagonal / 4.0)
+    Healing::new(drawing, request).arrange(watch)
 }
 
 impl From<ArrangeError> for FailureReport {

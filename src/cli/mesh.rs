@@ -5,6 +5,7 @@ use super::files::{self, Input, Staged, unwritable};
 use super::options::{Options, Resolved};
 use super::{Halt, Volume, remember, say, write_case};
 use clap::Args;
+use squinch::domain::RepairKind;
 use squinch::export::{self, Format};
 use squinch::mesh;
 use squinch::pipeline::{self, Exit, Extent, Outcome};
@@ -124,9 +125,12 @@ pub fn mesh_with_progress(input: &Input, request: &Request, volume: Volume) -> O
     pipeline::run(&input.source(), request, Extent::Whole(&mut watch))
 }
 
-/// A mesh as the bytes of its files, stamped with what it was asked for.
+/// A mesh as the bytes of its files, stamped with what it was asked for, and the tolerance where that had to be raised.
 pub fn encode(mesh: &mesh::Mesh, outcome: &Outcome, request: &Request, format: Format) -> io::Result<Vec<Vec<u8>>> {
-    let request = toml::to_string(request).expect("a request holds only words, numbers and lists of them");
+    let raised = outcome.report.input.repairs.first().filter(|repair| repair.kind == RepairKind::ToleranceRaised);
+    let tolerance = raised.map(|repair| repair.size).or(request.tolerance);
+    let request = toml::to_string(&Request { tolerance, ..request.clone() })
+        .expect("a request holds only words, numbers and lists of them");
     let stamps =
         [("program".to_owned(), format!("squinch {}", env!("CARGO_PKG_VERSION"))), (REQUEST_STAMP.to_owned(), request)];
     export::encode(mesh, outcome.domain.as_ref(), &stamps, format)

@@ -18,6 +18,8 @@ pub struct Drawing {
     /// The filled shapes of a picture, in the order in which they are painted.
     pub shapes: IdVec<ShapeId, Shape>,
     pub fill: FillRule,
+    /// A picture whose numbers have the digits of a picture: what is hardly to be seen was hardly meant.
+    pub sketch: bool,
     /// The physical unit of a coordinate ("m", "mm", "chord", …) and where it was read from, where known.
     pub unit: Option<(String, String)>,
     /// Where the plane of the drawing lies in space, of a face of a solid.

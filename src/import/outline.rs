@@ -52,6 +52,8 @@ struct File {
     unit: Option<String>,
     unit_from: Option<String>,
     fill: Option<Fill>,
+    #[serde(default)]
+    sketch: bool,
     names: Option<Vec<String>>,
     #[serde(default, deserialize_with = "shapes")]
     shapes: Vec<ShapeForm>,
@@ -398,6 +400,7 @@ impl File {
                 Some(Fill::Shapes) => FillRule::Shapes,
                 Some(Fill::EvenOdd) | None => FillRule::EvenOdd,
             },
+            sketch: self.sketch,
             unit: self.unit.map(|unit| (unit, self.unit_from.unwrap_or_else(|| "outline".into()))),
             notes: self.notes.unwrap_or_default(),
             ..Drawing::default()
@@ -687,6 +690,9 @@ pub fn to_json(drawing: &Drawing) -> String {
         head.insert("unit_from".into(), json!(from));
     }
     head.insert("fill".into(), json!(fill_word(drawing.fill)));
+    if drawing.sketch {
+        head.insert("sketch".into(), json!(true));
+    }
     head.insert("names".into(), drawing.names.iter().map(|(_, text)| json!(text)).collect());
     let mut text = String::from("{\n");
     for (key, value) in &head {

@@ -293,10 +293,9 @@ impl<'a> Network<'a> {
 
     /// The parameters at which a regular part meets itself.
     fn self_cuts(&mut self, source: u32, part: &Curve) -> Result<Vec<f64>, ArrangeError> {
-        let found = self_meetings(part, self.tolerances.weld).map_err(|budget| ArrangeError {
-            what: format!("{} runs so near to itself that its meetings cannot be told apart", self.entity(source)),
-            at: budget.at,
-            help: "simplify the curve, or raise the tolerance".into(),
+        let found = self_meetings(part, self.tolerances.weld).map_err(|budget| {
+            let what = format!("{} runs so near to itself that its meetings cannot be told apart", self.entity(source));
+            ArrangeError::near(what, budget.at, "simplify the curve, or raise the tolerance")
         })?;
         for meeting in &found {
             let what = format!("{} meets itself and was split there", self.entity(source));
@@ -541,14 +540,10 @@ impl Network<'_> {
 
     fn meetings_of(&self, a: CurveId, b: CurveId, tolerance: f64) -> Result<Meetings, ArrangeError> {
         let [p, q] = [a, b].map(|id| &self.pieces[id]);
-        meetings(&p.curve, &q.curve, tolerance).map_err(|budget| ArrangeError {
-            what: format!(
-                "{} and {} run so near to each other that their meetings cannot be told apart",
-                self.entity(p.source),
-                self.entity(q.source)
-            ),
-            at: budget.at,
-            help: "remove one of the two, or raise the tolerance so that they become one".into(),
+        meetings(&p.curve, &q.curve, tolerance).map_err(|budget| {
+            let [p, q] = [p, q].map(|piece| self.entity(piece.source));
+            let what = format!("{p} and {q} run so near to each other that their meetings cannot be told apart");
+            ArrangeError::near(what, budget.at, "remove one of the two, or raise the tolerance so that they become one")
         })
     }
 
@@ -594,11 +589,8 @@ impl Network<'_> {
 }
 
 fn too_many_cuts(at: Point) -> ArrangeError {
-    ArrangeError {
-        what: format!("the curves meet in more than {} places", CUTS_MAX / 2),
-        at,
-        help: "such a drawing is noise: leave out the curves that cross most of the others there".into(),
-    }
+    let what = format!("the curves meet in more than {} places", CUTS_MAX / 2);
+    ArrangeError::near(what, at, "such a drawing is noise: leave out the curves that cross most of the others there")
 }
 
 #[derive(Clone, Copy, Debug)]

@@ -93,6 +93,8 @@ pub struct ArrangeError {
     pub at: Point,
     /// What the user can do.
     pub help: String,
+    /// Whether features that lie too near to each other are the reason: a coarser tolerance may make one of them.
+    pub near: bool,
 }
 
 /// Why there is no domain.
@@ -102,6 +104,17 @@ pub enum Unarranged {
     Invalid(#[from] ArrangeError),
     #[error(transparent)]
     Stopped(#[from] Stopped),
+}
+
+impl ArrangeError {
+    fn new(what: impl Into<String>, at: Point, help: impl Into<String>) -> Self {
+        Self { what: what.into(), at, help: help.into(), near: false }
+    }
+
+    /// Features lie too near to each other.
+    fn near(what: impl Into<String>, at: Point, help: impl Into<String>) -> Self {
+        Self { near: true, ..Self::new(what, at, help) }
+    }
 }
 
 impl Repair {
@@ -161,7 +174,7 @@ impl Drawing {
         let places = self.points.iter().map(|p| (p.at, &p.entity)).chain(self.seeds.iter().map(|s| (s.at, &s.entity)));
         let bounds = self.curves.iter().map(|c| c.curve.bounds()).reduce(|a, b| a.union(b));
         let Some(bounds) = bounds else { return Err(self.no_curves()) };
-        let refuse = |what: String, help: &str| Err(ArrangeError { what, at: bounds.center(), help: help.into() });
+        let refuse = |what: String, help: &str| Err(ArrangeError::new(what, bounds.center(), help));
         if let Some((_, entity)) = places.into_iter().find(|(at, _)| stray(*at)) {
             return refuse(format!("{entity} has a coordinate that is no finite number"), "correct it in the file");
         }
@@ -169,7 +182,7 @@ impl Drawing {
         let strays = |p: &&super::DrawnPoint| p.at.x.abs().max(p.at.y.abs()) > reach;
         if let Some(point) = self.points.iter().find(strays) {
             let what = format!("{} lies far from all curves, which are {:e} across", point.entity, extent(bounds));
-            return Err(ArrangeError { what, at: point.at, help: "remove it, or correct its coordinates".into() });
+            return Err(ArrangeError::new(what, point.at, "remove it, or correct its coordinates"));
         }
         let size = magnitude(bounds);
         if !bounds.is_finite() || (size != 0.0 && !(1e-140..1e140).contains(&size)) {
@@ -194,7 +207,7 @@ impl Drawing {
             true => "the file holds no curves".to_owned(),
             false => format!("the file holds no curves; left out: {}", skipped.join(", ")),
         };
-        ArrangeError { what: "nothing to mesh: the drawing has no curves".into(), at: Point::ORIGIN, help }
+        ArrangeError::new("nothing to mesh: the drawing has no curves", Point::ORIGIN, help)
     }
 
     /// The drawing times a power of two, with the box of `keep all`, and its tolerances.
@@ -219,8 +232,11 @@ impl Drawing {
     fn tolerances(&self, bounds: Rect, factor: f64, options: &ArrangeOptions) -> Result<Tolerances, ArrangeError> {
         let diagonal = extent(bounds);
         let refuse = |what: String| {
-            let help = "give a welding distance of 0 or a small part of the drawing's size".into();
-            Err(ArrangeError { what, at: bounds.center(), help })
+            Err(ArrangeError::new(
+                what,
+                bounds.center(),
+                "give a welding distance of 0 or a small part of the drawing's size",
+            ))
         };
         // Sixteen units of rounding of the largest number that points are computed from, as in the search for meetings: arcs from
         // their centers too, though of nearly straight ones no more than the default tolerance.

@@ -133,11 +133,11 @@ fn exit(at: Point, ahead: Vec2, curves: &IdVec<CurveId, DomainCurve>, i: &Incide
 
 fn undecided(at: Point, star: &[Incident], curves: &IdVec<CurveId, DomainCurve>) -> ArrangeError {
     let kinds: Vec<_> = star.iter().map(|i| curves[i.curve].curve.kind()).collect();
-    ArrangeError {
-        what: format!("curves ({}) touch so closely that their order around a point cannot be told", kinds.join(", ")),
+    ArrangeError::near(
+        format!("curves ({}) touch so closely that their order around a point cannot be told", kinds.join(", ")),
         at,
-        help: "raise the tolerance so that they become one, or remove all but one of them".into(),
-    }
+        "raise the tolerance so that they become one, or remove all but one of them",
+    )
 }
 
 fn angle(v: Vec2) -> f64 {

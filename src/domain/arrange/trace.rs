@@ -188,11 +188,11 @@ impl<'a> View<'a> {
                 return Ok(());
             }
         }
-        Err(ArrangeError {
-            what: "it cannot be told which face contains the curves".into(),
-            at: bounds.center(),
-            help: "remove curves that are hardly larger than the rounding of their coordinates".into(),
-        })
+        Err(ArrangeError::near(
+            "it cannot be told which face contains the curves",
+            bounds.center(),
+            "remove curves that are hardly larger than the rounding of their coordinates",
+        ))
     }
 
     fn component_of(&self, hit: &Hit) -> usize {
@@ -469,11 +469,8 @@ fn nothing_to_mesh(network: &Network, domain: &Domain, faces: &Faces, rule: Fill
     }
     let free = network.free_ends();
     let Some(&end) = free.first() else {
-        return ArrangeError {
-            what: "nothing to mesh: no closed region".into(),
-            at: first,
-            help: "the curves enclose nothing: draw a closed outline".into(),
-        };
+        let help = "the curves enclose nothing: draw a closed outline";
+        return ArrangeError::new("nothing to mesh: no closed region", first, help);
     };
     let at = network.nodes[end].at;
     let gap = free[1..].iter().map(|&n| network.nodes[n].at.distance(at)).fold(f64::INFINITY, f64::min);
@@ -488,7 +485,7 @@ fn nothing_to_mesh(network: &Network, domain: &Domain, faces: &Faces, rule: Fill
     };
     let what =
         format!("nothing to mesh: no closed region; {} ends freely", network.nodes[end].origin.text(network.drawing));
-    ArrangeError { what, at, help }
+    ArrangeError { near: gap <= MENDED_BY_TOLERANCE * across, ..ArrangeError::new(what, at, help) }
 }
 
 /// Widest gap, as part of the drawing, that a tolerance is to close: a larger one would weld what is drawn.
@@ -496,8 +493,7 @@ const MENDED_BY_TOLERANCE: f64 = 1e-3;
 
 /// Why no face of a drawing that has some is kept.
 fn all_outside(network: &Network, rule: FillRule, at: Point) -> ArrangeError {
-    let error =
-        |what: &str, help: &str| ArrangeError { what: format!("nothing to mesh: {what}"), at, help: help.into() };
+    let error = |what: &str, help: &str| ArrangeError::new(format!("nothing to mesh: {what}"), at, help);
     let mut repeated: Vec<u32> =
         network.pieces.iter().flat_map(|p| p.merged.iter().map(|&(source, _)| source)).collect();
     repeated.sort_unstable();

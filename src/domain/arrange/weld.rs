@@ -39,12 +39,9 @@ impl Network<'_> {
             at = found.cuts.first().map_or_else(|| self.nodes[found.links[0][0]].at, |cut| cut.at);
             self.weld(found);
         }
-        Err(ArrangeError {
-            what: format!("curves run so near to each other that {ROUNDS} rounds of welding did not part them"),
-            at,
-            help: "raise the tolerance above the distance of the features there, or remove one of them".into(),
-        }
-        .into())
+        let what = format!("curves run so near to each other that {ROUNDS} rounds of welding did not part them");
+        let help = "raise the tolerance above the distance of the features there, or remove one of them";
+        Err(ArrangeError::near(what, at, help).into())
     }
 
     /// Closes gaps between ends that meet nothing else, up to the gap tolerance; whether there were any.

@@ -7,6 +7,7 @@
 //! else the colour. A path is drawn up to the first error in its data, as SVG asks. Not applied, but counted: clip paths, masks,
 //! filters, markers, patterns; not read, but counted: text, images, whatever is hidden. Viewports do not clip, and strokes have no width.
 
+mod digits;
 mod path;
 mod style;
 mod units;
@@ -89,6 +90,7 @@ pub fn read(bytes: &[u8], stem: &str, options: &SvgOptions) -> Result<Drawing, I
     drawing.title = title.map(str::trim).filter(|t| !t.is_empty()).unwrap_or(stem).to_owned();
     drawing.format = "svg".into();
     drawing.unit = Some(page.unit);
+    drawing.sketch = digits::is_sketch(&text);
     Ok(drawing)
 }
 
