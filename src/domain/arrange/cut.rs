@@ -15,6 +15,10 @@ const CUTS_MAX: usize = 1 << 24;
 /// Pairs of curves, or of a node and a curve, that are kept at most while it is looked for where they meet: half a gigabyte.
 const PAIRS_MAX: usize = 1 << 26;
 
+/// A hook turns so far within this part of the tolerance, a sixteenth: no disc that is wider than the tolerance has any.
+const HOOK_RAD: f64 = 0.5;
+const HOOK: f64 = 0.0625;
+
 /// What a node or a cut is there for. Earlier ones win where nodes are welded: what was drawn is the truth.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub(super) enum Origin {
@@ -288,7 +292,38 @@ impl<'a> Network<'a> {
             self.repair(RepairKind::Corner, curve.point(at_break.t), 0.0, what);
         }
         let cuts: Vec<f64> = breaks.iter().map(|b| b.t).filter(|&t| 0.0 < t && t < 1.0).collect();
-        split(curve, &cuts)
+        split(curve, &cuts).into_iter().flat_map(|part| self.parts_between_hooks(source, part)).collect()
+    }
+
+    /// A regular part, cut around the hooks in it: bends far narrower than the tolerance, as handles a last digit away from their ends make
+    /// them. What is between the cuts is too short to stay: the hook becomes a corner, or the end that it is at.
+    fn parts_between_hooks(&mut self, source: u32, part: Curve) -> Vec<Curve> {
+        let mut steps = part.cuts_of_turning(HOOK_RAD);
+        if steps.is_empty() {
+            return vec![part];
+        }
+        steps.insert(0, 0.0);
+        steps.push(1.0);
+        let narrow = |step: &[f64]| extent(part.bounds_of(step[0], step[1])) <= HOOK * self.tolerances.weld;
+        let is_hook: Vec<bool> = steps.windows(2).map(narrow).collect();
+        let mut cuts = Vec::new();
+        for (k, run) in
+            is_hook.chunk_by(|a, b| a == b).scan(0, |k, run| Some((std::mem::replace(k, *k + run.len()), run)))
+        {
+            let [t0, t1] = [steps[k], steps[k + run.len()]];
+            if run[0] {
+                let (at, degrees) = (part.point(t0), part.turning(t0, t1).to_degrees());
+                let size = extent(part.bounds_of(t0, t1));
+                let what = format!(
+                    "a bend of {degrees:.0}° in {}, narrower than the tolerance, became a corner",
+                    self.entity(source)
+                );
+                self.repair(RepairKind::Corner, at, size, what);
+                cuts.extend([t0, t1]);
+            }
+        }
+        cuts.retain(|&t| 0.0 < t && t < 1.0);
+        split(&part, &cuts)
     }
 
     /// The parameters at which a regular part meets itself.
