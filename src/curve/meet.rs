@@ -40,6 +40,8 @@ pub struct Meeting {
     /// Parameter on the second curve; likewise.
     pub u: f64,
     pub kind: MeetingKind,
+    /// How far around it the curves stay within the tolerance of each other.
+    pub contact: Overlap,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -107,7 +109,13 @@ pub fn self_meetings(a: &Curve, tolerance: f64) -> Result<Vec<Meeting>, MeetingB
     let Meetings { mut points, overlaps } = search.finish();
     for Overlap { t, u } in overlaps {
         let ends = [(t[0], u[0]), (t[1], u[1])].into_iter().filter(|(t, u)| t < u);
-        points.extend(ends.map(|(t, u)| Meeting { at: a.point(t), t, u, kind: MeetingKind::Touching }));
+        points.extend(ends.map(|(t, u)| Meeting {
+            at: a.point(t),
+            t,
+            u,
+            kind: MeetingKind::Touching,
+            contact: Overlap { t: [t; 2], u: [u; 2] },
+        }));
     }
     points.sort_by(|p, q| p.t.total_cmp(&q.t).then(p.u.total_cmp(&q.u)));
     Ok(points)

@@ -40,24 +40,31 @@ const SKETCH_AREA: f64 = 1e-3;
 /// The same of other drawings.
 const EXACT_AREA: f64 = 1e-9;
 
+/// A coarser tolerance must lessen the vertices of slivers to this part to be worth it.
+const WORTH: f64 = 0.5;
+
 /// A drawing on its way to a domain within the right tolerance.
 pub struct Healing<'a> {
     drawing: &'a Drawing,
     request: &'a Request,
-    /// Coarser tolerances that may be taken, ascending.
+    /// Coarser tolerances that may be taken, the coarsest first.
     left: Vec<f64>,
     vertices: [f64; 2],
     area: f64,
     /// Area of the kept regions within the finest tolerance that was arranged.
     measure: Option<f64>,
-    /// Why the tolerance must be raised.
-    why: Option<Why>,
 }
 
 /// What asks for a coarser tolerance.
 struct Why {
     at: Point,
     what: String,
+}
+
+/// A domain, and the vertices that its slivers take at least.
+struct Candidate {
+    domain: Domain,
+    vertices: f64,
 }
 
 impl<'a> Healing<'a> {
@@ -68,12 +75,12 @@ impl<'a> Healing<'a> {
         let parts = if drawing.sketch { &SKETCH[..] } else { &[EXACT] };
         let mut left: Vec<f64> = parts.iter().map(|part| part * diagonal).chain(simplified).collect();
         left.retain(|&t| 0.0 < t && t < diagonal / 4.0 && request.tolerance.is_none());
-        left.sort_by(f64::total_cmp);
+        left.sort_by(|a, b| b.total_cmp(a));
         let (vertices, area) = match sketch {
             true => (SKETCH_VERTICES, SKETCH_AREA),
             false => (EXACT_VERTICES, EXACT_AREA),
         };
-        Self { drawing, request, left, vertices, area, measure: None, why: None }
+        Self { drawing, request, left, vertices, area, measure: None }
     }
 
     /// The drawing within the request's tolerance, or the finest that will do.
@@ -81,22 +88,30 @@ impl<'a> Healing<'a> {
     /// # Errors
     /// Where no tolerance gives a domain: of the finest. Where there is nothing to mesh, or the watch says stop.
     pub fn arrange(&mut self, watch: &mut Watch) -> Result<Domain, FailureReport> {
-        match self.arrange_within(self.request.tolerance, watch) {
-            Ok(domain) if domain.regions().is_empty() => Err(no_region()),
-            Ok(domain) => {
-                self.measure = Some(domain.measure());
-                self.coarsen(&domain, watch)?;
-                if self.why.is_none() {
-                    return Ok(domain);
-                }
-                Ok(self.raised(watch)?.unwrap_or(domain))
-            }
+        let domain = match self.arrange_within(self.request.tolerance, watch) {
+            Ok(domain) if domain.regions().is_empty() => return Err(no_region()),
+            Ok(domain) => domain,
             Err(Unarranged::Invalid(error)) if error.near => {
-                self.why = Some(Why { at: error.at, what: error.what.clone() });
-                self.raised(watch)?.ok_or_else(|| error.into())
+                let why = Why { at: error.at, what: error.what.clone() };
+                return self.coarser(None, &why, watch)?.ok_or_else(|| error.into());
             }
-            Err(why) => Err(why.into()),
+            Err(why) => return Err(why.into()),
+        };
+        if self.left.is_empty() {
+            return Ok(domain);
         }
+        self.measure = Some(domain.measure());
+        let slivers = slivers(&domain, watch)?;
+        let taken = |s: &Sliver| s.vertices(self.request.angle_min_rad(), 0.0);
+        let Some(dearest) = slivers.iter().max_by(|a, b| taken(a).total_cmp(&taken(b))) else { return Ok(domain) };
+        let vertices: f64 = slivers.iter().map(taken).sum();
+        let finest = Candidate { domain, vertices };
+        if self.will_do(&finest) {
+            return Ok(finest.domain);
+        }
+        let what = format!("slivers between curves would take {vertices:.1e} vertices or more");
+        let why = Why { at: dearest.at, what };
+        Ok(self.coarser(Some(finest), &why, watch)?.expect("there was one to begin with"))
     }
 
     /// The drawing within the next coarser tolerance, after `failure` of the engine; `None` where there is none.
@@ -108,46 +123,39 @@ impl<'a> Healing<'a> {
             return Ok(None);
         }
         let [x, y] = failure.at.unwrap_or_default();
-        self.why = Some(Why { at: Point::new(x, y), what: failure.what.clone() });
-        self.raised(watch)
+        self.coarser(None, &Why { at: Point::new(x, y), what: failure.what.clone() }, watch)
     }
 
-    /// Leaves out the tolerances that would leave too many slivers, where one is called for at all.
-    fn coarsen(&mut self, domain: &Domain, watch: &mut Watch) -> Result<(), FailureReport> {
-        let Some(&coarsest) = self.left.last() else { return Ok(()) };
-        let narrow: Vec<(f64, Sliver)> = slivers(domain, watch)?
-            .into_iter()
-            .filter(|s| s.width < coarsest)
-            .map(|s| (s.vertices(self.request.angle_min_rad(), 0.0), s))
-            .collect();
-        let enough = self.vertices[0] + self.vertices[1] * domain.curves().len() as f64;
-        let taken = |within: f64| narrow.iter().filter(|(_, s)| s.width >= within).map(|(n, _)| n).sum::<f64>();
-        let vertices = taken(0.0);
-        if vertices <= enough {
-            return Ok(());
-        }
-        let least = self.left.iter().position(|&t| taken(t) <= enough).unwrap_or(self.left.len() - 1);
-        self.left.drain(..least);
-        let dearest = narrow.iter().max_by(|a, b| a.0.total_cmp(&b.0));
-        let what = format!("slivers narrower than {coarsest:.2e} would take {vertices:.1e} vertices or more");
-        self.why = dearest.map(|(_, s)| Why { at: s.at, what });
-        Ok(())
-    }
-
-    /// The drawing within the finest tolerance left that can be arranged and changes the area by little.
-    fn raised(&mut self, watch: &mut Watch) -> Result<Option<Domain>, FailureReport> {
-        while !self.left.is_empty() {
-            let tolerance = self.left.remove(0);
-            match self.arrange_within(Some(tolerance), watch) {
-                Ok(mut domain) if self.is_alike(&domain) => {
-                    domain.itemise_first(self.repair(tolerance));
-                    return Ok(Some(domain));
-                }
-                Ok(_) | Err(Unarranged::Invalid(_)) => {}
+    /// The first domain, within coarser and coarser tolerances, of which the slivers will do; or else the one with the least of them.
+    fn coarser(
+        &mut self,
+        mut best: Option<Candidate>,
+        why: &Why,
+        watch: &mut Watch,
+    ) -> Result<Option<Domain>, FailureReport> {
+        while let Some(tolerance) = self.left.pop() {
+            let mut domain = match self.arrange_within(Some(tolerance), watch) {
+                Ok(domain) if self.is_alike(&domain) => domain,
+                Ok(_) | Err(Unarranged::Invalid(_)) => continue,
                 Err(stopped) => return Err(stopped.into()),
+            };
+            domain.itemise_first(why.repair(tolerance));
+            let kappa = self.request.angle_min_rad();
+            let vertices = slivers(&domain, watch)?.iter().map(|s| s.vertices(kappa, 0.0)).sum();
+            let candidate = Candidate { domain, vertices };
+            if self.will_do(&candidate) {
+                return Ok(Some(candidate.domain));
+            }
+            if best.as_ref().is_none_or(|best| candidate.vertices < WORTH * best.vertices) {
+                best = Some(candidate);
             }
         }
-        Ok(None)
+        Ok(best.map(|best| best.domain))
+    }
+
+    fn will_do(&self, candidate: &Candidate) -> bool {
+        let curves = candidate.domain.curves().len() as f64;
+        candidate.vertices <= self.vertices[0] + self.vertices[1] * curves
     }
 
     fn is_alike(&self, domain: &Domain) -> bool {
@@ -155,20 +163,21 @@ impl<'a> Healing<'a> {
         measure > 0.0 && self.measure.is_none_or(|of_finest| (measure - of_finest).abs() <= self.area * of_finest)
     }
 
-    fn repair(&self, tolerance: f64) -> Repair {
-        let why = self.why.as_ref().expect("no tolerance is raised without a reason");
-        Repair {
-            kind: RepairKind::ToleranceRaised,
-            at: [why.at.x, why.at.y],
-            size: tolerance,
-            what: format!("{}: all was welded within {tolerance:.2e}", why.what),
-        }
-    }
-
     fn arrange_within(&self, tolerance: Option<f64>, watch: &mut Watch) -> Result<Domain, Unarranged> {
         let options =
             ArrangeOptions { tolerance, fill: self.request.fill_rule.rule(), keep_all: self.request.keep == Keep::All };
         self.drawing.arrange_watched(&options, watch)
+    }
+}
+
+impl Why {
+    fn repair(&self, tolerance: f64) -> Repair {
+        Repair {
+            kind: RepairKind::ToleranceRaised,
+            at: [self.at.x, self.at.y],
+            size: tolerance,
+            what: format!("{}: all was welded within {tolerance:.2e}", self.what),
+        }
     }
 }
 

@@ -104,7 +104,8 @@ impl<'c> Contacts<'c> {
         let (dt, du) = (self.a.step_of(t, reach), self.b.step_of(u, reach));
         self.walks.push(vec![[t - dt, u - du], [t + dt, u + du]]);
         let at = self.a.curve.point(t).midpoint(self.b.curve.point(u));
-        self.points.push(Meeting { at, t, u, kind: MeetingKind::Crossing });
+        let contact = Overlap { t: [t; 2], u: [u; 2] };
+        self.points.push(Meeting { at, t, u, kind: MeetingKind::Crossing, contact });
     }
 
     /// Follows the contact through (t, u), which must be within the tolerance, and records what it is. `root` says that (t, u)
@@ -242,7 +243,7 @@ impl<'c> Contacts<'c> {
             return Finding::Stretch(Overlap { t: [from[0], to[0]], u: [from[1], to[1]] });
         }
         if held {
-            return self.meeting_at_end(&ends);
+            return self.meeting_at_end(walk, &ends);
         }
         let (Stop::Away(before), Stop::Away(after)) = (before, after) else { return Finding::Nothing };
         Finding::Point(self.meeting_inside(walk, at, root, before, after))
@@ -330,7 +331,7 @@ impl<'c> Contacts<'c> {
     }
 
     /// The meeting of a contact no longer than the tolerance that holds the given ends.
-    fn meeting_at_end(&self, ends: &[[f64; 2]]) -> Finding {
+    fn meeting_at_end(&self, walk: &[[f64; 2]], ends: &[[f64; 2]]) -> Finding {
         let Some(&first) = ends.iter().find(|w| is_end(w[0])).or(ends.first()) else { return Finding::Nothing };
         let [t, u] = self.snapped(first, ends);
         let (a, b) = (self.a.curve, self.b.curve);
@@ -339,7 +340,7 @@ impl<'c> Contacts<'c> {
         }
         // An end is where it is; the other curve is brought to it.
         let at = if is_end(t) { a.point(t) } else { b.point(u) };
-        Finding::Point(Meeting { at, t, u, kind: MeetingKind::Touching })
+        Finding::Point(Meeting { at, t, u, kind: MeetingKind::Touching, contact: whole(walk) })
     }
 
     /// The meeting of a contact inside both curves, left at `before` and `after`.
@@ -365,7 +366,8 @@ impl<'c> Contacts<'c> {
         };
         let [t, u] = place.filter(|&w| self.gap(w) <= self.tolerance).unwrap_or_else(|| self.closest(walk));
         let kind = if crosses { MeetingKind::Crossing } else { MeetingKind::Touching };
-        Meeting { at: self.a.curve.point(t).midpoint(self.b.curve.point(u)), t, u, kind }
+        let at = self.a.curve.point(t).midpoint(self.b.curve.point(u));
+        Meeting { at, t, u, kind, contact: whole(walk) }
     }
 
     fn gap(&self, [t, u]: [f64; 2]) -> f64 {
@@ -431,6 +433,12 @@ impl<'c> Contacts<'c> {
         }
         ([t, u], length(gap) <= 0.25 * self.tolerance)
     }
+}
+
+/// The stretch of a walk.
+fn whole(walk: &[[f64; 2]]) -> Overlap {
+    let (first, last) = (walk[0], walk[walk.len() - 1]);
+    Overlap { t: [first[0], last[0]], u: [first[1], last[1]] }
 }
 
 fn is_end(x: f64) -> bool {

@@ -1,7 +1,7 @@
 //! The network: drawn curves cut into pieces at their breaks and self-meetings, and the places where pieces meet.
 
 use super::{ArrangeError, Drawing, Repair, RepairKind, Tolerances, Unarranged};
-use crate::curve::{BreakKind, Curve, Meetings, meetings, self_meetings};
+use crate::curve::{BreakKind, Curve, Meeting, MeetingKind, Meetings, Overlap, meetings, self_meetings};
 use crate::geometry::boxes::{BoxHierarchy, Labels};
 use crate::geometry::exact::{Orientation, orient};
 use crate::geometry::{Point, Rect};
@@ -14,6 +14,12 @@ const CUTS_MAX: usize = 1 << 24;
 
 /// Pairs of curves, or of a node and a curve, that are kept at most while it is looked for where they meet: half a gigabyte.
 const PAIRS_MAX: usize = 1 << 26;
+
+/// Curves part slowly where they stay within the tolerance of each other for so many tolerances.
+const SLOW: f64 = 16.0;
+
+/// In the middle of such a contact they are within this part of their widest distance: less than straight lines would be.
+const BENT: f64 = 0.375;
 
 /// A hook turns so far within this part of the tolerance, a sixteenth: no disc that is wider than the tolerance has any.
 const HOOK_RAD: f64 = 0.5;
@@ -527,10 +533,12 @@ impl Network<'_> {
         let near = self.meetings_of(a, b, weld)?;
         let p = &self.pieces[a];
         let mut places: Vec<(Point, [f64; 2])> = Vec::new();
-        for meeting in near.points.iter().filter(|m| !self.is_contact([a, b], [m.t, m.u], weld)) {
+        let (zipped, points): (Vec<&Meeting>, Vec<&Meeting>) =
+            near.points.iter().partition(|meeting| self.tolerances.zip && self.part_slowly([a, b], meeting));
+        for meeting in points.into_iter().filter(|m| !self.is_contact([a, b], [m.t, m.u], weld)) {
             places.push((meeting.at, [meeting.t, meeting.u]));
         }
-        for overlap in &near.overlaps {
+        for overlap in near.overlaps.iter().chain(zipped.into_iter().map(|meeting| &meeting.contact)) {
             places.extend((0..2).map(|k| (p.curve.point(overlap.t[k]), [overlap.t[k], overlap.u[k]])));
         }
         let before = [found.cuts.len(), found.links.len()];
@@ -541,6 +549,20 @@ impl Network<'_> {
             self.untangle([a, b], found)?;
         }
         Ok(())
+    }
+
+    /// Whether two pieces touch and part so slowly that what is between them, as long as that is within the tolerance, would take more
+    /// triangles than it is worth: they are one there. Straight lines at an angle are not made one, the wedge would only begin elsewhere.
+    fn part_slowly(&self, ids: [CurveId; 2], meeting: &Meeting) -> bool {
+        let Overlap { t, u } = meeting.contact;
+        if meeting.kind == MeetingKind::Crossing || t[0] == t[1] || u[0] == u[1] {
+            return false;
+        }
+        let [p, q] = ids.map(|id| &self.pieces[id].curve);
+        let ends = t.map(|t| p.point(t));
+        let within = |t: f64| q.nearest(p.point(t), u[0].min(u[1]), u[0].max(u[1])).1;
+        let widest = t.map(within).into_iter().fold(0.0, f64::max);
+        ends[0].distance(ends[1]) > SLOW * self.tolerances.weld && within(0.5 * (t[0] + t[1])) <= BENT * widest
     }
 
     /// Further meetings of two pieces with a common end. Within the tolerance of it all is one contact, but the curves may cross there

@@ -132,6 +132,8 @@ struct Tolerances {
     weld: f64,
     /// Free ends nearer than this are joined; 0: never.
     gap: f64,
+    /// Whether curves that part from each other slowly are one as long as they are within `weld`.
+    zip: bool,
     /// What rounding does to coordinates.
     rounding: f64,
     /// The length, in the drawing's units, of one unit of the frame: for messages.
@@ -251,7 +253,9 @@ impl Drawing {
             }
             Some(given) => (given * factor, 0.0),
         };
-        Ok(Tolerances { weld: weld.max(rounding), gap, rounding, unit: 1.0 / factor })
+        // A tolerance that was asked for says what is one; else a contact of curves drawn to touch stays the point that it is.
+        let zip = options.tolerance.is_some_and(|given| given > 0.0);
+        Ok(Tolerances { weld: weld.max(rounding), gap, zip, rounding, unit: 1.0 / factor })
     }
 
     /// Adds the sides of a box as boundary `box`.
