@@ -136,6 +136,7 @@ impl Outcome {
     ) -> Result<(), FailureReport> {
         self.report.input.describe(drawing);
         let mut clock = Clock::start();
+        let more = if steps.is_none() { "--timeout" } else { "--until" };
         let mut healing = Healing::new(drawing, request);
         let mut arranged = healing.arrange(watch)?;
         let (domain, plan, refined) = loop {
@@ -149,12 +150,18 @@ impl Outcome {
                 Some(steps) => plan.refine_steps(&domain, steps),
             };
             self.report.seconds.mesh += clock.lap();
-            match refined {
-                Ok(refined) => break (domain, plan, refined),
-                Err(failure) => arranged = healing.retreat(&failure, watch)?.ok_or(failure)?,
+            let coarser = match &refined {
+                Err(failure) if failure.kind == FailureKind::Geometry => healing.retreat(failure, watch)?,
+                Ok(refined) if refined.stop.reason == StopReason::Arithmetic => {
+                    healing.retreat(&no_mesh(&refined.stop, more), watch)?
+                }
+                _ => None,
+            };
+            match coarser {
+                Some(coarser) => arranged = coarser,
+                None => break (domain, plan, refined?),
             }
         };
-        let more = if steps.is_none() { "--timeout" } else { "--until" };
         let Refined { mesh, stop, counters } = refined;
         self.report.stop = Some(StopReport::new(&stop));
         self.report.counters = counters;

@@ -119,9 +119,6 @@ impl<'a> Healing<'a> {
     /// # Errors
     /// Where the watch says stop.
     pub fn retreat(&mut self, failure: &FailureReport, watch: &mut Watch) -> Result<Option<Domain>, FailureReport> {
-        if failure.kind != FailureKind::Geometry {
-            return Ok(None);
-        }
         let [x, y] = failure.at.unwrap_or_default();
         self.coarser(None, &Why { at: Point::new(x, y), what: failure.what.clone() }, watch)
     }

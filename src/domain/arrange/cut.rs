@@ -21,9 +21,13 @@ const SLOW: f64 = 16.0;
 /// In the middle of such a contact they are within this part of their widest distance: less than straight lines would be.
 const BENT: f64 = 0.375;
 
-/// A hook turns so far within this part of the tolerance, a sixteenth: no disc that is wider than the tolerance has any.
-const HOOK_RAD: f64 = 0.5;
+/// A hook turns at least so far within this part of the tolerance: a disc that is wider than the tolerance has none.
+const HOOK_RAD: f64 = 0.05;
 const HOOK: f64 = 0.0625;
+
+/// A Bézier curve has no hooks where its speed along the chord is at least this part of its greatest: it bends no sharper than some
+/// millionth of its size then.
+const PACE: f64 = 1e-3;
 
 /// What a node or a cut is there for. Earlier ones win where nodes are welded: what was drawn is the truth.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
@@ -304,30 +308,32 @@ impl<'a> Network<'a> {
     /// A regular part, cut around the hooks in it: bends far narrower than the tolerance, as handles a last digit away from their ends make
     /// them. What is between the cuts is too short to stay: the hook becomes a corner, or the end that it is at.
     fn parts_between_hooks(&mut self, source: u32, part: Curve) -> Vec<Curve> {
-        let mut steps = part.cuts_of_turning(HOOK_RAD);
-        if steps.is_empty() {
+        if is_evenly_paced(&part) {
             return vec![part];
         }
-        steps.insert(0, 0.0);
+        let mut steps = vec![0.0];
+        steps.extend(part.cuts_of_turning(HOOK_RAD));
         steps.push(1.0);
-        let narrow = |step: &[f64]| extent(part.bounds_of(step[0], step[1])) <= HOOK * self.tolerances.weld;
-        let is_hook: Vec<bool> = steps.windows(2).map(narrow).collect();
-        let mut cuts = Vec::new();
-        for (k, run) in
-            is_hook.chunk_by(|a, b| a == b).scan(0, |k, run| Some((std::mem::replace(k, *k + run.len()), run)))
-        {
+        let narrow = |t0: f64, t1: f64, limit: f64| extent(part.bounds_of(t0, t1)) <= limit * self.tolerances.weld;
+        let hooked: Vec<bool> = steps.windows(2).map(|step| narrow(step[0], step[1], HOOK / 4.0)).collect();
+        let mut hooks = Vec::new();
+        let mut k = 0;
+        for run in hooked.chunk_by(|a, b| a == b) {
             let [t0, t1] = [steps[k], steps[k + run.len()]];
-            if run[0] {
-                let (at, degrees) = (part.point(t0), part.turning(t0, t1).to_degrees());
-                let size = extent(part.bounds_of(t0, t1));
-                let what = format!(
-                    "a bend of {degrees:.0}° in {}, narrower than the tolerance, became a corner",
-                    self.entity(source)
-                );
-                self.repair(RepairKind::Corner, at, size, what);
-                cuts.extend([t0, t1]);
+            if run[0] && narrow(t0, t1, HOOK) && part.turning(t0, t1) >= HOOK_RAD {
+                hooks.push([t0, t1]);
             }
+            k += run.len();
         }
+        for &[t0, t1] in &hooks {
+            let (size, degrees) = (extent(part.bounds_of(t0, t1)), part.turning(t0, t1).to_degrees());
+            let what = format!(
+                "a bend of {degrees:.0}° in {}, narrower than the tolerance, became a corner",
+                self.entity(source)
+            );
+            self.repair(RepairKind::Corner, part.point(t0), size, what);
+        }
+        let mut cuts = hooks.concat();
         cuts.retain(|&t| 0.0 < t && t < 1.0);
         split(&part, &cuts)
     }
@@ -642,6 +648,20 @@ impl Network<'_> {
             Some(end) if self.nodes[end].at.distance(at) <= self.tolerances.weld => Site::End(end),
             _ => Site::Inside(t, at),
         }
+    }
+}
+
+/// Whether the speed of a curve varies so little that no bend in it can be a hook.
+fn is_evenly_paced(curve: &Curve) -> bool {
+    match curve {
+        Curve::Line(_) | Curve::Arc(_) => true,
+        Curve::Bezier(bezier) if bezier.weights.is_none() => {
+            let legs = || bezier.points.windows(2).map(|leg| leg[1] - leg[0]);
+            let chord = curve.end() - curve.start();
+            let fastest = legs().map(|leg| leg.hypot()).fold(0.0, f64::max);
+            legs().all(|leg| leg.dot(chord) >= PACE * fastest * chord.hypot())
+        }
+        _ => false,
     }
 }
 
