@@ -426,6 +426,49 @@ fn nearly_closed_arcs_close_without_losing_their_shape() {
     }
 }
 
+#[test]
+fn a_handle_a_last_digit_from_its_end_makes_a_corner_not_a_hook() {
+    // The curve leaves its start downwards and turns upwards at once.
+    let start = p(92.0981, 265.88936);
+    let hooked = Curve::bezier(vec![start, p(92.098101, 265.88935), p(267.4106, 495.76961), p(267.4106, 494.79561)]);
+    let curves = [
+        hooked.unwrap(),
+        line((267.4106, 494.79561), (444.69, 265.88936)),
+        line((444.69, 265.88936), (start.x, start.y)),
+    ];
+    let area: f64 = curves.iter().map(|c| c.green(start)).sum();
+    let domain = regions(&drawing(curves));
+    assert!((domain.measure() - area.abs()).abs() < 1e-9 * area.abs());
+    assert_eq!(repairs(&domain, RepairKind::Corner), 1, "{:?}", domain.repairs());
+    assert!(domain.curves().iter().all(|c| c.curve.turning(0.0, 1.0) < 2.7));
+}
+
+#[test]
+fn curves_that_part_slowly_are_one_within_a_tolerance_that_was_asked_for() {
+    // A disk on a line: within 1e-4 of each other for 14 thousandths on either side.
+    let mut curves = square(-2.0, -3.0, 4.0);
+    curves.extend([line((-2.0, 0.0), (2.0, 0.0)), circle(0.0, 0.5, 0.5)]);
+    let drawing = drawing(curves);
+    let whole = regions(&drawing);
+    assert_eq!(repairs(&whole, RepairKind::Overlap), 0);
+    let options = ArrangeOptions { tolerance: Some(1e-4), fill: Some(FillRule::Regions), keep_all: false };
+    let zipped = drawing.arrange(&options).unwrap();
+    assert_eq!(zipped.flaws(), [""; 0]);
+    assert!(repairs(&zipped, RepairKind::Overlap) > 0, "{:?}", zipped.repairs());
+    assert!((zipped.measure() - whole.measure()).abs() < 1e-5, "{} {}", zipped.measure(), whole.measure());
+    let corners = |domain: &Domain| {
+        let at_contact = |&q: &squinch::ids::PointId| domain.points()[q].distance(Point::ORIGIN) < 0.1;
+        domain
+            .points()
+            .ids()
+            .filter(at_contact)
+            .filter_map(|q| domain.corner(q))
+            .map(|c| c.angle_rad)
+            .fold(PI, f64::min)
+    };
+    assert!(corners(&whole) < 1e-9 && corners(&zipped) > 1e-2, "{} {}", corners(&whole), corners(&zipped));
+}
+
 // ---- coarse tolerances ----
 
 /// Closed outlines of every kind around (50, 50), `width` across where they are narrowest, with their areas.

@@ -1004,6 +1004,32 @@ fn slivers_that_nobody_drew_on_purpose_are_welded_and_itemised() {
     assert_eq!(report["request"]["tolerance"], 1e-9);
 }
 
+/// A square that was traced twice, a hair apart, with numbers of so many digits.
+fn traced_twice(digits: usize) -> String {
+    let corner = |x: f64, y: f64| format!("{x:.digits$},{y:.digits$}");
+    let off = 1.0 / 30000.0;
+    let square = |a: f64, b: f64| format!("M{} L{} L{} L{} Z", corner(a, a), corner(b, a), corner(b, b), corner(a, b));
+    let third = 1.0 / 3.0;
+    format!(
+        r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 100"><path id="a" d="{}"/><path id="b" d="{}"/></svg>"#,
+        square(third, 90.0 + third),
+        square(third + off, 90.0 + third - off)
+    )
+}
+
+#[test]
+fn hair_gaps_of_a_sketch_are_welded_and_those_of_exact_work_are_not() {
+    let bench = Bench::new("sketch");
+    fs::write(bench.0.join("sketch.svg"), traced_twice(6)).unwrap();
+    let output = bench.ends(0, &["mesh", "sketch.svg", "-o", "a.vtu", "--report", "r.json"]);
+    assert!(said(&output).contains("1 tolerance raised"), "{}", said(&output));
+    assert!(bench.report("r.json")["mesh"]["triangles"].as_u64() < Some(200));
+    bench.ends(0, &["check", "a.vtu", "--against", "sketch.svg"]);
+    fs::write(bench.0.join("exact.svg"), traced_twice(15)).unwrap();
+    let output = bench.ends(5, &["mesh", "exact.svg", "-o", "b.vtu", "--max-vertices", "100000"]);
+    assert!(!said(&output).contains("raised"), "{}", said(&output));
+}
+
 #[test]
 fn a_drawing_of_slivers_is_not_welded_away() {
     let bench = Bench::new("film");

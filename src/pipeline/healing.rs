@@ -11,16 +11,18 @@
 //! - `--min-edge H` says that nothing finer than H needs to be meshed: any drawing is a sketch of a third of it (a loop is safe from three
 //!   tolerances on).
 //! - What cannot be arranged or meshed because its features lie nearer to each other than the coordinates can tell apart is tried again
-//!   within the next coarser one of these tolerances.
+//!   within the next coarser one of these tolerances, whatever the drawing; its area may change by a thousandth.
 //!
 //! That it was done is the first repair of the list ([`RepairKind::ToleranceRaised`]), with the tolerance taken.
 
 use crate::domain::{ArrangeOptions, Domain, Drawing, Repair, RepairKind, Unarranged};
 use crate::geometry::Point;
+use crate::ids::NameId;
 use crate::plane::lopping::demand::{Sliver, slivers};
 use crate::report::{FailureKind, FailureReport};
 use crate::request::{Keep, Request};
 use crate::watch::Watch;
+use std::collections::BTreeMap;
 
 /// Tolerances of sketches, as parts of the diagonal.
 const SKETCH: [f64; 3] = [1e-6, 1e-5, 1e-4];
@@ -34,7 +36,7 @@ const SKETCH_VERTICES: [f64; 2] = [500.0, 0.125];
 /// The same of other drawings.
 const EXACT_VERTICES: [f64; 2] = [50_000.0, 0.0];
 
-/// Part of the area by which welding may change a sketch: what loses more consists of slivers.
+/// Part of the whole area by which welding may change the regions of a sketch in sum: what loses more consists of slivers.
 const SKETCH_AREA: f64 = 1e-3;
 
 /// The same of other drawings.
@@ -47,13 +49,17 @@ const WORTH: f64 = 0.5;
 pub struct Healing<'a> {
     drawing: &'a Drawing,
     request: &'a Request,
-    /// Coarser tolerances that may be taken, the coarsest first.
-    left: Vec<f64>,
+    /// Coarser tolerances that may be taken, ascending.
+    coarser: Vec<f64>,
+    /// The one that was taken last; 0 before.
+    taken: f64,
     vertices: [f64; 2],
     area: f64,
-    /// Area of the kept regions within the finest tolerance that was arranged.
-    measure: Option<f64>,
+    /// Areas of the kept regions, by name, within the finest tolerance that was arranged.
+    areas: Option<Areas>,
 }
+
+type Areas = BTreeMap<NameId, f64>;
 
 /// What asks for a coarser tolerance.
 struct Why {
@@ -73,14 +79,14 @@ impl<'a> Healing<'a> {
         let simplified = request.min_edge.map(|edge| edge / 3.0);
         let sketch = drawing.sketch || simplified.is_some();
         let parts = if drawing.sketch { &SKETCH[..] } else { &[EXACT] };
-        let mut left: Vec<f64> = parts.iter().map(|part| part * diagonal).chain(simplified).collect();
-        left.retain(|&t| 0.0 < t && t < diagonal / 4.0 && request.tolerance.is_none());
-        left.sort_by(|a, b| b.total_cmp(a));
+        let mut coarser: Vec<f64> = parts.iter().map(|part| part * diagonal).chain(simplified).collect();
+        coarser.retain(|&t| 0.0 < t && t < diagonal / 4.0 && request.tolerance.is_none());
+        coarser.sort_by(f64::total_cmp);
         let (vertices, area) = match sketch {
             true => (SKETCH_VERTICES, SKETCH_AREA),
             false => (EXACT_VERTICES, EXACT_AREA),
         };
-        Self { drawing, request, left, vertices, area, measure: None }
+        Self { drawing, request, coarser, taken: 0.0, vertices, area, areas: None }
     }
 
     /// The drawing within the request's tolerance, or the finest that will do.
@@ -97,10 +103,10 @@ impl<'a> Healing<'a> {
             }
             Err(why) => return Err(why.into()),
         };
-        if self.left.is_empty() {
+        if self.coarser.is_empty() {
             return Ok(domain);
         }
-        self.measure = Some(domain.measure());
+        self.areas = Some(areas(&domain));
         let slivers = slivers(&domain, watch)?;
         let taken = |s: &Sliver| s.vertices(self.request.angle_min_rad(), 0.0);
         let Some(dearest) = slivers.iter().max_by(|a, b| taken(a).total_cmp(&taken(b))) else { return Ok(domain) };
@@ -120,6 +126,7 @@ impl<'a> Healing<'a> {
     /// Where the watch says stop.
     pub fn retreat(&mut self, failure: &FailureReport, watch: &mut Watch) -> Result<Option<Domain>, FailureReport> {
         let [x, y] = failure.at.unwrap_or_default();
+        self.area = SKETCH_AREA;
         self.coarser(None, &Why { at: Point::new(x, y), what: failure.what.clone() }, watch)
     }
 
@@ -130,7 +137,8 @@ impl<'a> Healing<'a> {
         why: &Why,
         watch: &mut Watch,
     ) -> Result<Option<Domain>, FailureReport> {
-        while let Some(tolerance) = self.left.pop() {
+        let finer = self.taken;
+        for tolerance in self.coarser.clone().into_iter().filter(|&tolerance| tolerance > finer) {
             let mut domain = match self.arrange_within(Some(tolerance), watch) {
                 Ok(domain) if self.is_alike(&domain) => domain,
                 Ok(_) | Err(Unarranged::Invalid(_)) => continue,
@@ -141,9 +149,11 @@ impl<'a> Healing<'a> {
             let vertices = slivers(&domain, watch)?.iter().map(|s| s.vertices(kappa, 0.0)).sum();
             let candidate = Candidate { domain, vertices };
             if self.will_do(&candidate) {
+                self.taken = tolerance;
                 return Ok(Some(candidate.domain));
             }
             if best.as_ref().is_none_or(|best| candidate.vertices < WORTH * best.vertices) {
+                self.taken = tolerance;
                 best = Some(candidate);
             }
         }
@@ -155,9 +165,12 @@ impl<'a> Healing<'a> {
         candidate.vertices <= self.vertices[0] + self.vertices[1] * curves
     }
 
+    /// Whether the regions of a domain are what they are within the finest tolerance.
     fn is_alike(&self, domain: &Domain) -> bool {
-        let measure = domain.measure();
-        measure > 0.0 && self.measure.is_none_or(|of_finest| (measure - of_finest).abs() <= self.area * of_finest)
+        let Some(finest) = &self.areas else { return !domain.regions().is_empty() };
+        let mut moved = areas(domain);
+        finest.iter().for_each(|(&name, area)| *moved.entry(name).or_default() -= area);
+        moved.values().map(|change| change.abs()).sum::<f64>() <= self.area * finest.values().sum::<f64>()
     }
 
     fn arrange_within(&self, tolerance: Option<f64>, watch: &mut Watch) -> Result<Domain, Unarranged> {
@@ -165,6 +178,12 @@ impl<'a> Healing<'a> {
             ArrangeOptions { tolerance, fill: self.request.fill_rule.rule(), keep_all: self.request.keep == Keep::All };
         self.drawing.arrange_watched(&options, watch)
     }
+}
+
+fn areas(domain: &Domain) -> Areas {
+    let mut areas = Areas::new();
+    domain.regions().iter().for_each(|region| *areas.entry(region.name).or_default() += region.area);
+    areas
 }
 
 impl Why {
