@@ -5,7 +5,8 @@
 //! * by Newton's method where both are slender and no direction is in both cones of tangents. Such pieces meet at most once, since
 //!   the chord between two meetings would have to lie in both cones; apart from the one crossing they come close only at ends;
 //! * at the ends of both where both are straight to within a quarter of the tolerance: their gap is then nearly linear, and
-//!   if it is within the tolerance anywhere, it is so at an end, or they cross at an angle and the first case applies.
+//!   if it is within the tolerance anywhere, it is so at an end, or where their chords cross (at an angle the first case applies, unless
+//!   one has a bend far narrower than the tolerance).
 //!
 //! Every other pair is halved at its longer piece. What is found is only a first guess: it is followed along both curves and so told
 //! from a shared stretch ([`contact`]), and pairs of pieces that lie beside a contact already followed are dropped. Two circles, or a
@@ -196,6 +197,7 @@ impl<'c> Search<'c> {
             }
         } else if straight == [true; 2] {
             self.guess_at_ends(p, q, true, &mut guesses);
+            self.guess_between_chords(p, q, &mut guesses);
         } else {
             return Ok(Some(longer(p, q, straight)));
         }
@@ -232,6 +234,23 @@ impl<'c> Search<'c> {
                     guesses.push(Guess::at(t, u));
                 }
             }
+        }
+    }
+
+    /// Where the chords of two straight pieces cross, if the curves are within the tolerance there.
+    fn guess_between_chords(&self, p: &Piece, q: &Piece, guesses: &mut Vec<Guess>) {
+        let (pp, qq) = (p.last() - p.first(), q.last() - q.first());
+        let (between, area) = (q.first() - p.first(), pp.cross(qq));
+        let [along_p, along_q] = [between.cross(qq) / area, between.cross(pp) / area];
+        if !((0.0..=1.0).contains(&along_p) && (0.0..=1.0).contains(&along_q)) {
+            return;
+        }
+        let place = p.first() + along_p * pp;
+        let (t, _) = foot(self.contacts.a.curve, place, p.t[0] + along_p * (p.t[1] - p.t[0]));
+        let (u, gap) =
+            foot(self.contacts.b.curve, self.contacts.a.curve.point(t), q.t[0] + along_q * (q.t[1] - q.t[0]));
+        if gap <= self.contacts.tolerance {
+            guesses.push(Guess::at(t, u));
         }
     }
 

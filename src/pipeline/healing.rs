@@ -53,6 +53,8 @@ pub struct Healing<'a> {
     coarser: Vec<f64>,
     /// The one that was taken last; 0 before.
     taken: f64,
+    /// Those within which the engine failed.
+    failed: Vec<f64>,
     vertices: [f64; 2],
     area: f64,
     /// Areas of the kept regions, by name, within the finest tolerance that was arranged.
@@ -86,7 +88,7 @@ impl<'a> Healing<'a> {
             true => (SKETCH_VERTICES, SKETCH_AREA),
             false => (EXACT_VERTICES, EXACT_AREA),
         };
-        Self { drawing, request, coarser, taken: 0.0, vertices, area, areas: None }
+        Self { drawing, request, coarser, taken: 0.0, failed: Vec::new(), vertices, area, areas: None }
     }
 
     /// The drawing within the request's tolerance, or the finest that will do.
@@ -120,13 +122,14 @@ impl<'a> Healing<'a> {
         Ok(self.coarser(Some(finest), &why, watch)?.expect("there was one to begin with"))
     }
 
-    /// The drawing within the next coarser tolerance, after `failure` of the engine; `None` where there is none.
+    /// The drawing within another tolerance, the next coarser one first, after `failure` of the engine; `None` where there is none left.
     ///
     /// # Errors
     /// Where the watch says stop.
     pub fn retreat(&mut self, failure: &FailureReport, watch: &mut Watch) -> Result<Option<Domain>, FailureReport> {
         let [x, y] = failure.at.unwrap_or_default();
         self.area = SKETCH_AREA;
+        self.failed.push(self.taken);
         self.coarser(None, &Why { at: Point::new(x, y), what: failure.what.clone() }, watch)
     }
 
@@ -137,8 +140,12 @@ impl<'a> Healing<'a> {
         why: &Why,
         watch: &mut Watch,
     ) -> Result<Option<Domain>, FailureReport> {
-        let finer = self.taken;
-        for tolerance in self.coarser.clone().into_iter().filter(|&tolerance| tolerance > finer) {
+        let (finer, coarser): (Vec<f64>, Vec<f64>) =
+            self.coarser.iter().partition(|&&tolerance| tolerance < self.taken);
+        for tolerance in coarser.into_iter().chain(finer) {
+            if self.failed.contains(&tolerance) {
+                continue;
+            }
             let mut domain = match self.arrange_within(Some(tolerance), watch) {
                 Ok(domain) if self.is_alike(&domain) => domain,
                 Ok(_) | Err(Unarranged::Invalid(_)) => continue,

@@ -269,6 +269,18 @@ fn tangent_pairs_of_all_kinds_are_decided_by_the_depth() {
     assert!(seen.iter().all(|&n| n > 10), "{seen:?}");
 }
 
+#[test]
+fn a_bend_narrower_than_the_tolerance_hides_no_crossing() {
+    let at = |x: f64, y: f64| Point::new(x, y);
+    let hooked =
+        Curve::bezier(vec![at(2786.0, 4676.0), at(2839.0, 4688.0), at(3032.0, 4963.0), at(3032.0, 4964.0)]).unwrap();
+    let other = Curve::bezier(vec![at(3026.0, 4945.0), at(3026.0, 4945.0), at(3027.07, 4964.63), at(3028.42, 4991.15)])
+        .unwrap();
+    for tolerance in [1e-9, 1e-2, 0.3, 0.42, 1.0] {
+        assert_eq!(count_of(&checked(&hooked, &other, tolerance), MeetingKind::Crossing), 1, "{tolerance}");
+    }
+}
+
 fn parabola() -> Curve {
     // y = x² over −1..1
     Curve::bezier(vec![Point::new(-1.0, 1.0), Point::new(0.0, -1.0), Point::new(1.0, 1.0)]).unwrap()

@@ -659,7 +659,7 @@ fn is_evenly_paced(curve: &Curve) -> bool {
             let legs = || bezier.points.windows(2).map(|leg| leg[1] - leg[0]);
             let chord = curve.end() - curve.start();
             let fastest = legs().map(|leg| leg.hypot()).fold(0.0, f64::max);
-            legs().all(|leg| leg.dot(chord) >= PACE * fastest * chord.hypot())
+            legs().all(|leg| leg.dot(chord) > PACE * fastest * chord.hypot())
         }
         _ => false,
     }
