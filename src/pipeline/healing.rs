@@ -18,10 +18,10 @@
 use crate::domain::{ArrangeOptions, Domain, Drawing, Repair, RepairKind, Unarranged};
 use crate::geometry::Point;
 use crate::ids::NameId;
-use crate::plane::lopping::demand::{Sliver, slivers};
+use crate::plane::lopping::demand::{Sliver, vertices_of_slivers};
 use crate::report::{FailureKind, FailureReport};
 use crate::request::{Keep, Request};
-use crate::watch::Watch;
+use crate::watch::{Stopped, Watch};
 use std::collections::BTreeMap;
 
 /// Tolerances of sketches, as parts of the diagonal.
@@ -44,6 +44,9 @@ const EXACT_AREA: f64 = 1e-9;
 
 /// A coarser tolerance must lessen the vertices of slivers to this part to be worth it.
 const WORTH: f64 = 0.5;
+
+/// Slivers are counted up to so many times what will do.
+const COUNTED: f64 = 64.0;
 
 /// A drawing on its way to a domain within the right tolerance.
 pub struct Healing<'a> {
@@ -109,14 +112,9 @@ impl<'a> Healing<'a> {
             return Ok(domain);
         }
         self.areas = Some(areas(&domain));
-        let slivers = slivers(&domain, watch)?;
-        let taken = |s: &Sliver| s.vertices(self.request.angle_min_rad(), 0.0);
-        let Some(dearest) = slivers.iter().max_by(|a, b| taken(a).total_cmp(&taken(b))) else { return Ok(domain) };
-        let vertices: f64 = slivers.iter().map(taken).sum();
+        let (vertices, dearest) = self.vertices_of_slivers(&domain, watch)?;
         let finest = Candidate { domain, vertices };
-        if self.will_do(&finest) {
-            return Ok(finest.domain);
-        }
+        let Some(dearest) = dearest.filter(|_| !self.will_do(&finest)) else { return Ok(finest.domain) };
         let what = format!("slivers between curves would take {vertices:.1e} vertices or more");
         let why = Why { at: dearest.at, what };
         Ok(self.coarser(Some(finest), &why, watch)?.expect("there was one to begin with"))
@@ -152,8 +150,7 @@ impl<'a> Healing<'a> {
                 Err(stopped) => return Err(stopped.into()),
             };
             domain.itemise_first(why.repair(tolerance));
-            let kappa = self.request.angle_min_rad();
-            let vertices = slivers(&domain, watch)?.iter().map(|s| s.vertices(kappa, 0.0)).sum();
+            let (vertices, _) = self.vertices_of_slivers(&domain, watch)?;
             let candidate = Candidate { domain, vertices };
             if self.will_do(&candidate) {
                 self.taken = tolerance;
@@ -168,8 +165,15 @@ impl<'a> Healing<'a> {
     }
 
     fn will_do(&self, candidate: &Candidate) -> bool {
-        let curves = candidate.domain.curves().len() as f64;
-        candidate.vertices <= self.vertices[0] + self.vertices[1] * curves
+        candidate.vertices <= self.enough(&candidate.domain)
+    }
+
+    fn enough(&self, domain: &Domain) -> f64 {
+        self.vertices[0] + self.vertices[1] * domain.curves().len() as f64
+    }
+
+    fn vertices_of_slivers(&self, domain: &Domain, watch: &mut Watch) -> Result<(f64, Option<Sliver>), Stopped> {
+        vertices_of_slivers(domain, self.request.angle_min_rad(), COUNTED * self.enough(domain), watch)
     }
 
     /// Whether the regions of a domain are what they are within the finest tolerance.

@@ -29,6 +29,9 @@ const SLENDER: f64 = 16.0;
 /// coordinates can hold, it takes some 1500.
 const SAMPLES_MAX: usize = 4096;
 
+/// Within so many radii of a ball at birth triangles are excused.
+const EXCUSED_RADII: f64 = 2.0;
+
 /// Stretches are halved until the widths on them differ by no more than this factor.
 const ALIKE: f64 = 1.25;
 
@@ -158,10 +161,42 @@ impl Sliver {
 /// # Errors
 /// [`Stopped`] where the watch says so.
 pub fn slivers(domain: &Domain, watch: &mut Watch) -> Result<Vec<Sliver>, Stopped> {
+    slivers_until(domain, EXCUSED_RADII, watch, |_| false)
+}
+
+/// The vertices that the slivers of a domain are likely to take, kept or not, counted until they are more than `most`; and the dearest of
+/// these slivers. What is excused outside a ball counts too: it need not be cut, but it is.
+///
+/// # Errors
+/// [`Stopped`] where the watch says so.
+pub fn vertices_of_slivers(
+    domain: &Domain,
+    kappa_rad: f64,
+    most: f64,
+    watch: &mut Watch,
+) -> Result<(f64, Option<Sliver>), Stopped> {
+    let taken = |sliver: &Sliver| sliver.vertices(kappa_rad, 0.0);
+    let (mut counted, mut vertices) = (0, 0.0);
+    let found = slivers_until(domain, 1.0, watch, |found| {
+        vertices += found[counted..].iter().map(taken).sum::<f64>();
+        counted = found.len();
+        vertices > most
+    })?;
+    Ok((vertices, found.into_iter().max_by(|a, b| taken(a).total_cmp(&taken(b)))))
+}
+
+/// The slivers of a domain so many radii from sharp corners, as long as those found so far are not enough.
+fn slivers_until(
+    domain: &Domain,
+    radii: f64,
+    watch: &mut Watch,
+    mut enough: impl FnMut(&[Sliver]) -> bool,
+) -> Result<Vec<Sliver>, Stopped> {
     let mut survey = Survey {
         domain,
         boxes: BoxHierarchy::new(domain.curves().iter().map(|c| c.curve.bounds())),
         lfs0: domain.lfs0(),
+        radii,
         found: Vec::new(),
     };
     for id in domain.curves().ids() {
@@ -169,6 +204,9 @@ pub fn slivers(domain: &Domain, watch: &mut Watch) -> Result<Vec<Sliver>, Stoppe
         Progress { phase: "estimating", vertices: domain.points().len(), queued }.tell(watch)?;
         for side in [0, 1] {
             survey.look_along(id, side);
+        }
+        if enough(&survey.found) {
+            break;
         }
     }
     Ok(survey.found)
@@ -178,6 +216,8 @@ struct Survey<'a> {
     domain: &'a Domain,
     boxes: BoxHierarchy,
     lfs0: IdVec<PointId, f64>,
+    /// So many radii of the balls of its ends a curve is left out at either end.
+    radii: f64,
     found: Vec<Sliver>,
 }
 
@@ -209,25 +249,26 @@ impl Survey<'_> {
         }
     }
 
-    /// How near to the ball of a sharp corner slivers are looked for, where there is none to be seen at first: two radii. Infinite of others.
+    /// How near to the ball of a sharp corner slivers are looked for, where there is none to be seen at first. Infinite of others.
     fn tip(&self, end: PointId) -> f64 {
         let sharp = self.domain.corner(end).is_some_and(|corner| corner.angle_rad < 1.0 / SLENDER);
-        if sharp { self.excused(end) } else { f64::INFINITY }
+        if sharp { EXCUSED_RADII * self.ball(end) } else { f64::INFINITY }
     }
 
-    /// Two radii of the ball of a point at birth, 0 of one that has none.
-    fn excused(&self, end: PointId) -> f64 {
-        if self.domain.is_acute(end) { 2.0 * (SQRT_2 - 1.0) * self.lfs0[end] } else { 0.0 }
+    /// The radius of the ball of a point at birth, 0 of one that has none.
+    fn ball(&self, end: PointId) -> f64 {
+        if self.domain.is_acute(end) { (SQRT_2 - 1.0) * self.lfs0[end] } else { 0.0 }
     }
 
-    /// The part of a curve farther than two radii from the balls of its ends, as they are at birth.
+    /// The part of a curve farther from its ends than their balls reach, as they are at birth.
     fn outside_balls(&self, id: CurveId) -> Option<[f64; 2]> {
         let DomainCurve { curve, ends, .. } = &self.domain.curves()[id];
         let leaves = |end: End, radius: f64, whole: f64| match radius > 0.0 {
             true => curve.leaves_ball(end, radius, 0.0, 1.0),
             false => Some(whole),
         };
-        let part = [leaves(End::Start, self.excused(ends[0]), 0.0)?, leaves(End::Finish, self.excused(ends[1]), 1.0)?];
+        let reach = ends.map(|end| self.radii * self.ball(end));
+        let part = [leaves(End::Start, reach[0], 0.0)?, leaves(End::Finish, reach[1], 1.0)?];
         (part[0] < part[1]).then_some(part)
     }
 
