@@ -6,7 +6,7 @@ use sketch::Sketch;
 use squinch::domain::{Domain, Drawing, FillRule, Unarranged};
 use squinch::geometry::scaled;
 use squinch::import::{self, Format, mesh};
-use squinch::pipeline::{self, Exit, Extent, Outcome, Source};
+use squinch::pipeline::{self, Exit, Extent, Outcome, Plan, Source};
 use squinch::request::{Keep, Request};
 use squinch::watch::Progress;
 
@@ -29,8 +29,11 @@ fn budget() -> impl FnMut(&Progress) -> bool {
 /// Reads bytes as each of some formats: a drawing or an error, whatever they are.
 pub fn read(bytes: &[u8], formats: &[Format]) {
     for &format in formats {
-        if let Err(error) = import::read(bytes, format, "fuzz", &import::Options::default()) {
-            assert!(!error.what.is_empty() && !error.help.is_empty(), "{error:?}");
+        match import::read(bytes, format, "fuzz", &import::Options::default()) {
+            Ok(drawing) => {
+                assert!(drawing.curves.iter().all(|c| c.curve.start().is_finite() && c.curve.end().is_finite()))
+            }
+            Err(error) => assert!(!error.what.is_empty() && !error.help.is_empty(), "{error:?}"),
         }
     }
 }
@@ -43,8 +46,12 @@ pub fn read_mesh(bytes: &[u8]) {
         let mut files = bytes.split(|&b| b == 0xff && !format.beside().is_empty());
         let main = files.next().unwrap_or_default();
         let beside: Vec<_> = files.map(|file| Some(file.to_vec())).collect();
-        if let Err(error) = mesh::read(main, format, &beside) {
-            assert!(!error.what.is_empty() && !error.help.is_empty(), "{error:?}");
+        match mesh::read(main, format, &beside) {
+            Ok(file) => {
+                // Whatever is read can be judged.
+                Plan::without_domain(&Request::default()).judge_file(None, &file.mesh);
+            }
+            Err(error) => assert!(!error.what.is_empty() && !error.help.is_empty(), "{error:?}"),
         }
     }
 }
@@ -135,10 +142,14 @@ fn check_outcome(outcome: &Outcome, request: &Request) {
     if request.keep == Keep::All {
         check_faces(domain);
     }
-    // Area of the triangles, and of what lies between a curve and its mesh edge on the sides that are kept.
+    // Area of the triangles between corners, and of what lies between a curve and its mesh edge on the sides that are kept.
     let origin = domain.bounds().center();
-    let quality = outcome.report.quality.as_ref().expect("a mesh is measured");
-    let (mut area, mut gross) = (quality.measure, quality.measure);
+    let mut area = 0.0;
+    for t in mesh.triangles.ids() {
+        let [a, b, c] = mesh.corners(t);
+        area += 0.5 * (b - a).cross(c - a);
+    }
+    let mut gross = area;
     for edge in &mesh.edges {
         let Some(link) = edge.link else { continue };
         let curve = &domain.curves()[link.curve];
