@@ -209,7 +209,7 @@ pub fn spiral(n: usize, width: f64) -> Known {
     let end = |k: usize, out: f64| {
         // After an even number of halves on the right, after an odd one on the left.
         let reach = 1.0 + k as f64 + out;
-        Point::new(if k % 2 == 0 { reach } else { 1.0 - reach }, 0.0)
+        Point::new(if k.is_multiple_of(2) { reach } else { 1.0 - reach }, 0.0)
     };
     for out in [0.0, width] {
         // Half circle k runs around (0, 0) above, or around (1, 0) below, with the radius k + 1.
