@@ -6,6 +6,7 @@ use kurbo::Affine;
 use squinch::curve::{Curve, End};
 use squinch::domain::{ArrangeOptions, Drawing, DrawnPoint, FillRule, Seed, SeedKind};
 use squinch::geometry::{Point, Vec2, direction};
+use squinch::import::outline;
 use squinch::request::{Keep, Order, Request};
 use std::f64::consts::{PI, TAU};
 
@@ -13,7 +14,6 @@ use std::f64::consts::{PI, TAU};
 const CURVES: usize = 10;
 
 /// A drawing, and how it is arranged and meshed.
-#[derive(Debug)]
 pub struct Sketch {
     pub drawing: Drawing,
     fill: Option<FillRule>,
@@ -21,6 +21,19 @@ pub struct Sketch {
     tolerance: Option<f64>,
     min_angle: f64,
     order: Order,
+}
+
+/// As an outline, which the command line reads; the options of the run as its title.
+impl std::fmt::Debug for Sketch {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let options = [
+            self.tolerance.map(|t| format!("--tolerance {t:e}")),
+            self.keep_all.then(|| "--keep all".into()),
+            Some(format!("--min-angle {} --order {}", self.min_angle, u64::from(self.order))),
+        ];
+        let title = options.into_iter().flatten().collect::<Vec<_>>().join(" ");
+        f.write_str(&outline::to_json(&Drawing { title, ..self.drawing.clone() }))
+    }
 }
 
 impl Sketch {
@@ -159,7 +172,8 @@ impl Pen<'_, '_> {
                 curve.transformed(turn)
             }
             _ => {
-                let by = direction(self.angle()?) * self.hair()?;
+                // A small move, as welding asks for.
+                let by = direction(self.angle()?) * (1e-6 * curve.bounds().size().max_side());
                 curve.with_ends(curve.start() + by, curve.end())
             }
         };
