@@ -4,6 +4,8 @@
 //! Curves that share a tangent at a point differ there in curvature by at least 0.1 / radius: below it, the separation σ of the pair
 //! asks for more vertices than a test can hold.
 
+pub mod known;
+
 use crate::curve::Curve;
 use crate::domain::{Drawing, FillRule};
 use crate::geometry::{Point, Vec2};

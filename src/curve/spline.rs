@@ -32,7 +32,10 @@ impl Spline {
         }
         let mut starts = Vec::new();
         let mut spans: Vec<Bezier> = Vec::new();
-        for k in (degree..points.len()).filter(|k| knots[*k] < knots[*k + 1]) {
+        // Where all control points of a span are one, the curve stands still, and is the same without.
+        let moves = |k: usize| points[k - degree..=k].iter().any(|p| *p != points[k]);
+        let never_moves = points.iter().all(|p| *p == points[0]);
+        for k in (degree..points.len()).filter(|k| knots[*k] < knots[*k + 1] && (moves(*k) || never_moves)) {
             let mut span = span_of(degree, knots, points, weights, k)?;
             if let Some(before) = spans.last() {
                 let joint = before.points[before.degree()];

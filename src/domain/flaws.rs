@@ -253,18 +253,18 @@ impl Domain {
 
     /// The area of every region is what the curves on its border enclose.
     fn check_areas(&self, flaws: &mut Vec<String>) {
-        let origin = self.bounds().center();
+        let (origin, rounding) = (self.bounds().center(), self.rounding());
         let mut enclosed: IdVec<RegionId, f64> = vec![0.0; self.regions.len()].into();
-        let mut gross = 0.0;
+        // A relative 1e-12 a term, as the integrals are computed, of the sum of their sizes; and what rounded coordinates do along the border.
+        let mut slack = 0.0;
         for curve in self.curves.iter().filter(|c| c.sides[0] != c.sides[1]) {
-            let green = curve.curve.green(origin);
-            gross += green.abs();
+            let (green, bounds) = (curve.curve.green(origin), curve.curve.bounds());
+            slack += 1e-12 * green.abs() + rounding * (bounds.width() + bounds.height());
             curve.sides[0].iter().for_each(|&left| enclosed[left] += green);
             curve.sides[1].iter().for_each(|&right| enclosed[right] -= green);
         }
         for (id, region) in self.regions.enumerate() {
-            // A relative 1e-12 a term, as the integrals are computed, of the sum of their sizes.
-            if (enclosed[id] - region.area).abs() > 1e-12 * gross {
+            if (enclosed[id] - region.area).abs() > slack {
                 flaws.push(format!("{id:?} says area {}, but its curves enclose {}", region.area, enclosed[id]));
             }
         }

@@ -32,6 +32,11 @@ impl<'a> Rows<'a> {
     fn new(bytes: &'a [u8]) -> Self {
         Self { rest: bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes), line: 0 }
     }
+
+    /// The first row.
+    fn header(&mut self) -> Result<Row<'a>, ImportError> {
+        self.next().ok_or_else(|| ImportError::at(self.line.max(1), "the file is empty", FORMAT_HELP))
+    }
 }
 
 impl<'a> Iterator for Rows<'a> {
@@ -198,7 +203,7 @@ impl Markers {
 pub fn read_poly(bytes: &[u8], stem: &str, nodes: Option<&[u8]>) -> Result<Drawing, ImportError> {
     let mut drawing = empty("poly", stem);
     let mut rows = Rows::new(bytes);
-    let header = rows.next().ok_or_else(|| ImportError::new("the file is empty", FORMAT_HELP))?;
+    let header = rows.header()?;
     let vertices = match (vertex_header(header)?.0, nodes) {
         (0, Some(nodes)) => beside(nodes, &mut drawing.notes)?,
         (0, None) => {
@@ -223,7 +228,7 @@ pub fn read_poly(bytes: &[u8], stem: &str, nodes: Option<&[u8]>) -> Result<Drawi
 pub fn read_node(bytes: &[u8], stem: &str) -> Result<Drawing, ImportError> {
     let mut drawing = empty("node", stem);
     let mut rows = Rows::new(bytes);
-    let header = rows.next().ok_or_else(|| ImportError::new("the file is empty", FORMAT_HELP))?;
+    let header = rows.header()?;
     let vertices = read_vertices(&mut rows, header, &mut drawing.notes)?;
     let used = add_hull(&vertices, &mut drawing);
     keep_points(&vertices, &used, &mut drawing);
@@ -236,10 +241,7 @@ fn empty(format: &str, stem: &str) -> Drawing {
 
 fn beside(nodes: &[u8], notes: &mut Vec<String>) -> Result<Vertices, ImportError> {
     let mut rows = Rows::new(nodes);
-    let vertices = match rows.next() {
-        Some(header) => read_vertices(&mut rows, header, notes),
-        None => Err(ImportError::new("the file is empty", FORMAT_HELP)),
-    };
+    let vertices = rows.header().and_then(|header| read_vertices(&mut rows, header, notes));
     notes.push("The vertices were read from the .node file beside the .poly file.".into());
     vertices.map_err(|e| ImportError { what: format!("in the .node file beside it: {}", e.what), ..e })
 }

@@ -335,7 +335,8 @@ impl<'c> Contacts<'c> {
         let Some(&first) = ends.iter().find(|w| is_end(w[0])).or(ends.first()) else { return Finding::Nothing };
         let [t, u] = self.snapped(first, ends);
         let (a, b) = (self.a.curve, self.b.curve);
-        if self.same && t == 0.0 && u == 1.0 {
+        if self.same && (t == 0.0 && u == 1.0 || u <= t || is_near(a, t, u, self.tolerance)) {
+            // The seam of a closed curve, or a curve that slows down to its end: near to itself along itself.
             return Finding::Nothing;
         }
         // An end is where it is; the other curve is brought to it.

@@ -663,6 +663,27 @@ fn curves_that_stand_still_or_have_no_length_are_met() {
 }
 
 #[test]
+fn a_spline_that_rests_at_a_point_does_not_meet_itself_there() {
+    let (p, q) = (Point::new(0.0, 0.0), Point::new(1.0, 1.0));
+    let knots = [0.0, 0.0, 0.0, 0.0, 1.0, 2.0, 3.0, 3.0, 3.0, 3.0];
+    for points in [[p, q, q, q, q, q], [p, p, p, p, p, q]] {
+        let resting = Curve::nurbs(3, &knots, &points, None).unwrap();
+        assert_eq!((resting.start(), resting.end()), (p, q));
+        assert!(self_meetings(&resting, 1e-12).unwrap().is_empty());
+    }
+    assert_eq!(Curve::nurbs(3, &knots, &[p; 6], None).unwrap().bounds().area(), 0.0);
+}
+
+#[test]
+fn a_curve_does_not_meet_itself_where_it_slows_down() {
+    let p = |x: f64, y: f64| Point::new(x, y);
+    let slowing = Curve::bezier(vec![p(-2.249, -4.0), p(-3.999, -4.0), p(-3.999, -4.0), p(-3.999, -4.0)]).unwrap();
+    for tolerance in [4e-15, 1e-12, 1e-9] {
+        assert!(self_meetings(&slowing, tolerance).unwrap().is_empty(), "{tolerance}");
+    }
+}
+
+#[test]
 fn touching_corners_of_a_polyline_are_met() {
     let p = |x: f64, y: f64| Point::new(x, y);
     let knots = [0.0, 0.0, 1.0, 2.0, 3.0, 3.0];

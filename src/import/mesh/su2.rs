@@ -23,6 +23,10 @@ pub fn read(bytes: &[u8]) -> Result<MeshFile> {
             let (key, value) = (text(line[..equals].trim_ascii()), text(line[equals + 1..].trim_ascii()));
             let count = || value.split_ascii_whitespace().next().and_then(|v| v.parse::<usize>().ok());
             let counted = || count().ok_or_else(|| broken_at(n, format!("{key} is '{value}'")));
+            let counts = matches!(key.as_str(), "NELEM" | "NPOIN" | "NMARK" | "MARKER_TAG" | "MARKER_ELEMS");
+            if counts && left > 0 {
+                return Err(broken_at(n, format!("{key} comes {left} lines too early")));
+            }
             match key.as_str() {
                 "NDIME" if count() != Some(2) => {
                     return Err(unsupported(

@@ -1,0 +1,301 @@
+//! Broken files of every kind, each to every reader: a clear error with its line, or a drawing; in bounded time and memory.
+//!
+//! What a format says of its own broken files is tested beside the rest of it (`svg.rs`, `dxf.rs`, `import.rs`, `formats.rs`, `vtu.rs`); here is what is common.
+
+use squinch::import::mesh::{self, MeshFile};
+use squinch::import::{self, Format, ImportError, Options};
+use squinch::pipeline::{Exit, Extent, Outcome, Source, run};
+use squinch::request::Request;
+use std::time::{Duration, Instant};
+
+/// Far more than any of these files takes, on a slow machine and without optimisation.
+const PATIENCE: Duration = Duration::from_secs(20);
+
+const SAMPLES: &[(&str, Format)] = &[
+    ("logo.svg", Format::Svg),
+    ("bracket.dxf", Format::Dxf),
+    ("plate.json", Format::Outline),
+    ("gear.json", Format::Outline),
+    ("tangent_curves.json", Format::Outline),
+    ("naca4412.dat", Format::Airfoil),
+    ("two_element.dat", Format::Airfoil),
+    ("wedges/wedge_5.poly", Format::Poly),
+];
+
+fn sample(name: &str) -> Vec<u8> {
+    std::fs::read(format!("samples/{name}")).expect("the sample is there")
+}
+
+/// What `work` gives, if it does not take for ever.
+fn soon<T>(what: &str, work: impl FnOnce() -> T) -> T {
+    let start = Instant::now();
+    let result = work();
+    assert!(start.elapsed() < PATIENCE, "{what} took {:?}", start.elapsed());
+    result
+}
+
+fn meshed(name: &str, bytes: &[u8], format: Option<Format>) -> Outcome {
+    let request = Request { max_vertices: 2000, timeout: Some(10.0), far_field: 2.0, ..Request::default() };
+    let source = Source { path: name, bytes, format, nodes: None };
+    soon(name, || run(&source, &request, Extent::Whole(&mut |_| true)))
+}
+
+/// Mesh or refusal, and every refusal says what, and offers a way out.
+fn ends_well(outcome: &Outcome, name: &str) {
+    assert_ne!(outcome.exit, Exit::Bug, "{name}: {:?}", outcome.report.failure);
+    match &outcome.report.failure {
+        None => assert!(outcome.mesh.is_some(), "{name}"),
+        Some(failure) => assert!(!failure.what.is_empty() && !failure.help.is_empty(), "{name}: {failure:?}"),
+    }
+}
+
+// ---- drawings ----
+
+#[test]
+fn a_sample_cut_at_any_tenth_is_a_drawing_or_an_error_with_its_line() {
+    for &(name, format) in SAMPLES {
+        let bytes = sample(name);
+        for tenth in 0..10 {
+            let cut = &bytes[..bytes.len() * tenth / 10];
+            let read = soon(name, || import::read(cut, format, "cut", &Options::default()));
+            match (format, read) {
+                // Points of a section may end anywhere.
+                (Format::Airfoil, Ok(_)) => {}
+                // So may a .poly file, between its sections; it is said.
+                (Format::Poly, Ok(drawing)) => {
+                    assert!(drawing.notes.iter().any(|note| note.contains("ends before")), "{:?}", drawing.notes);
+                }
+                (_, Ok(drawing)) => panic!("{name} cut at {tenth}/10 is a drawing of {} curves", drawing.curves.len()),
+                (_, Err(error)) => {
+                    assert!(error.line.is_some() || tenth <= 1, "{name} cut at {tenth}/10: {error}");
+                    assert!(!error.help.is_empty(), "{name} cut at {tenth}/10: {error}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_sample_under_a_wrong_suffix_is_a_mesh_or_a_refusal() {
+    for &(name, format) in SAMPLES {
+        let bytes = sample(name);
+        for wrong in Format::ALL.into_iter().filter(|&f| f != format) {
+            let shown = format!("{name} as {}", wrong.name());
+            ends_well(&meshed(&shown, &bytes, Some(wrong)), &shown);
+        }
+        let told = Format::sniff(&bytes);
+        assert_eq!(told, Some(format), "{name}: what its bytes look like");
+    }
+}
+
+#[test]
+fn other_files_are_refused_by_every_reader() {
+    let noise: Vec<u8> = (0..3000u32).map(|i| (i.wrapping_mul(2_654_435_761) >> 13) as u8).collect();
+    let others: [(&str, &[u8]); 8] = [
+        ("nothing", b""),
+        ("blanks", b" \r\n\t\n \n"),
+        ("noise", &noise),
+        ("zeros", &[0; 3000]),
+        ("a PNG", b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\0\x01\0\0\0\x01\x08\x02\0\0\0\x90wS\xde"),
+        ("a PDF", b"%PDF-1.4\n%\xe2\xe3\xcf\xd3\n1 0 obj\n<< /Type /Catalog >>\nendobj\n"),
+        ("a ZIP", b"PK\x03\x04\x14\0\0\0\x08\0\0\0!\0"),
+        ("a DWG", b"AC1032\0\0\0\0\x06\x01\0\x80\0\0\0"),
+    ];
+    for (what, bytes) in others {
+        for format in Format::ALL {
+            let error = soon(what, || import::read(bytes, format, "other", &Options::default()));
+            let error = error.expect_err(&format!("{what} is no {}", format.name()));
+            assert!(!error.what.is_empty() && !error.help.is_empty(), "{what} as {}: {error:?}", format.name());
+        }
+        for format in mesh::Format::ALL {
+            if let Err(error) = soon(what, || mesh::read(bytes, format, &[])) {
+                assert!(!error.what.is_empty() && !error.help.is_empty(), "{what} as {}: {error:?}", format.suffix());
+            }
+        }
+    }
+}
+
+/// Group codes and values, separated by semicolons, as a DXF text.
+fn dxf(pairs: &str) -> Vec<u8> {
+    let lines = pairs.split(';').map(|pair| pair.trim().split_once(' ').expect("code and value"));
+    lines.map(|(code, value)| format!("{code}\n{value}\n")).collect::<String>().into_bytes()
+}
+
+fn dxf_entities(entities: &str) -> Vec<u8> {
+    dxf(&format!("0 SECTION; 2 ENTITIES; {entities}; 0 ENDSEC; 0 EOF"))
+}
+
+fn svg(body: &str) -> Vec<u8> {
+    format!("<svg xmlns='http://www.w3.org/2000/svg' xmlns:xlink='http://www.w3.org/1999/xlink'>{body}</svg>")
+        .into_bytes()
+}
+
+fn refusal(what: &str, format: Format, bytes: &[u8]) -> ImportError {
+    let read = soon(what, || import::read(bytes, format, "broken", &Options::default()));
+    match read {
+        Err(error) => error,
+        Ok(drawing) => panic!("{what}: read as {} curves", drawing.curves.len()),
+    }
+}
+
+#[test]
+fn numbers_that_are_none_are_refused_with_their_line() {
+    for number in ["nan", "inf", "-Infinity", "1e999"] {
+        let broken = [
+            (Format::Dxf, dxf_entities(&format!("0 LINE; 10 0; 20 {number}; 11 1; 21 0")), 10),
+            (
+                Format::Outline,
+                format!("{{ \"squinch\": 1,\n\"curves\": [ {{ \"line\":\n[[0, {number}], [1, 0]] }} ] }}").into(),
+                3,
+            ),
+            (Format::Poly, format!("3 2 0 0\n1 0 0\n2 {number} 0\n3 0 1\n0 0\n0\n").into(), 3),
+            (Format::Node, format!("3 2 0 0\n1 0 0\n2 1 {number}\n3 0 1\n").into(), 3),
+        ];
+        for (format, bytes, line) in broken {
+            let error = refusal(number, format, &bytes);
+            assert_eq!(error.line, Some(line), "{number} in {}: {error}", format.name());
+        }
+        // A path is drawn up to its first error, as SVG asks; a shape without a size is not drawn.
+        let shapes = format!("<path d='M0 0L{number} 1 5 5z'/><circle r='{number}'/>");
+        if let Ok(drawing) = import::read(&svg(&shapes), Format::Svg, "broken", &Options::default()) {
+            assert!(drawing.curves.iter().all(|c| c.curve.bounds().is_finite()), "{number}");
+        }
+        let section = format!("Section\n1 0\n0.5 0.1\n0 0\n0.5 {number}\n1 0\n");
+        ends_well(&meshed("section", section.as_bytes(), Some(Format::Airfoil)), number);
+    }
+}
+
+#[test]
+fn counts_beyond_the_file_are_refused() {
+    for count in ["2000000000", "4294967294", "9223372036854775807", "18446744073709551615", "1e300", "-1"] {
+        let line =
+            format!("0 LINE; 10 0; 20 0; 11 1; 21 0; 0 SPLINE; 70 8; 71 3; 72 {count}; 73 {count}; 40 0; 10 0; 20 0");
+        let polyline = format!("0 LWPOLYLINE; 90 {count}; 70 1; 10 0; 20 0; 10 1; 20 0; 10 0; 20 1");
+        let broken = [
+            (Format::Poly, format!("{count} 2 0 0\n1 0 0\n2 1 0\n3 0 1\n0 0\n0\n").into_bytes()),
+            (Format::Poly, format!("3 2 0 0\n1 0 0\n2 1 0\n3 0 1\n{count} 0\n1 1 2\n0\n").into_bytes()),
+            (
+                Format::Poly,
+                format!("3 2 0 0\n1 0 0\n2 1 0\n3 0 1\n3 0\n1 1 2\n2 2 3\n3 3 1\n{count}\n1 0.2 0.2\n").into_bytes(),
+            ),
+            (Format::Node, format!("{count} 2 0 0\n1 0 0\n2 1 0\n3 0 1\n").into_bytes()),
+            (Format::Dxf, dxf_entities(&line)),
+        ];
+        for (format, bytes) in broken {
+            let error = refusal(count, format, &bytes);
+            assert!(error.line.is_some(), "{count} in {}: {error}", format.name());
+        }
+        // A count that other entities repeat by what they hold is not believed.
+        if let Ok(drawing) = import::read(&dxf_entities(&polyline), Format::Dxf, "broken", &Options::default()) {
+            assert_eq!(drawing.curves.len(), 3, "{count}");
+        }
+        let lednicer = format!("Section\n{count}. {count}.\n\n0 0\n0.5 0.1\n1 0\n\n0 0\n0.5 -0.1\n1 0\n");
+        ends_well(&meshed("section", lednicer.as_bytes(), Some(Format::Airfoil)), count);
+    }
+}
+
+#[test]
+fn what_unfolds_without_end_is_refused_or_left_out() {
+    let block = |name: &str, body: &str| format!("0 BLOCK; 2 {name}; 10 0; 20 0; {body}; 0 ENDBLK");
+    let insert = |name: &str| format!("0 INSERT; 2 {name}; 10 0; 20 0");
+    let file = |blocks: &str, entities: &str| {
+        dxf(&format!("0 SECTION; 2 BLOCKS; {blocks}; 0 ENDSEC; 0 SECTION; 2 ENTITIES; {entities}; 0 ENDSEC; 0 EOF"))
+    };
+    let circle = "0 CIRCLE; 10 0; 20 0; 40 1";
+    let twice = |name: &str| format!("{}; {}", insert(name), insert(name));
+    // Each block shows the next one twice: 2³⁰ circles.
+    let doubled: Vec<String> = (0..30).map(|k| block(&format!("B{k}"), &twice(&format!("B{}", k + 1)))).collect();
+    let deep: Vec<String> = (0..50_000).map(|k| block(&format!("B{k}"), &insert(&format!("B{}", k + 1)))).collect();
+    let grid = format!("{}; 70 30000; 71 30000; 44 1; 45 1", insert("B"));
+    let drawings = [
+        ("itself", file(&block("A", &format!("{circle}; {}", insert("A"))), &insert("A"))),
+        ("each other", file(&format!("{}; {}", block("A", &insert("B")), block("B", &insert("A"))), &insert("A"))),
+        ("doubled", file(&format!("{}; {}", doubled.join("; "), block("B30", circle)), &insert("B0"))),
+        ("deep", file(&deep.join("; "), &insert("B0"))),
+        ("a grid", file(&block("B", circle), &grid)),
+    ];
+    for (what, bytes) in drawings {
+        match soon(what, || import::read(&bytes, Format::Dxf, "unfolding", &Options::default())) {
+            Err(error) => assert!(!error.what.is_empty() && !error.help.is_empty(), "{what}: {error:?}"),
+            Ok(drawing) => {
+                assert!(drawing.curves.len() <= 1 && !drawing.skipped.is_empty(), "{what}: {:?}", drawing.skipped)
+            }
+        }
+    }
+    let uses: String =
+        (0..40).map(|k| format!("<g id='g{k}'>{}</g>", format!("<use xlink:href='#g{}'/>", k + 1).repeat(2))).collect();
+    let pictures = [
+        ("a loop", "<use id='a' xlink:href='#a'/>".to_owned()),
+        ("a loop of two", "<g id='a'><use xlink:href='#b'/></g><g id='b'><use xlink:href='#a'/></g>".to_owned()),
+        ("doubled uses", format!("<defs>{uses}<circle id='g40' r='1'/></defs><use xlink:href='#g0'/>")),
+        ("deep groups", format!("{}<circle r='1'/>{}", "<g>".repeat(100_000), "</g>".repeat(100_000))),
+        ("deep paths", format!("<path d='M0 0{}'/>", "m1 1".repeat(100_000))),
+    ];
+    for (what, body) in pictures {
+        match soon(what, || import::read(&svg(&body), Format::Svg, "unfolding", &Options::default())) {
+            Err(error) => assert!(!error.what.is_empty() && !error.help.is_empty(), "{what}: {error:?}"),
+            Ok(drawing) => assert!(drawing.curves.len() <= 100_000, "{what}: {} curves", drawing.curves.len()),
+        }
+    }
+    let lists = format!("{{ \"squinch\": 1, \"curves\": {}", "[".repeat(1_000_000));
+    assert!(refusal("deep lists", Format::Outline, lists.as_bytes()).line.is_some());
+    let objects = format!("{{ \"squinch\": 1, \"curves\": [{}", "{\"line\":".repeat(1_000_000));
+    assert!(refusal("deep objects", Format::Outline, objects.as_bytes()).line.is_some());
+}
+
+// ---- meshes ----
+
+fn read_mesh(what: &str, format: mesh::Format, text: &str) -> Result<MeshFile, mesh::MeshError> {
+    soon(what, || mesh::read(text.as_bytes(), format, &[]))
+}
+
+#[test]
+fn mesh_files_with_counts_beyond_the_file_are_refused() {
+    use mesh::Format::{Inp, Msh, Obj, Stl, Su2, Triangle, Vtk, Vtu};
+    for count in ["2000000000", "4294967295", "9223372036854775807", "18446744073709551615", "-1", "1e18", "nan"] {
+        let vtu = format!(
+            "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\"><UnstructuredGrid>\
+             <Piece NumberOfPoints=\"{count}\" NumberOfCells=\"{count}\"><Points><DataArray type=\"Float64\" \
+             NumberOfComponents=\"3\" format=\"ascii\">0 0 0</DataArray></Points></Piece></UnstructuredGrid></VTKFile>"
+        );
+        let broken = [
+            (Vtu, vtu),
+            (
+                Vtk,
+                format!(
+                    "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS {count} double\n0 0 0\n"
+                ),
+            ),
+            (
+                Vtk,
+                format!(
+                    "# vtk DataFile Version 3.0\nx\nBINARY\nDATASET UNSTRUCTURED_GRID\nPOINTS 1 float\n000000000000\nCELLS {count} {count}\n"
+                ),
+            ),
+            (Msh, format!("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n{count}\n1 0 0 0\n$EndNodes\n")),
+            (
+                Msh,
+                format!(
+                    "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 {count} 1 {count}\n2 1 0 {count}\n1\n0 0 0\n$EndNodes\n"
+                ),
+            ),
+            (Msh, format!("$MeshFormat\n4.1 1 8\n\x01\0\0\0$EndMeshFormat\n$Nodes\n{}", "\u{7f}".repeat(200))),
+            (Su2, format!("NDIME= 2\nNELEM= {count}\n5 0 1 2\nNPOIN= 3\n0 0\n1 0\n0 1\n")),
+            (Su2, format!("NDIME= 2\nNELEM= 1\n5 0 1 2\nNPOIN= {count}\n0 0\n1 0\n0 1\n")),
+            (Inp, format!("*NODE\n1, 0, 0\n2, 1, 0\n3, 0, 1\n*ELEMENT, TYPE=CPS3\n1, 1, 2, {count}\n")),
+            (Obj, format!("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 {count}9\n")),
+            (Triangle, format!("{count} 3 0\n1 1 2 3\n")),
+        ];
+        for (format, text) in broken {
+            let error = read_mesh(count, format, &text).expect_err(&format!("{count} in {}: {text}", format.suffix()));
+            assert!(!error.what.is_empty() && !error.help.is_empty(), "{error:?}");
+        }
+    }
+    let stl = [&[b' '; 80][..], &u32::MAX.to_le_bytes(), &[0; 50]].concat();
+    soon("stl", || mesh::read(&stl, Stl, &[])).expect_err("4294967295 triangles in 134 bytes");
+    // Of a generated set the numbers are all in the file but for these three.
+    let set = "*NODE\n1, 0, 0\n2, 1, 0\n3, 0, 1\n*ELEMENT, TYPE=CPS3\n1, 1, 2, 3\n*ELSET, ELSET=all, GENERATE\n1, 9000000000000000000, 1\n";
+    let _ = read_mesh("a generated set", Inp, set);
+    let deep = format!("<VTKFile>{}", "<a>".repeat(1_000_000));
+    read_mesh("deep tags", Vtu, &deep).expect_err("a million open tags");
+}

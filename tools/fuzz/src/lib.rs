@@ -1,0 +1,164 @@
+//! What the fuzz targets ask of squinch: no panic, no endless work, and no result that its own checks deny. See README.md beside.
+
+pub mod sketch;
+
+use sketch::Sketch;
+use squinch::domain::{Domain, Drawing, FillRule, Unarranged};
+use squinch::geometry::{magnitude, scaled};
+use squinch::import::{self, Format, mesh};
+use squinch::pipeline::{self, Exit, Extent, Outcome, Plan, Source};
+use squinch::request::{Keep, Request};
+use squinch::watch::Progress;
+
+/// Questions to the watch before a run is told to stop: by count, so that a find does not depend on the machine.
+const STEPS: usize = 20_000;
+/// A drawing with more curves than this takes too long for a fuzzer to learn from.
+const CURVES: usize = 60;
+/// Vertices that a mesh may have.
+const VERTICES: usize = 3000;
+
+/// A watch that says stop after [`STEPS`] questions.
+fn budget() -> impl FnMut(&Progress) -> bool {
+    let mut left = STEPS;
+    move |_| {
+        left = left.saturating_sub(1);
+        left > 0
+    }
+}
+
+/// Reads bytes as each of some formats: a drawing or an error, whatever they are.
+pub fn read(bytes: &[u8], formats: &[Format]) {
+    for &format in formats {
+        match import::read(bytes, format, "fuzz", &import::Options::default()) {
+            Ok(drawing) => {
+                assert!(drawing.curves.iter().all(|c| c.curve.start().is_finite() && c.curve.end().is_finite()))
+            }
+            Err(error) => assert!(!error.what.is_empty() && !error.help.is_empty(), "{error:?}"),
+        }
+    }
+}
+
+/// Reads bytes as a mesh file: of the format that they look like, else as the two that no first bytes tell. A byte 0xff parts a `.ele` file
+/// from the files beside it.
+pub fn read_mesh(bytes: &[u8]) {
+    let guessed = mesh::Format::sniff(bytes);
+    for format in guessed.map_or(vec![mesh::Format::Stl, mesh::Format::Triangle], |format| vec![format]) {
+        let mut files = bytes.split(|&b| b == 0xff && !format.beside().is_empty());
+        let main = files.next().unwrap_or_default();
+        let beside: Vec<_> = files.map(|file| Some(file.to_vec())).collect();
+        match mesh::read(main, format, &beside) {
+            Ok(file) => {
+                // Whatever is read can be judged.
+                Plan::without_domain(&Request::default()).judge_file(None, &file.mesh);
+            }
+            Err(error) => assert!(!error.what.is_empty() && !error.help.is_empty(), "{error:?}"),
+        }
+    }
+}
+
+/// Arranges a sketch: the domain keeps its promises, has as many faces as Euler counts, and is the same at another power of two.
+pub fn arrange(sketch: &Sketch) {
+    let (drawing, options) = (&sketch.drawing, &sketch.arrange_options());
+    let arranged = drawing.arrange_watched(options, &mut budget());
+    let other = at_scale(drawing, SCALE).arrange_watched(
+        &squinch::domain::ArrangeOptions { tolerance: options.tolerance.map(|t| t * SCALE), ..options.clone() },
+        &mut budget(),
+    );
+    match (arranged, other) {
+        (Ok(domain), Ok(other)) => {
+            assert_eq!(domain.flaws(), [""; 0]);
+            if options.keep_all || options.fill == Some(FillRule::Regions) && drawing.seeds.is_empty() {
+                check_faces(&domain);
+            }
+            assert_eq!(domain.curves().as_slice(), other.scaled(1.0 / SCALE).curves().as_slice(), "at another scale");
+        }
+        (Err(Unarranged::Invalid(error)), Err(Unarranged::Invalid(_))) => {
+            assert!(!error.what.is_empty() && !error.help.is_empty() && error.at.is_finite(), "{error:?}");
+        }
+        (Err(Unarranged::Stopped(_)), Err(Unarranged::Stopped(_))) => {}
+        (one, other) => panic!("{:?} at one scale, {:?} at another", one.err(), other.err()),
+    }
+}
+
+/// A power of two that leaves every number of a sketch exact.
+const SCALE: f64 = 1024.0 * 1024.0;
+
+fn at_scale(drawing: &Drawing, factor: f64) -> Drawing {
+    let mut other = drawing.clone();
+    other.curves.iter_mut().for_each(|c| c.curve = c.curve.scaled(factor));
+    other.points.iter_mut().for_each(|p| p.at = scaled(p.at, factor));
+    other.seeds.iter_mut().for_each(|s| s.at = scaled(s.at, factor));
+    other
+}
+
+/// Euler: where every bounded face is kept, there are curves − points + components of them.
+fn check_faces(domain: &Domain) {
+    let mut component: Vec<usize> = (0..domain.points().len()).collect();
+    let root = |component: &[usize], mut p: usize| {
+        while component[p] != p {
+            p = component[p];
+        }
+        p
+    };
+    let mut components = component.len();
+    for curve in domain.curves().iter() {
+        let [a, b] = curve.ends.map(|end| root(&component, end.0 as usize));
+        if a != b {
+            component[a] = b;
+            components -= 1;
+        }
+    }
+    let faces = domain.curves().len() + components - domain.points().len();
+    assert_eq!(domain.regions().len(), faces, "faces by Euler's formula");
+}
+
+/// Meshes a sketch, within a budget: the run ends without a fault of ours, and a mesh covers the area that the curves enclose.
+pub fn mesh(sketch: &Sketch) {
+    let request = sketch.request(VERTICES);
+    let outcome = pipeline::run_drawing(&sketch.drawing, &request, Extent::Whole(&mut budget()));
+    check_outcome(&outcome, &request);
+}
+
+/// Reads, arranges, meshes and judges bytes, of the format that they look like.
+pub fn mesh_file(bytes: &[u8]) {
+    let Some(format) = Format::sniff(bytes) else { return };
+    let source = Source { path: "fuzz", bytes, format: Some(format), nodes: None };
+    let request = Request { max_vertices: VERTICES, far_field: 2.0, ..Request::default() };
+    if pipeline::read(&source, &request).is_ok_and(|drawing| drawing.curves.len() <= CURVES) {
+        let outcome = pipeline::run(&source, &request, Extent::Whole(&mut budget()));
+        check_outcome(&outcome, &request);
+    }
+}
+
+fn check_outcome(outcome: &Outcome, request: &Request) {
+    assert_ne!(outcome.exit, Exit::Bug, "{:?}", outcome.report.failure);
+    if let Some(failure) = &outcome.report.failure {
+        assert!(!failure.what.is_empty() && !failure.help.is_empty(), "{failure:?}");
+    }
+    let (Some(domain), Some(mesh)) = (&outcome.domain, &outcome.mesh) else {
+        assert_ne!(outcome.exit, Exit::Done, "done, but no mesh");
+        return;
+    };
+    if request.keep == Keep::All {
+        check_faces(domain);
+    }
+    // Area of the triangles between corners, and of what lies between a curve and its mesh edge on the sides that are kept.
+    let mut area = 0.0;
+    for t in mesh.triangles.ids() {
+        let [a, b, c] = mesh.corners(t);
+        area += 0.5 * (b - a).cross(c - a);
+    }
+    let (mut gross, mut border) = (area, 0.0);
+    for edge in &mesh.edges {
+        let Some(link) = edge.link else { continue };
+        let curve = &domain.curves()[link.curve];
+        let kept = |side: usize| f64::from(u8::from(curve.sides[side].is_some()));
+        let part = curve.curve.part(link.t[0], link.t[1]);
+        let between = part.green(part.start());
+        area += (kept(0) - kept(1)) * between;
+        gross += between.abs();
+        border += part.start().distance(part.end());
+    }
+    let rounding = 16.0 * f64::EPSILON * magnitude(domain.bounds()) * border;
+    assert!((area - domain.measure()).abs() <= 1e-9 * gross + rounding, "area {area} instead of {}", domain.measure());
+}
