@@ -18,7 +18,7 @@
 use crate::domain::{ArrangeOptions, Domain, Drawing, Repair, RepairKind, Unarranged};
 use crate::geometry::Point;
 use crate::ids::NameId;
-use crate::plane::lopping::demand::{Sliver, vertices_of_slivers};
+use crate::plane::lopping::demand::{Sliver, costly_slivers};
 use crate::report::{FailureKind, FailureReport};
 use crate::request::{Keep, Request};
 use crate::watch::{Stopped, Watch};
@@ -52,12 +52,10 @@ const COUNTED: f64 = 64.0;
 pub struct Healing<'a> {
     drawing: &'a Drawing,
     request: &'a Request,
-    /// Coarser tolerances that may be taken, ascending.
-    coarser: Vec<f64>,
+    /// Coarser tolerances that may be taken, in the order in which they are tried.
+    left: Vec<f64>,
     /// The one that was taken last; 0 before.
     taken: f64,
-    /// Those within which the engine failed.
-    failed: Vec<f64>,
     vertices: [f64; 2],
     area: f64,
     /// Areas of the kept regions, by name, within the finest tolerance that was arranged.
@@ -84,14 +82,14 @@ impl<'a> Healing<'a> {
         let simplified = request.min_edge.map(|edge| edge / 3.0);
         let sketch = drawing.sketch || simplified.is_some();
         let parts = if drawing.sketch { &SKETCH[..] } else { &[EXACT] };
-        let mut coarser: Vec<f64> = parts.iter().map(|part| part * diagonal).chain(simplified).collect();
-        coarser.retain(|&t| 0.0 < t && t < diagonal / 4.0 && request.tolerance.is_none());
-        coarser.sort_by(f64::total_cmp);
+        let mut left: Vec<f64> = parts.iter().map(|part| part * diagonal).chain(simplified).collect();
+        left.retain(|&t| 0.0 < t && t < diagonal / 4.0 && request.tolerance.is_none());
+        left.sort_by(f64::total_cmp);
         let (vertices, area) = match sketch {
             true => (SKETCH_VERTICES, SKETCH_AREA),
             false => (EXACT_VERTICES, EXACT_AREA),
         };
-        Self { drawing, request, coarser, taken: 0.0, failed: Vec::new(), vertices, area, areas: None }
+        Self { drawing, request, left, taken: 0.0, vertices, area, areas: None }
     }
 
     /// The drawing within the request's tolerance, or the finest that will do.
@@ -108,13 +106,24 @@ impl<'a> Healing<'a> {
             }
             Err(why) => return Err(why.into()),
         };
-        if self.coarser.is_empty() {
+        if self.left.is_empty() {
             return Ok(domain);
         }
         self.areas = Some(areas(&domain));
-        let (vertices, dearest) = self.vertices_of_slivers(&domain, watch)?;
-        let finest = Candidate { domain, vertices };
-        let Some(dearest) = dearest.filter(|_| !self.will_do(&finest)) else { return Ok(finest.domain) };
+        let slivers = self.slivers(&domain, watch)?;
+        let finest = Candidate { vertices: sum(&slivers), domain };
+        let Some((_, dearest)) = slivers.iter().max_by(|a, b| a.0.total_cmp(&b.0)).filter(|_| !self.will_do(&finest))
+        else {
+            return Ok(finest.domain);
+        };
+        // Slivers wider than a tolerance stay: one that leaves too many of them is tried last.
+        let enough = self.enough(&finest.domain);
+        let stay = |within: f64| slivers.iter().filter(|(_, s)| s.width >= within).map(|(n, _)| n).sum::<f64>();
+        let (mut first, mut last): (Vec<f64>, Vec<f64>) = self.left.iter().partition(|&&within| stay(within) <= enough);
+        last.reverse();
+        first.extend(last);
+        self.left = first;
+        let vertices = finest.vertices;
         let what = format!("slivers between curves would take {vertices:.1e} vertices or more");
         let why = Why { at: dearest.at, what };
         Ok(self.coarser(Some(finest), &why, watch)?.expect("there was one to begin with"))
@@ -127,7 +136,7 @@ impl<'a> Healing<'a> {
     pub fn retreat(&mut self, failure: &FailureReport, watch: &mut Watch) -> Result<Option<Domain>, FailureReport> {
         let [x, y] = failure.at.unwrap_or_default();
         self.area = SKETCH_AREA;
-        self.failed.push(self.taken);
+        self.left.retain(|&tolerance| tolerance != self.taken);
         self.coarser(None, &Why { at: Point::new(x, y), what: failure.what.clone() }, watch)
     }
 
@@ -138,19 +147,14 @@ impl<'a> Healing<'a> {
         why: &Why,
         watch: &mut Watch,
     ) -> Result<Option<Domain>, FailureReport> {
-        let (finer, coarser): (Vec<f64>, Vec<f64>) =
-            self.coarser.iter().partition(|&&tolerance| tolerance < self.taken);
-        for tolerance in coarser.into_iter().chain(finer) {
-            if self.failed.contains(&tolerance) {
-                continue;
-            }
+        for tolerance in self.left.clone() {
             let mut domain = match self.arrange_within(Some(tolerance), watch) {
                 Ok(domain) if self.is_alike(&domain) => domain,
                 Ok(_) | Err(Unarranged::Invalid(_)) => continue,
                 Err(stopped) => return Err(stopped.into()),
             };
             domain.itemise_first(why.repair(tolerance));
-            let (vertices, _) = self.vertices_of_slivers(&domain, watch)?;
+            let vertices = sum(&self.slivers(&domain, watch)?);
             let candidate = Candidate { domain, vertices };
             if self.will_do(&candidate) {
                 self.taken = tolerance;
@@ -172,8 +176,8 @@ impl<'a> Healing<'a> {
         self.vertices[0] + self.vertices[1] * domain.curves().len() as f64
     }
 
-    fn vertices_of_slivers(&self, domain: &Domain, watch: &mut Watch) -> Result<(f64, Option<Sliver>), Stopped> {
-        vertices_of_slivers(domain, self.request.angle_min_rad(), COUNTED * self.enough(domain), watch)
+    fn slivers(&self, domain: &Domain, watch: &mut Watch) -> Result<Vec<(f64, Sliver)>, Stopped> {
+        costly_slivers(domain, self.request.angle_min_rad(), COUNTED * self.enough(domain), watch)
     }
 
     /// Whether the regions of a domain are what they are within the finest tolerance.
@@ -189,6 +193,10 @@ impl<'a> Healing<'a> {
             ArrangeOptions { tolerance, fill: self.request.fill_rule.rule(), keep_all: self.request.keep == Keep::All };
         self.drawing.arrange_watched(&options, watch)
     }
+}
+
+fn sum(slivers: &[(f64, Sliver)]) -> f64 {
+    slivers.iter().map(|(vertices, _)| vertices).sum()
 }
 
 fn areas(domain: &Domain) -> Areas {

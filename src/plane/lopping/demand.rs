@@ -164,17 +164,17 @@ pub fn slivers(domain: &Domain, watch: &mut Watch) -> Result<Vec<Sliver>, Stoppe
     slivers_until(domain, EXCUSED_RADII, watch, |_| false)
 }
 
-/// The vertices that the slivers of a domain are likely to take, kept or not, counted until they are more than `most`; and the dearest of
-/// these slivers. What is excused outside a ball counts too: it need not be cut, but it is.
+/// The slivers of a domain with the vertices that each is likely to take, kept or not, until these are more than `most`. What is excused
+/// outside a ball counts too: it need not be cut, but it is.
 ///
 /// # Errors
 /// [`Stopped`] where the watch says so.
-pub fn vertices_of_slivers(
+pub fn costly_slivers(
     domain: &Domain,
     kappa_rad: f64,
     most: f64,
     watch: &mut Watch,
-) -> Result<(f64, Option<Sliver>), Stopped> {
+) -> Result<Vec<(f64, Sliver)>, Stopped> {
     let taken = |sliver: &Sliver| sliver.vertices(kappa_rad, 0.0);
     let (mut counted, mut vertices) = (0, 0.0);
     let found = slivers_until(domain, 1.0, watch, |found| {
@@ -182,7 +182,7 @@ pub fn vertices_of_slivers(
         counted = found.len();
         vertices > most
     })?;
-    Ok((vertices, found.into_iter().max_by(|a, b| taken(a).total_cmp(&taken(b)))))
+    Ok(found.into_iter().map(|sliver| (taken(&sliver), sliver)).collect())
 }
 
 /// The slivers of a domain so many radii from sharp corners, as long as those found so far are not enough.
