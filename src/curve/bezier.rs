@@ -117,6 +117,15 @@ impl Polygon {
 }
 
 impl Bezier {
+    /// Whether all control points, and so the curve, lie on one side of the line through `a` along `direction`, clear of rounding.
+    pub(super) fn is_beside_line(&self, a: Point, direction: Vec2) -> bool {
+        let farthest = self.points.iter().map(|p| (*p - a).hypot()).fold(0.0, f64::max);
+        let clear = 64.0 * f64::EPSILON * farthest * direction.hypot();
+        let mut sides = self.points.iter().map(|p| (*p - a).cross(direction));
+        let Some(first) = sides.next().filter(|side| side.abs() > clear) else { return false };
+        sides.all(|side| side.abs() > clear && (side > 0.0) == (first > 0.0))
+    }
+
     pub(super) fn new(points: Vec<Point>, weights: Option<Vec<f64>>) -> Result<Self, CurveError> {
         check_points(&points)?;
         if !(2..=DEGREE_MAX + 1).contains(&points.len()) {

@@ -443,6 +443,7 @@ impl Curve {
                 };
                 arc.line_crossings(a, direction, t0, t1).into_iter().map(polished).collect()
             }
+            Curve::Bezier(bezier) if bezier.is_beside_line(a, direction) => Vec::new(),
             _ => spans::line_crossings(self, a, direction, t0, t1),
         }
     }
