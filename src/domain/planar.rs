@@ -119,6 +119,21 @@ impl Domain {
         self.corner(p).is_some_and(|corner| corner.angle_rad < FRAC_PI_2 - self.angle_rounding(p))
     }
 
+    /// The corner across which two places lie, that of the drawing whose small angle no mesh can part: the places lie on two of the given
+    /// curves (`curves[i]` those at place i) that end at the corner, equally far from it, and it sees them less than 60° apart.
+    pub fn corner_between(&self, curves: [&[CurveId]; 2], places: [Point; 2]) -> Option<PointId> {
+        // Places cut at one distance are rounded; beyond a thousandth a triangle has a longer side to split.
+        const EQUAL: f64 = 1e-3;
+        let narrow = |corner: PointId| {
+            let [u, v] = places.map(|place| place - self.points[corner]);
+            let (a, b) = (u.hypot(), v.hypot());
+            (a - b).abs() <= EQUAL * a.min(b) && u.dot(v) > 0.5 * a * b
+        };
+        let ends = |c: CurveId| self.curves[c].ends;
+        let meets = |corner: PointId, c: CurveId| curves[1].iter().any(|&d| d != c && ends(d).contains(&corner));
+        curves[0].iter().flat_map(|&c| ends(c).map(|p| (c, p))).find(|&(c, p)| narrow(p) && meets(p, c)).map(|(_, p)| p)
+    }
+
     /// How far rounded coordinates can turn a right angle at p: four units in the last place of the coordinates, seen along the
     /// shortest chord at p.
     fn angle_rounding(&self, p: PointId) -> f64 {

@@ -1,0 +1,215 @@
+//! Points of types B and C: segments that are encroached or too large, and where they are split.
+
+use super::chords::{curve_of, shape_of};
+use super::steiner::Encroached;
+use super::{Gcdr, Kind, Origin};
+use crate::curve::End;
+use crate::geometry::exact::{CircleSide, in_diametral};
+use crate::geometry::{Point, Vec2, scaled};
+use crate::ids::{BallId, PieceId, PointId, TriangleId, VertexId};
+use crate::plane::insert::{self, Location};
+use crate::plane::subcurves::{Piece, Standing};
+use crate::plane::triangulation::Side;
+use crate::refine::StopReason;
+
+impl Gcdr<'_> {
+    pub(super) fn ends_of(&self, piece: &Piece) -> [Point; 2] {
+        piece.ends.map(|v| self.mesh.point(v))
+    }
+
+    /// Splits a piece that is larger than asked.
+    pub(super) fn look_at_piece(&mut self, id: PieceId) {
+        self.subcurves.get_mut(id).queued = false;
+        let piece = *self.subcurves.get(id);
+        if piece.is_gone() || self.origins.len() >= self.options.max_vertices {
+            return;
+        }
+        let [t0, t1] = piece.t;
+        if self.field.edge_too_large(curve_of(&piece), shape_of(&self.domain, &piece), t0, t1) {
+            self.split_segment(id, "vertices_size");
+        }
+    }
+
+    pub(super) fn suspect(&mut self, piece: PieceId) {
+        let entry = self.subcurves.get_mut(piece);
+        if !entry.queued {
+            entry.queued = true;
+            self.suspects.push(piece);
+        }
+    }
+
+    /// Lines 7–14 of Algorithm 2: free vertices in the diametral circle go, and a point of type B or C comes. A spoke takes its whole fan
+    /// with it.
+    pub(super) fn split_segment(&mut self, id: PieceId, why: &'static str) {
+        let piece = *self.subcurves.get(id);
+        if let Standing::Spoke(fan) = piece.standing {
+            return self.cut_fan(fan, why);
+        }
+        let type_c = self.clear_diametral_circle(id);
+        let t = match self.distance_to_sharp_end(&piece) {
+            Some((end, radius)) => shape_of(&self.domain, &piece).leaves_ball(end, radius, 0.0, 1.0),
+            None => self.choose(&piece, type_c),
+        };
+        if let Some(parts) = self.split_together(&[(id, t.unwrap_or(f64::NAN))], why) {
+            let v = self.subcurves.get(parts[0][0]).ends[1];
+            self.record(v, if type_c { Kind::C } else { Kind::B });
+        }
+    }
+
+    /// The parameter that the strategy chooses: the place on the curve above its place on the chord.
+    fn choose(&mut self, piece: &Piece, type_c: bool) -> Option<f64> {
+        let shape = shape_of(&self.domain, piece);
+        let [t0, t1] = piece.t;
+        let size = if type_c { self.options.regions.mu } else { self.options.regions.delta1 };
+        let interval = [0.5 * size, 1.0 - 0.5 * size];
+        let [x, y] = self.ends_of(piece);
+        let ends = [x, y].map(|p| scaled(p, 1.0 / self.scale));
+        let share = self.strategy.on_segment(&Encroached { ends, interval, type_c });
+        let share = if share >= interval[0] { share.min(interval[1]) } else { interval[0] };
+        if share == 0.5 {
+            return Some(shape.bisector_crossing(t0, t1));
+        }
+        if shape.is_straight() {
+            return Some(t0 + share * (t1 - t0));
+        }
+        let normal = Vec2::new(x.y - y.y, y.x - x.x);
+        let found = shape.line_crossings(x.lerp(y, share), normal, t0, t1);
+        Some(found.first().copied().unwrap_or_else(|| shape.bisector_crossing(t0, t1)))
+    }
+
+    /// On a curve that ends at a sharp corner: which end that is, and the distance from it at which a piece is split: a power of two next to
+    /// the corner (Ruppert's concentric shells, between a third and two thirds of the piece), the mean of the distances of its ends farther off, so that the
+    /// two curves of a narrow corner are cut at the same distances.
+    fn distance_to_sharp_end(&self, piece: &Piece) -> Option<(End, f64)> {
+        let curve = &self.domain.curves()[curve_of(piece)];
+        let [x, y] = self.ends_of(piece);
+        let middle = x.midpoint(y);
+        let corners =
+            [(End::Start, curve.ends[0]), (End::Finish, curve.ends[1])].into_iter().filter(|&(_, p)| self.sharp[p]);
+        let away = |p: PointId| middle.distance(self.domain.points()[p]);
+        let (end, corner) = corners.min_by(|a, b| away(a.1).total_cmp(&away(b.1)))?;
+        let at = self.domain.points()[corner];
+        let (near, far) = (at.distance(x).min(at.distance(y)), at.distance(x).max(at.distance(y)));
+        let chord = x.distance(y);
+        if near == 0.0 {
+            // The power of two in (chord/3, 2·chord/3].
+            return Some((end, libm::ldexp(1.0, libm::ilogb(chord * (2.0 / 3.0)))));
+        }
+        (far - near > 0.5 * chord).then_some((end, 0.5 * (near + far)))
+    }
+
+    /// Deletes the free vertices in the diametral circle of a piece that see it; whether others do.
+    fn clear_diametral_circle(&mut self, id: PieceId) -> bool {
+        let Some(side) = self.side_of(id) else { return false };
+        let seen = self.mesh.visible_in_diametral_circle(side);
+        let mut type_c = false;
+        for v in seen {
+            if self.origins[v] == Origin::Free {
+                self.mesh.remove(v);
+                self.counters.add("vertices_deleted", 1);
+                self.alive -= 1;
+            } else {
+                type_c = true;
+            }
+        }
+        type_c
+    }
+
+    fn side_of(&self, id: PieceId) -> Option<Side> {
+        let [x, y] = self.subcurves.get(id).ends;
+        // A corner may have as many neighbours as there are curves at it; the other end has a handful.
+        let topology = self.mesh.topology();
+        match self.origins[x] {
+            Origin::Input(_) => topology.side_between(y, x).map(|s| topology.twin(s)),
+            _ => topology.side_between(x, y),
+        }
+    }
+
+    /// Cuts all curves of a fan at half its radius.
+    fn cut_fan(&mut self, id: BallId, why: &'static str) {
+        let fan = &mut self.fans[id];
+        fan.radius *= 0.5;
+        let (corner, radius) = (VertexId(fan.corner.0), fan.radius);
+        let spokes = std::mem::take(&mut fan.spokes);
+        let end_of = |piece: &Piece| if piece.ends[0] == corner { End::Start } else { End::Finish };
+        let cuts: Vec<(PieceId, f64)> = spokes
+            .iter()
+            .map(|&spoke| {
+                let piece = self.subcurves.get(spoke);
+                let leave = shape_of(&self.domain, piece).leaves_ball(end_of(piece), radius, 0.0, 1.0);
+                (spoke, leave.unwrap_or(f64::NAN))
+            })
+            .collect();
+        let Some(parts) = self.split_together(&cuts, why) else { return };
+        for (&spoke, [head, tail]) in spokes.iter().zip(parts) {
+            let inner = if end_of(self.subcurves.get(spoke)) == End::Start { head } else { tail };
+            self.subcurves.get_mut(inner).standing = Standing::Spoke(id);
+            self.fans[id].spokes.push(inner);
+        }
+    }
+
+    /// Splits pieces at parameters, all at once: between two of a fan chords may cross. `None`, and the run is over, where coordinates
+    /// cannot hold it.
+    fn split_together(&mut self, cuts: &[(PieceId, f64)], why: &'static str) -> Option<Vec<[PieceId; 2]>> {
+        for &(id, t) in cuts {
+            let piece = *self.subcurves.get(id);
+            let [x, y] = self.ends_of(&piece);
+            if !(piece.t[0] < t && t < piece.t[1] && self.has_room([x, y], shape_of(&self.domain, &piece).point(t))) {
+                self.stop_too_near(x);
+                return None;
+            }
+        }
+        cuts.iter().for_each(|&(id, _)| _ = self.clear_diametral_circle(id));
+        for &(id, _) in cuts {
+            let side = self.side_of(id).expect("a piece is a side");
+            self.mesh.release(side);
+        }
+        let mut parts = Vec::with_capacity(cuts.len());
+        for &(id, t) in cuts {
+            let piece = *self.subcurves.get(id);
+            let v = self.insert_on(&piece, t, why)?;
+            self.subcurves.retire(id);
+            let halves = [([piece.t[0], t], [piece.ends[0], v]), ([t, piece.t[1]], [v, piece.ends[1]])];
+            parts.push(halves.map(|(t, ends)| self.subcurves.add(piece.carrier, t, ends, Standing::Ordinary)));
+        }
+        for &part in parts.iter().flatten() {
+            let [a, b] = self.subcurves.get(part).ends;
+            if self.mesh.join(a, b, part).is_err() {
+                self.stop_too_near(self.mesh.point(a));
+                return None;
+            }
+            self.suspect(part);
+        }
+        self.settle(true);
+        Some(parts)
+    }
+
+    /// Whether a point can part a chord: coordinates tell it from the ends, and it lies in the diametral circle.
+    fn has_room(&self, [x, y]: [Point; 2], at: Point) -> bool {
+        at.distance(x).min(at.distance(y)) >= self.resolution
+            && insert::in_range(at)
+            && in_diametral(x, y, at) == CircleSide::Inside
+    }
+
+    /// Inserts the point of a piece at a parameter; the piece lies on no side any more.
+    fn insert_on(&mut self, piece: &Piece, t: f64, why: &'static str) -> Option<VertexId> {
+        let at = shape_of(&self.domain, piece).point(t);
+        let near = self.mesh.topology().sides_from(piece.ends[1]).next().map_or(TriangleId(0), Side::triangle);
+        let location = self.mesh.kernel().locate(at, near);
+        if matches!(location, Location::Vertex(_)) {
+            self.stop_too_near(at);
+            return None;
+        }
+        self.mesh.cavity(at, location, &mut self.cavity);
+        let v = self.mesh.fill(at, &self.cavity);
+        self.origins.push(Origin::OnCurve(curve_of(piece)));
+        self.alive += 1;
+        self.counters.add(why, 1);
+        Some(v)
+    }
+
+    pub(super) fn stop_too_near(&mut self, at: Point) {
+        self.too_near.push(at);
+        self.reason = StopReason::Arithmetic;
+    }
+}
