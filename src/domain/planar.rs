@@ -127,7 +127,7 @@ impl Domain {
         let narrow = |corner: PointId| {
             let [u, v] = places.map(|place| place - self.points[corner]);
             let (a, b) = (u.hypot(), v.hypot());
-            (a - b).abs() <= EQUAL * a.min(b) && u.dot(v) > 0.5 * a * b
+            (a - b).abs() <= EQUAL * a.min(b) && u.dot(v) > (0.5 + 1e-8) * a * b
         };
         let ends = |c: CurveId| self.curves[c].ends;
         let meets = |corner: PointId, c: CurveId| curves[1].iter().any(|&d| d != c && ends(d).contains(&corner));

@@ -28,6 +28,14 @@ pub struct Encroached {
     pub type_c: bool,
 }
 
+/// Which skinny triangle is refined first: Algorithm 2 leaves it open, and it makes up to a fourth of the triangles.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Order {
+    SmallestAngle,
+    ShortestEdge,
+    SmallestCircle,
+}
+
 /// F_A, F_B and F_C of Algorithm 2. What it answers is moved to the nearest place in the region, unless it is [free](Self::is_free).
 pub trait SteinerStrategy {
     /// F_A: a point of the selection disk.
@@ -36,6 +44,10 @@ pub trait SteinerStrategy {
     /// F_B and F_C: a share of the way from end to end, within the interval.
     fn on_segment(&mut self, _segment: &Encroached) -> f64 {
         0.5
+    }
+
+    fn order(&self) -> Order {
+        Order::SmallestAngle
     }
 
     /// Whether its points of type A are taken as they are, region or not. Then nothing is proven.
@@ -83,10 +95,17 @@ impl SteinerStrategy for OffCenter {
         self.point(triangle)
     }
 
+    fn order(&self) -> Order {
+        Order::ShortestEdge
+    }
+
     fn is_free(&self) -> bool {
         self.free
     }
 }
+
+/// On the border of a petal triangles would be on the brink.
+const PETAL: f64 = 0.98;
 
 /// The locally optimal point (Erten & Üngör 2007): of the places that make a triangle with the shortest edge which is not skinny (its
 /// *petal*), the one farthest from all vertices that the triangle and its neighbours know.
@@ -107,7 +126,7 @@ impl SteinerStrategy for Optimal {
     fn in_disk(&mut self, triangle: &Skinny) -> Point {
         let [p, q, r] = triangle.corners;
         let shortest = p.distance(q);
-        let radius = 0.95 * self.rho * shortest;
+        let radius = PETAL * self.rho * shortest;
         let toward = (triangle.center - p.midpoint(q)) / (triangle.center.distance(p.midpoint(q)));
         let height = (radius * radius - 0.25 * shortest * shortest).max(0.0).sqrt();
         let petal = p.midpoint(q) + toward * height;
@@ -125,6 +144,10 @@ impl SteinerStrategy for Optimal {
         });
         let first = self.off_center.point(triangle);
         candidates.fold(first, |best, at| if room(at) > room(best) * (1.0 + 1e-9) { at } else { best })
+    }
+
+    fn order(&self) -> Order {
+        Order::SmallestCircle
     }
 
     fn is_free(&self) -> bool {

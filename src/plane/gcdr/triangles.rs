@@ -1,6 +1,6 @@
 //! Points of type A: which triangles miss a bound, whom a corner excuses, and what mends the others.
 
-use super::steiner::Skinny;
+use super::steiner::{Order, Skinny};
 use super::{Gcdr, Kind, Origin, Suspect};
 use crate::geometry::{Point, scaled};
 use crate::ids::{CurveId, TriangleId, VertexId};
@@ -38,13 +38,25 @@ impl Gcdr<'_> {
         let suspect = (t, self.mesh.topology().corners(t));
         let sin2 = sin2_smallest(corners);
         if sin2 < self.sin2_min {
-            return self.skinny.push(suspect, 1.0 - sin2 / self.sin2_min);
+            return self.push_skinny(suspect);
         }
         let excess = self.field.excess(region, corners);
         if excess > 1.0 {
             // Badness by octaves of excess: 2^32 is as bad as it gets.
             self.oversized.push(suspect, libm::log2(excess) / 32.0);
         }
+    }
+
+    fn push_skinny(&mut self, suspect: Suspect) {
+        let corners = self.corners(suspect.0);
+        // Lengths by octaves below the unit to which the domain is scaled: 2^-40 is as short as it gets.
+        let octaves = |length: f64| -libm::log2(length) / 40.0;
+        let badness = match self.strategy.order() {
+            Order::SmallestAngle => 1.0 - sin2_smallest(corners) / self.sin2_min,
+            Order::ShortestEdge => octaves((0..3).map(|i| edge2(corners, i)).fold(f64::INFINITY, f64::min).sqrt()),
+            Order::SmallestCircle => octaves(circumcircle(corners).1),
+        };
+        self.skinny.push(suspect, badness);
     }
 
     pub(super) fn is_stale(&self, &(t, corners): &Suspect) -> bool {
@@ -155,8 +167,7 @@ impl Gcdr<'_> {
         self.counters.add("rejected", 1);
         self.split_segment(piece, "vertices_segment");
         if !self.is_stale(&suspect) {
-            let sin2 = sin2_smallest(self.corners(suspect.0));
-            self.skinny.push(suspect, 1.0 - sin2 / self.sin2_min);
+            self.push_skinny(suspect);
         }
     }
 }
