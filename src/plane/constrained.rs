@@ -234,25 +234,24 @@ impl Constrained {
 
     // ---- visibility ----
 
-    /// Follows the straight line from the middle of a triangle to `p`, up to the first piece. `None` where the triangle is so thin that
-    /// its middle, as rounded, does not lie inside.
+    /// Follows the straight line from within a triangle to `p`, up to the first piece: from its middle, or where the triangle is so thin
+    /// that the middle is rounded out of it, from its border. `None` where no line starts that rounding leaves inside.
     pub fn look_from(&self, t: TriangleId, p: Point) -> Option<Look> {
         let topology = self.topology();
-        let [a, b, c] = topology.corners(t).map(|v| self.point(v));
-        let from = a + ((b - a) + (c - a)) / 3.0;
-        let inside = [(a, b), (b, c), (c, a)].iter().all(|&(x, y)| orient(x, y, from) == Orientation::CounterClockwise);
-        if !inside {
-            return None;
-        }
         let sides = [0, 1, 2].map(|i| t.side_of(i));
-        let leaves = |s: Side| {
+        if sides.iter().all(|&s| self.to_left(s, p) != Orientation::Clockwise) {
+            return Some(Look::Seen(self.place_in(t, p)));
+        }
+        let [a, b, c] = topology.corners(t).map(|v| self.point(v));
+        let middle = a + ((b - a) + (c - a)) / 3.0;
+        let leaves = |from: Point, s: Side| {
             self.to_left(s, p) == Orientation::Clockwise
                 && orient(from, p, self.point(topology.origin(s))) != Orientation::CounterClockwise
                 && orient(from, p, self.point(topology.target(s))) == Orientation::CounterClockwise
         };
-        let Some(mut s) = sides.into_iter().find(|&s| leaves(s)) else {
-            return Some(Look::Seen(self.place_in(t, p)));
-        };
+        let starts = [middle, a.midpoint(b), b.midpoint(c), c.midpoint(a), a, b, c];
+        let line = |from: Point| sides.into_iter().find(|&s| leaves(from, s)).map(|s| (from, s));
+        let (from, mut s) = starts.into_iter().find_map(line)?;
         // A straight line meets every triangle at most once.
         loop {
             if self.is_piece(s) {

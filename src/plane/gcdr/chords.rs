@@ -27,7 +27,7 @@ pub(super) struct Beginning<'a> {
 }
 
 /// A piece as the search for meetings sees it.
-struct Hull {
+pub(super) struct Hull {
     piece: Option<PieceId>,
     ends: [Point; 2],
     /// λ, 0 of what is straight.
@@ -121,7 +121,8 @@ impl<'a> Beginning<'a> {
             let Ok(i) = place(id) else { continue };
             boxes.meeting(hulls[i].bounds(self.resolution), |j| {
                 if i != j && (hulls[i].lambda > 0.0 || hulls[j].lambda > 0.0) && !self.are_apart(&hulls[i], &hulls[j]) {
-                    met.extend([&hulls[i], &hulls[j]].into_iter().filter(|h| h.lambda > 0.0).filter_map(|h| h.piece));
+                    let bent = |h: &&Hull| h.lambda > 0.0 && !h.is_noise(self.resolution);
+                    met.extend([&hulls[i], &hulls[j]].into_iter().filter(bent).filter_map(|h| h.piece));
                 }
                 true
             });
@@ -133,9 +134,7 @@ impl<'a> Beginning<'a> {
 
     fn hull(&self, id: PieceId) -> Hull {
         let piece = self.subcurves.get(id);
-        let shape = shape_of(self.domain, piece);
-        let lambda = if shape.is_straight() { 0.0 } else { shape.lens_angle(piece.t[0], piece.t[1]) };
-        Hull { piece: Some(id), ends: piece.ends.map(|v| self.points[v.index()]), lambda }
+        Hull { piece: Some(id), ..Hull::of(self.domain, piece, piece.t) }
     }
 
     /// Whether two hulls meet at most in a common end.
@@ -143,7 +142,8 @@ impl<'a> Beginning<'a> {
         let [Some(first), Some(second)] = [a.piece, b.piece].map(|id| id.map(|id| self.subcurves.get(id))) else {
             return a.is_apart(b, self.resolution);
         };
-        if self.share_a_fan(first, second) {
+        // Of two that are noise, joining tells whether their chords cross.
+        if self.share_a_fan(first, second) || a.is_noise(self.resolution) && b.is_noise(self.resolution) {
             return true;
         }
         let common = |v: &VertexId| second.ends.contains(v);
@@ -206,6 +206,18 @@ pub(super) fn curve_of(piece: &Piece) -> CurveId {
 }
 
 impl Hull {
+    /// Of the part t of the curve of a piece.
+    pub(super) fn of(domain: &Domain, piece: &Piece, t: [f64; 2]) -> Self {
+        let shape = shape_of(domain, piece);
+        let lambda = if shape.is_straight() { 0.0 } else { shape.lens_angle(t[0], t[1]) };
+        Self { piece: None, ends: t.map(|t| shape.point(t)), lambda }
+    }
+
+    /// Whether it is so short that its shape is mostly rounding: splitting would find no end.
+    fn is_noise(&self, resolution: f64) -> bool {
+        self.ends[0].distance(self.ends[1]) < 4096.0 * resolution
+    }
+
     /// The rhombus; of what is straight its chord.
     fn corners(&self) -> [Point; 4] {
         let [x, y] = self.ends;
@@ -221,7 +233,7 @@ impl Hull {
     }
 
     /// Whether a line along a side of either parts two convex quadrilaterals, with `slack` between them.
-    fn is_apart(&self, other: &Self, slack: f64) -> bool {
+    pub(super) fn is_apart(&self, other: &Self, slack: f64) -> bool {
         let (p, q) = (self.corners(), other.corners());
         let sides = [p, q].into_iter().flat_map(|r| [r[1] - r[0], r[2] - r[1], r[2] - r[0]]);
         let mut normals = sides.filter(|s| s.hypot2() > 0.0).map(|s| crate::geometry::Vec2::new(-s.y, s.x) / s.hypot());

@@ -15,7 +15,7 @@
 //!   [`chords`] splits curves at the beginning until chords are a valid PSLG, whatever is split later. To move a segment to its curve, its
 //!   chord is taken out of the triangulation, the point inserted and the two new chords joined; regions are carved anew there.
 //! - *Corners sharper than 60°.* Segments that end there are split on concentric shells (Ruppert 1995), at distances from the corner that
-//!   are powers of two; a triangle whose shortest edge lies across the corner, from one curve to the other, with ends equally far from the corner is
+//!   are round binary numbers; a triangle whose shortest edge lies across the corner, from one curve to the other, with ends equally far from the corner is
 //!   left as it is: its small angle is the input's. Curves that leave a sharp corner are cut together: [`chords`] says why.
 //! - *Rounding.* Decisions are made on the rounded point. A point that would not remove its triangle is not inserted, and owed.
 

@@ -1,6 +1,6 @@
 //! Points of types B and C: segments that are encroached or too large, and where they are split.
 
-use super::chords::{curve_of, shape_of};
+use super::chords::{Hull, curve_of, shape_of};
 use super::steiner::Encroached;
 use super::{Gcdr, Kind, Origin};
 use crate::curve::End;
@@ -50,7 +50,7 @@ impl Gcdr<'_> {
             Some((end, radius)) => shape_of(&self.domain, &piece).leaves_ball(end, radius, 0.0, 1.0),
             None => self.choose(&piece, type_c),
         };
-        if let Some(parts) = self.split_together(&[(id, t.unwrap_or(f64::NAN))], why) {
+        if let Some(parts) = self.split_together(&[(id, vec![t.unwrap_or(f64::NAN)])], why) {
             let v = self.subcurves.get(parts[0][0]).ends[1];
             self.record(v, if type_c { Kind::C } else { Kind::B });
         }
@@ -77,9 +77,9 @@ impl Gcdr<'_> {
         Some(found.first().copied().unwrap_or_else(|| shape.bisector_crossing(t0, t1)))
     }
 
-    /// On a curve that ends at a sharp corner: which end that is, and the distance from it at which a piece is split: a power of two next to
-    /// the corner (Ruppert's concentric shells, between a third and two thirds of the piece), the mean of the distances of its ends farther off, so that the
-    /// two curves of a narrow corner are cut at the same distances.
+    /// On a curve that ends at a sharp corner: which end that is, and the distance from it at which a piece is split: the roundest binary
+    /// number in the middle third. Next to the corner that is a power of two (Ruppert's concentric shells); and wherever they are split, the
+    /// two curves of a narrow corner are split at the same distances.
     fn distance_to_sharp_end(&self, piece: &Piece) -> Option<(End, f64)> {
         let curve = &self.domain.curves()[curve_of(piece)];
         let [x, y] = self.ends_of(piece);
@@ -91,11 +91,8 @@ impl Gcdr<'_> {
         let at = self.domain.points()[corner];
         let (near, far) = (at.distance(x).min(at.distance(y)), at.distance(x).max(at.distance(y)));
         let chord = x.distance(y);
-        if near == 0.0 {
-            // The power of two in (chord/3, 2·chord/3].
-            return Some((end, libm::ldexp(1.0, libm::ilogb(chord * (2.0 / 3.0)))));
-        }
-        (far - near > 0.5 * chord).then_some((end, 0.5 * (near + far)))
+        let third = (far - near) / 3.0;
+        (far - near > 0.5 * chord).then(|| (end, roundest_between(near + third, far - third)))
     }
 
     /// Deletes the free vertices in the diametral circle of a piece that see it; whether others do.
@@ -125,54 +122,100 @@ impl Gcdr<'_> {
         }
     }
 
-    /// Cuts all curves of a fan at half its radius.
+    /// Cuts all curves of a fan at half its radius, and where their chords between there and the old radius might come to cross, at more
+    /// distances in between.
     fn cut_fan(&mut self, id: BallId, why: &'static str) {
         let fan = &mut self.fans[id];
         fan.radius *= 0.5;
         let (corner, radius) = (VertexId(fan.corner.0), fan.radius);
         let spokes = std::mem::take(&mut fan.spokes);
-        let end_of = |piece: &Piece| if piece.ends[0] == corner { End::Start } else { End::Finish };
-        let cuts: Vec<(PieceId, f64)> = spokes
-            .iter()
-            .map(|&spoke| {
-                let piece = self.subcurves.get(spoke);
-                let leave = shape_of(&self.domain, piece).leaves_ball(end_of(piece), radius, 0.0, 1.0);
-                (spoke, leave.unwrap_or(f64::NAN))
-            })
-            .collect();
+        let cuts = self.shells(corner, radius, &spokes);
         let Some(parts) = self.split_together(&cuts, why) else { return };
-        for (&spoke, [head, tail]) in spokes.iter().zip(parts) {
-            let inner = if end_of(self.subcurves.get(spoke)) == End::Start { head } else { tail };
+        for parts in parts {
+            let ends_there = |&&part: &&PieceId| self.subcurves.get(part).ends.contains(&corner);
+            let inner = *parts.iter().find(ends_there).expect("the first or the last part");
             self.subcurves.get_mut(inner).standing = Standing::Spoke(id);
             self.fans[id].spokes.push(inner);
         }
     }
 
-    /// Splits pieces at parameters, all at once: between two of a fan chords may cross. `None`, and the run is over, where coordinates
-    /// cannot hold it.
-    fn split_together(&mut self, cuts: &[(PieceId, f64)], why: &'static str) -> Option<Vec<[PieceId; 2]>> {
-        for &(id, t) in cuts {
-            let piece = *self.subcurves.get(id);
-            let [x, y] = self.ends_of(&piece);
-            if !(piece.t[0] < t && t < piece.t[1] && self.has_room([x, y], shape_of(&self.domain, &piece).point(t))) {
-                self.stop_too_near(x);
+    /// Parameters, ascending, at which spokes are cut from `radius` on outward: so many shells that the hulls of neighbours are apart.
+    fn shells(&self, corner: VertexId, radius: f64, spokes: &[PieceId]) -> Vec<(PieceId, Vec<f64>)> {
+        const SHELLS_MOST: u32 = 64;
+        let center = self.mesh.point(corner);
+        let mut around = spokes.to_vec();
+        let away = |id: &PieceId| {
+            let piece = self.subcurves.get(*id);
+            self.mesh.point(piece.ends[usize::from(piece.ends[0] == corner)]) - center
+        };
+        around.sort_by(|a, b| away(a).atan2().total_cmp(&away(b).atan2()).then(a.cmp(b)));
+        let mut shells = 1;
+        loop {
+            let radii: Vec<f64> = (0..shells).map(|k| radius * (1.0 + f64::from(k) / f64::from(shells))).collect();
+            let cuts: Vec<(PieceId, Vec<f64>)> =
+                around.iter().map(|&id| (id, self.leaves(id, corner, &radii))).collect();
+            let hulls: Vec<Vec<Hull>> = cuts.iter().map(|(id, ts)| self.hulls_outside(*id, corner, ts)).collect();
+            let neighbours =
+                hulls.iter().zip(hulls.iter().cycle().skip(1)).take(if hulls.len() > 1 { hulls.len() } else { 0 });
+            let apart =
+                |(a, b): (&Vec<Hull>, &Vec<Hull>)| a.iter().all(|h| b.iter().all(|k| h.is_apart(k, self.resolution)));
+            if shells >= SHELLS_MOST || neighbours.into_iter().all(apart) {
+                return cuts;
+            }
+            shells *= 2;
+        }
+    }
+
+    /// Ascending parameters at which a spoke leaves the circles of ascending radii around its corner; NaN where it does not.
+    fn leaves(&self, spoke: PieceId, corner: VertexId, radii: &[f64]) -> Vec<f64> {
+        let piece = self.subcurves.get(spoke);
+        let end = if piece.ends[0] == corner { End::Start } else { End::Finish };
+        let shape = shape_of(&self.domain, piece);
+        let leave = |&r: &f64| shape.leaves_ball(end, r, 0.0, 1.0).unwrap_or(f64::NAN);
+        let mut ts: Vec<f64> = radii.iter().map(leave).collect();
+        if end == End::Finish {
+            ts.reverse();
+        }
+        ts
+    }
+
+    /// The hulls of the parts of a spoke that do not end at its corner.
+    fn hulls_outside(&self, spoke: PieceId, corner: VertexId, ts: &[f64]) -> Vec<Hull> {
+        let piece = self.subcurves.get(spoke);
+        let bounds: Vec<f64> =
+            if piece.ends[0] == corner { [ts, &piece.t[1..]].concat() } else { [&piece.t[..1], ts].concat() };
+        bounds.windows(2).map(|t| Hull::of(&self.domain, piece, [t[0], t[1]])).collect()
+    }
+
+    /// Splits pieces at ascending parameters, all at once: between two of a fan chords may cross. `None`, and the run is over, where
+    /// coordinates cannot hold it.
+    fn split_together(&mut self, cuts: &[(PieceId, Vec<f64>)], why: &'static str) -> Option<Vec<Vec<PieceId>>> {
+        for (id, ts) in cuts {
+            let piece = *self.subcurves.get(*id);
+            if !self.has_room(&piece, ts) {
+                self.stop_too_near(self.mesh.point(piece.ends[0]));
                 return None;
             }
         }
-        cuts.iter().for_each(|&(id, _)| _ = self.clear_diametral_circle(id));
-        for &(id, _) in cuts {
-            let side = self.side_of(id).expect("a piece is a side");
+        cuts.iter().for_each(|(id, _)| _ = self.clear_diametral_circle(*id));
+        for (id, _) in cuts {
+            let side = self.side_of(*id).expect("a piece is a side");
             self.mesh.release(side);
         }
-        let mut parts = Vec::with_capacity(cuts.len());
-        for &(id, t) in cuts {
-            let piece = *self.subcurves.get(id);
-            let v = self.insert_on(&piece, t, why)?;
-            self.subcurves.retire(id);
-            let halves = [([piece.t[0], t], [piece.ends[0], v]), ([t, piece.t[1]], [v, piece.ends[1]])];
-            parts.push(halves.map(|(t, ends)| self.subcurves.add(piece.carrier, t, ends, Standing::Ordinary)));
+        let mut all = Vec::with_capacity(cuts.len());
+        for (id, ts) in cuts {
+            let piece = *self.subcurves.get(*id);
+            self.subcurves.retire(*id);
+            let (mut t, mut from, mut parts) = (piece.t[0], piece.ends[0], Vec::new());
+            for &next in ts {
+                let v = self.insert_on(&piece, next, why)?;
+                parts.push(self.subcurves.add(piece.carrier, [t, next], [from, v], Standing::Ordinary));
+                (t, from) = (next, v);
+            }
+            parts.push(self.subcurves.add(piece.carrier, [t, piece.t[1]], [from, piece.ends[1]], Standing::Ordinary));
+            all.push(parts);
         }
-        for &part in parts.iter().flatten() {
+        for &part in all.iter().flatten() {
             let [a, b] = self.subcurves.get(part).ends;
             if self.mesh.join(a, b, part).is_err() {
                 self.stop_too_near(self.mesh.point(a));
@@ -181,14 +224,21 @@ impl Gcdr<'_> {
             self.suspect(part);
         }
         self.settle(true);
-        Some(parts)
+        Some(all)
     }
 
-    /// Whether a point can part a chord: coordinates tell it from the ends, and it lies in the diametral circle.
-    fn has_room(&self, [x, y]: [Point; 2], at: Point) -> bool {
-        at.distance(x).min(at.distance(y)) >= self.resolution
-            && insert::in_range(at)
-            && in_diametral(x, y, at) == CircleSide::Inside
+    /// Whether points of a piece can part it: coordinates tell them from each other and from the ends, and they lie in the diametral
+    /// circle.
+    fn has_room(&self, piece: &Piece, ts: &[f64]) -> bool {
+        let [x, y] = self.ends_of(piece);
+        let bounds = [&piece.t[..1], ts, &piece.t[1..]].concat();
+        if !bounds.windows(2).all(|t| t[0] < t[1]) {
+            return false;
+        }
+        let places: Vec<Point> = ts.iter().map(|&t| shape_of(&self.domain, piece).point(t)).collect();
+        let chain: Vec<Point> = [x].into_iter().chain(places.iter().copied()).chain([y]).collect();
+        chain.windows(2).all(|p| p[0].distance(p[1]) >= self.resolution)
+            && places.iter().all(|&at| insert::in_range(at) && in_diametral(x, y, at) == CircleSide::Inside)
     }
 
     /// Inserts the point of a piece at a parameter; the piece lies on no side any more.
@@ -211,5 +261,19 @@ impl Gcdr<'_> {
     pub(super) fn stop_too_near(&mut self, at: Point) {
         self.too_near.push(at);
         self.reason = StopReason::Arithmetic;
+    }
+}
+
+/// The multiple of the largest power of two between two positive numbers.
+fn roundest_between(low: f64, high: f64) -> f64 {
+    let mut exponent = libm::ilogb(high);
+    // A step no longer than the interval has a multiple in it.
+    loop {
+        let step = libm::ldexp(1.0, exponent);
+        let multiple = (high / step).floor() * step;
+        if multiple >= low || step < 0.25 * (high - low) || high <= low {
+            return multiple;
+        }
+        exponent -= 1;
     }
 }
