@@ -180,7 +180,7 @@ fn points_lie_in_their_regions_and_densities_below_the_bounds() {
 fn lfs_in_squares(p: Point) -> f64 {
     let to_side = |square: usize, side: usize| {
         let half = 0.5 - 0.01 * square as f64;
-        let (along, across) = if side % 2 == 0 { (p.x, p.y) } else { (p.y, p.x) };
+        let (along, across) = if side.is_multiple_of(2) { (p.x, p.y) } else { (p.y, p.x) };
         let off = if side < 2 { across - half } else { across + half };
         ((along.abs() - half).max(0.0)).hypot(off)
     };

@@ -196,10 +196,14 @@ impl<'a> AcrossCorners<'a> {
     /// The corner that lies across the shortest edge of a triangle: its smallest angle is the drawing's own.
     fn excuse(&self, t: TriangleId) -> Option<PointId> {
         let [a, b, c] = self.ev.mesh.triangles[t];
-        let length = |e: &[VertexId; 2]| self.ev.node(e[0]).distance(self.ev.node(e[1]));
-        let shortest = [[a, b], [b, c], [c, a]].into_iter().min_by(|e, f| length(e).total_cmp(&length(f)))?;
-        let [at_a, at_b] = shortest.map(|v| self.curves(v));
-        self.domain.corner_between([&at_a, &at_b], shortest.map(|v| self.ev.node(v)))
+        let length = |e: &[VertexId; 3]| self.ev.node(e[0]).distance(self.ev.node(e[1]));
+        let turns = [[a, b, c], [b, c, a], [c, a, b]];
+        // Of edges that are equal but for rounding the engine may have taken any.
+        let least = turns.iter().map(length).fold(f64::INFINITY, f64::min) * (1.0 + 1e-9);
+        turns.into_iter().filter(|turn| length(turn) <= least).find_map(|turn| {
+            let [a, b, c] = turn.map(|v| self.curves(v));
+            self.domain.corner_between([&a, &b, &c], [0, 1].map(|i| self.ev.node(turn[i])))
+        })
     }
 
     fn excuses(&self, cells: &BTreeMap<PointId, Vec<u32>>) -> Vec<Excuse> {

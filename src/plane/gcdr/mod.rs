@@ -160,7 +160,7 @@ pub fn refine(
     const STEPS: u64 = 64;
     let mut gcdr = match Gcdr::start(domain, options, strategy, watch)? {
         Start::Ready(gcdr) => gcdr,
-        Start::Ended(refined) => return Ok(refined),
+        Start::Ended(refined) => return Ok(*refined),
     };
     let mut steps = 0u64;
     loop {
@@ -178,7 +178,7 @@ pub fn refine(
 pub enum Start<'s> {
     Ready(Box<Gcdr<'s>>),
     /// The watch said stop, or the budget ended, before there was a triangulation.
-    Ended(Refined),
+    Ended(Box<Refined>),
 }
 
 impl<'s> Gcdr<'s> {
@@ -205,7 +205,7 @@ impl<'s> Gcdr<'s> {
         if stopped || beginning.points.len() > options.max_vertices {
             let reason = if stopped { StopReason::Cancelled } else { StopReason::VertexBudget };
             let stop = Stop { reason, owed: 1, places: Vec::new() };
-            return Ok(Start::Ended(Refined { mesh: None, stop, counters: Counters::default() }));
+            return Ok(Start::Ended(Box::new(Refined { mesh: None, stop, counters: Counters::default() })));
         }
         let mesh = triangulated(&beginning).map_err(|e| e.scaled(1.0 / scale))?;
         let Beginning { origins, subcurves, fans, .. } = beginning;

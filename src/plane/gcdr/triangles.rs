@@ -87,20 +87,23 @@ impl Gcdr<'_> {
     }
 
     /// Whether the shortest edge of a triangle lies across a sharp corner, with its ends equally far from it: an angle that the input has.
-    fn is_excused(&self, vertices: [VertexId; 3]) -> bool {
-        let length = |&[a, b]: &[VertexId; 2]| self.mesh.point(a).distance_squared(self.mesh.point(b));
-        let [a, b, c] = vertices;
-        let shortest = [[a, b], [b, c], [c, a]].into_iter().min_by(|e, f| length(e).total_cmp(&length(f)));
-        let [a, b] = shortest.expect("three edges");
-        let curves = |v: VertexId| -> Vec<CurveId> {
-            match self.origins[v] {
-                Origin::Input(p) => self.domain.star(p).iter().map(|i| i.curve).collect(),
-                Origin::OnCurve(curve) => vec![curve],
-                Origin::Free => Vec::new(),
-            }
-        };
-        let [at_a, at_b] = [a, b].map(curves);
-        self.domain.corner_between([&at_a, &at_b], [a, b].map(|v| self.mesh.point(v))).is_some()
+    fn is_excused(&self, [a, b, c]: [VertexId; 3]) -> bool {
+        let length = |e: &[VertexId; 3]| self.mesh.point(e[0]).distance_squared(self.mesh.point(e[1]));
+        let turns = [[a, b, c], [b, c, a], [c, a, b]];
+        let shortest = turns.into_iter().min_by(|e, f| length(e).total_cmp(&length(f))).expect("three edges");
+        if shortest[..2].iter().any(|&v| self.origins[v] == Origin::Free) {
+            return false;
+        }
+        let [a, b, c] = shortest.map(|v| self.curves_at(v));
+        self.domain.corner_between([&a, &b, &c], [0, 1].map(|i| self.mesh.point(shortest[i]))).is_some()
+    }
+
+    fn curves_at(&self, v: VertexId) -> Vec<CurveId> {
+        match self.origins[v] {
+            Origin::Input(p) => self.domain.star(p).iter().map(|i| i.curve).collect(),
+            Origin::OnCurve(curve) => vec![curve],
+            Origin::Free => Vec::new(),
+        }
     }
 
     /// F_A, moved into the disk unless the strategy is free.
