@@ -255,6 +255,9 @@ mod tests {
             scale: Some(1.0),
             timeout: Some(1.0),
             face: Some("largest".into()),
+            delta2: Some(1.0),
+            delta1: Some(1.0),
+            mu: Some(1.0),
             ..Request::default()
         };
         assert_eq!(given, keys(toml::Table::try_from(full).unwrap()));

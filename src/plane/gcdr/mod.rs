@@ -287,6 +287,12 @@ impl<'s> Gcdr<'s> {
         true
     }
 
+    /// Whether there are as many vertices as may be; also where most of what is inserted is deleted again.
+    fn is_spent(&self) -> bool {
+        let most = self.options.max_vertices;
+        self.alive >= most || self.origins.len() >= most.saturating_mul(4)
+    }
+
     pub fn cancel(&mut self) {
         if self.reason == StopReason::Done {
             self.reason = StopReason::Cancelled;

@@ -21,7 +21,7 @@ impl Gcdr<'_> {
     pub(super) fn look_at_piece(&mut self, id: PieceId) {
         self.subcurves.get_mut(id).queued = false;
         let piece = *self.subcurves.get(id);
-        if piece.is_gone() || self.origins.len() >= self.options.max_vertices {
+        if piece.is_gone() || self.is_spent() {
             return;
         }
         let [t0, t1] = piece.t;
@@ -39,21 +39,21 @@ impl Gcdr<'_> {
     }
 
     /// Lines 7–14 of Algorithm 2: free vertices in the diametral circle go, and a point of type B or C comes. A spoke takes its whole fan
-    /// with it.
-    pub(super) fn split_segment(&mut self, id: PieceId, why: &'static str) {
+    /// with it. `false` where coordinates cannot hold it.
+    pub(super) fn split_segment(&mut self, id: PieceId, why: &'static str) -> bool {
         let piece = *self.subcurves.get(id);
         if let Standing::Spoke(fan) = piece.standing {
             return self.cut_fan(fan, why);
         }
-        let type_c = self.clear_diametral_circle(id);
+        let type_c = self.encroachers(id).into_iter().any(|v| self.origins[v] != Origin::Free);
         let t = match self.distance_to_sharp_end(&piece) {
             Some((end, radius)) => shape_of(&self.domain, &piece).leaves_ball(end, radius, 0.0, 1.0),
             None => self.choose(&piece, type_c),
         };
-        if let Some(parts) = self.split_together(&[(id, vec![t.unwrap_or(f64::NAN)])], why) {
-            let v = self.subcurves.get(parts[0][0]).ends[1];
-            self.record(v, if type_c { Kind::C } else { Kind::B });
-        }
+        let Some(parts) = self.split_together(&[(id, vec![t.unwrap_or(f64::NAN)])], why) else { return false };
+        let v = self.subcurves.get(parts[0][0]).ends[1];
+        self.record(v, if type_c { Kind::C } else { Kind::B });
+        true
     }
 
     /// The parameter that the strategy chooses: the place on the curve above its place on the chord.
@@ -95,21 +95,20 @@ impl Gcdr<'_> {
         (far - near > 0.5 * chord).then(|| (end, roundest_between(near + third, far - third)))
     }
 
-    /// Deletes the free vertices in the diametral circle of a piece that see it; whether others do.
-    fn clear_diametral_circle(&mut self, id: PieceId) -> bool {
-        let Some(side) = self.side_of(id) else { return false };
-        let seen = self.mesh.visible_in_diametral_circle(side);
-        let mut type_c = false;
-        for v in seen {
+    /// The vertices in the diametral circle of a piece that see it.
+    fn encroachers(&self, id: PieceId) -> Vec<VertexId> {
+        self.side_of(id).map_or(Vec::new(), |side| self.mesh.visible_in_diametral_circle(side))
+    }
+
+    /// Deletes the free vertices among them.
+    fn clear_diametral_circle(&mut self, id: PieceId) {
+        for v in self.encroachers(id) {
             if self.origins[v] == Origin::Free {
                 self.mesh.remove(v);
                 self.counters.add("vertices_deleted", 1);
                 self.alive -= 1;
-            } else {
-                type_c = true;
             }
         }
-        type_c
     }
 
     fn side_of(&self, id: PieceId) -> Option<Side> {
@@ -124,19 +123,20 @@ impl Gcdr<'_> {
 
     /// Cuts all curves of a fan at half its radius, and where their chords between there and the old radius might come to cross, at more
     /// distances in between.
-    fn cut_fan(&mut self, id: BallId, why: &'static str) {
-        let fan = &mut self.fans[id];
-        fan.radius *= 0.5;
-        let (corner, radius) = (VertexId(fan.corner.0), fan.radius);
-        let spokes = std::mem::take(&mut fan.spokes);
-        let cuts = self.shells(corner, radius, &spokes);
-        let Some(parts) = self.split_together(&cuts, why) else { return };
+    fn cut_fan(&mut self, id: BallId, why: &'static str) -> bool {
+        let fan = &self.fans[id];
+        let (corner, radius) = (VertexId(fan.corner.0), 0.5 * fan.radius);
+        let cuts = self.shells(corner, radius, &fan.spokes);
+        let Some(parts) = self.split_together(&cuts, why) else { return false };
+        self.fans[id].radius = radius;
+        self.fans[id].spokes.clear();
         for parts in parts {
             let ends_there = |&&part: &&PieceId| self.subcurves.get(part).ends.contains(&corner);
             let inner = *parts.iter().find(ends_there).expect("the first or the last part");
             self.subcurves.get_mut(inner).standing = Standing::Spoke(id);
             self.fans[id].spokes.push(inner);
         }
+        true
     }
 
     /// Parameters, ascending, at which spokes are cut from `radius` on outward: so many shells that the hulls of neighbours are apart.
@@ -187,17 +187,17 @@ impl Gcdr<'_> {
         bounds.windows(2).map(|t| Hull::of(&self.domain, piece, [t[0], t[1]])).collect()
     }
 
-    /// Splits pieces at ascending parameters, all at once: between two of a fan chords may cross. `None`, and the run is over, where
-    /// coordinates cannot hold it.
+    /// Splits pieces at ascending parameters, all at once: between two of a fan chords may cross. `None` where coordinates cannot hold it:
+    /// the place is owed; if that shows only half-way, the run is over.
     fn split_together(&mut self, cuts: &[(PieceId, Vec<f64>)], why: &'static str) -> Option<Vec<Vec<PieceId>>> {
         for (id, ts) in cuts {
             let piece = *self.subcurves.get(*id);
             if !self.has_room(&piece, ts) {
-                self.stop_too_near(self.mesh.point(piece.ends[0]));
+                self.too_near.push(self.mesh.point(piece.ends[0]));
                 return None;
             }
         }
-        cuts.iter().for_each(|(id, _)| _ = self.clear_diametral_circle(*id));
+        cuts.iter().for_each(|(id, _)| self.clear_diametral_circle(*id));
         for (id, _) in cuts {
             let side = self.side_of(*id).expect("a piece is a side");
             self.mesh.release(side);

@@ -78,7 +78,7 @@ impl Gcdr<'_> {
         if !oversized && (too_small || skinny && self.is_excused(vertices)) {
             return;
         }
-        if self.alive >= self.options.max_vertices {
+        if self.is_spent() {
             self.reason = StopReason::VertexBudget;
             return self.skinny.push(suspect, 1.0);
         }
@@ -168,8 +168,8 @@ impl Gcdr<'_> {
     fn encroach(&mut self, suspect: Suspect, side: Side) {
         let Some(piece) = self.mesh.topology().piece(side) else { return };
         self.counters.add("rejected", 1);
-        self.split_segment(piece, "vertices_segment");
-        if !self.is_stale(&suspect) {
+        let split = self.split_segment(piece, "vertices_segment");
+        if split && !self.is_stale(&suspect) {
             self.push_skinny(suspect);
         }
     }
