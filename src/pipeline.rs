@@ -9,13 +9,16 @@ use crate::import::{self, AirfoilOptions, Format, ImportError, SvgOptions};
 use crate::mesh::Mesh;
 use crate::mesh::elevate::elevate;
 use crate::mesh::quality::Quality;
-use crate::mesh::verify::{Status, Verdict, verify};
+use crate::mesh::verify::{Promise, Status, Verdict, verify};
 use crate::plane;
+use crate::plane::gcdr;
+use crate::plane::gcdr::parameters::radius_edge_of;
+use crate::plane::gcdr::steiner::{self, SteinerStrategy};
 use crate::plane::lopping::demand::Demand;
 use crate::plane::lopping::{self, Lopping, RefineError, Refined, Shrinking};
 use crate::refine::{Stop, StopReason};
 use crate::report::{FailureKind, FailureReport, MeshReport, PromiseReport, Report, StopReport};
-use crate::request::{BallShrinking, Midpoint, Order, Request, SizeOf, Strokes, TrailingEdge};
+use crate::request::{BallShrinking, Engine, Midpoint, Order, Request, SizeOf, Steiner, Strokes, TrailingEdge};
 use crate::size::{ByPlace, Given, SAMPLE_GRADE, Sizing, Source as SizeSource};
 use crate::watch::{Progress, Stopped, Watch};
 use healing::Healing;
@@ -226,7 +229,7 @@ fn flaws(verdict: &Verdict) -> usize {
 }
 
 /// Checks of bounds that were asked for; the rest holds of every mesh that we make.
-const REQUESTED: &[&str] = &["min_angle", "max_angle", "chord_error", "edge_turning", "size"];
+const REQUESTED: &[&str] = &["min_angle", "max_angle", "chord_error", "edge_turning", "size", "radius_edge"];
 /// What refinement brings about last: owed where a budget ended it.
 const REFINED: &[&str] = &["empty_diametral", "ball_radius", "lfs_ratio"];
 
@@ -423,6 +426,67 @@ pub struct Plan {
     /// Largest turning of a curve before it is refined.
     pub tau_rad: f64,
     options: lopping::Options,
+    /// Where that engine refines.
+    gcdr: Option<Gcdr>,
+}
+
+/// What is asked of the engine for generalized constrained Delaunay refinement.
+#[derive(Clone, Debug)]
+struct Gcdr {
+    options: gcdr::Options,
+    steiner: Steiner,
+    seed: u64,
+}
+
+impl Gcdr {
+    /// `None` where the request names another engine.
+    fn asked(request: &Request, options: &lopping::Options) -> Option<Self> {
+        (request.engine == Engine::Gcdr).then(|| Self {
+            options: gcdr::Options {
+                angle_min_rad: options.angle_min_rad,
+                regions: request.regions(),
+                sizing: options.sizing.clone(),
+                max_vertices: options.max_vertices,
+            },
+            steiner: request.steiner,
+            seed: request.seed,
+        })
+    }
+
+    /// Holds δ₂, δ₁ and μ to (3.1)–(3.3). Corners below 60° have no interval: their segments are split on shells.
+    fn check(&self, domain: &Domain) -> Result<(), FailureReport> {
+        let angles = domain.points().ids().filter_map(|p| domain.corner(p)).map(|corner| corner.angle_rad);
+        let least = angles.filter(|&a| a > gcdr::SHARP_RAD).fold(std::f64::consts::PI, f64::min);
+        let rho = radius_edge_of(self.options.angle_min_rad);
+        self.options.regions.check(rho, least).map_err(|violation| {
+            let help = "give more by --delta2, --delta1 or --mu, or a smaller --min-angle";
+            FailureReport::new(FailureKind::Request, violation.to_string(), help)
+        })
+    }
+
+    fn strategy(&self) -> Box<dyn SteinerStrategy> {
+        let angle = self.options.angle_min_rad;
+        match self.steiner {
+            Steiner::Center => Box::new(steiner::Center),
+            Steiner::Offcenter => Box::new(steiner::OffCenter::new(angle, false)),
+            Steiner::Optimal => Box::new(steiner::Optimal::new(angle, false)),
+            Steiner::Extreme => Box::new(steiner::Extreme),
+            Steiner::Random => Box::new(steiner::Random::new(self.seed)),
+            Steiner::OffcenterFree => Box::new(steiner::OffCenter::new(angle, true)),
+            Steiner::OptimalFree => Box::new(steiner::Optimal::new(angle, true)),
+        }
+    }
+
+    fn promise(&self, tau_rad: f64, foreign: bool) -> Promise {
+        let free = matches!(self.steiner, Steiner::OffcenterFree | Steiner::OptimalFree);
+        self.options.promise(tau_rad, free, foreign)
+    }
+
+    /// As many steps as there are or are asked for, as long as the watch says to go on.
+    fn refine(&self, domain: &Domain, steps: Option<u64>, watch: &mut Watch) -> Result<Refined, FailureReport> {
+        let mut strategy = self.strategy();
+        Ok(gcdr::refine(domain, &self.options, &mut *strategy, steps, watch)?)
+    }
 }
 
 impl Plan {
@@ -447,7 +511,9 @@ impl Plan {
         }
         let arc_turning = lopping::arc_turning(options.angle_min_rad, lens);
         options.corner_arcs = request.corner_arcs.is_on().then_some(arc_turning);
-        Ok((domain, Self { tau_rad, options }))
+        let gcdr = Gcdr::asked(request, &options);
+        gcdr.iter().try_for_each(|gcdr| gcdr.check(&domain))?;
+        Ok((domain, Self { tau_rad, options, gcdr }))
     }
 
     /// Of a mesh whose drawing is not known: a share of its diagonal cannot be told, and any name may be of a boundary or a region.
@@ -457,7 +523,9 @@ impl Plan {
             sizing.sources.push(SizeSource::Boundary { name: name.clone(), edge: *edge });
             sizing.sources.push(SizeSource::Region { name: name.clone(), edge: *edge });
         }
-        Self { tau_rad: request.tau_rad([]), options: engine_options(request, sizing) }
+        let options = engine_options(request, sizing);
+        let gcdr = Gcdr::asked(request, &options);
+        Self { tau_rad: request.tau_rad([]), options, gcdr }
     }
 
     pub fn sizing(&self) -> &Sizing {
@@ -492,11 +560,17 @@ impl Plan {
 
     /// Refines a domain whose curves turn at most τ.
     pub fn refine(&self, domain: &Domain, watch: &mut Watch) -> Result<Refined, FailureReport> {
+        if let Some(gcdr) = &self.gcdr {
+            return gcdr.refine(domain, None, watch);
+        }
         Ok(lopping::refine(domain, &self.options, watch)?)
     }
 
     /// [`Plan::refine`], stopped as soon as every piece of a curve is an edge: the triangulation from which it refines.
     pub fn conform(&self, domain: &Domain, watch: &mut Watch) -> Result<Refined, FailureReport> {
+        if let Some(gcdr) = &self.gcdr {
+            return gcdr.refine(domain, Some(0), watch);
+        }
         let mut lopping = Lopping::start(domain, &self.options)?;
         while lopping.progress().phase == "conforming" && watch(&lopping.progress()) && lopping.step() {}
         lopping.cancel();
@@ -505,6 +579,9 @@ impl Plan {
 
     /// The first `steps` steps of [`Plan::refine`].
     pub fn refine_steps(&self, domain: &Domain, steps: u64) -> Result<Refined, FailureReport> {
+        if let Some(gcdr) = &self.gcdr {
+            return gcdr.refine(domain, Some(steps), &mut |_| true);
+        }
         let mut lopping = Lopping::start(domain, &self.options)?;
         let mut left = steps;
         while left > 0 && lopping.step() {
@@ -516,9 +593,16 @@ impl Plan {
         Ok(lopping.finish()?)
     }
 
+    fn promise(&self, foreign: bool) -> Promise {
+        match &self.gcdr {
+            Some(gcdr) => gcdr.promise(self.tau_rad, foreign),
+            None => self.options.promise(self.tau_rad, foreign),
+        }
+    }
+
     /// Holds a mesh of ours to what was asked, by its links to the domain's curves.
     pub fn judge(&self, domain: Option<&Domain>, mesh: &Mesh) -> Verdict {
-        verify(domain, mesh, &self.options.promise(self.tau_rad, false))
+        verify(domain, mesh, &self.promise(false))
     }
 
     /// Holds a mesh from a file to what was asked. Other programs drop or renumber what ties a mesh to its curves: where that does not hold,
@@ -529,7 +613,7 @@ impl Plan {
             return (by_links, None);
         }
         let untied = mesh.clone().untied();
-        let by_place = verify(domain, &untied, &self.options.promise(self.tau_rad, true));
+        let by_place = verify(domain, &untied, &self.promise(true));
         if flaws(&by_place) < flaws(&by_links) { (by_place, Some(untied)) } else { (by_links, None) }
     }
 }

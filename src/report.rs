@@ -9,7 +9,7 @@ use crate::mesh::quality::{BoundaryMeasure, Quality, RegionMeasure, boundary_mea
 use crate::mesh::verify::{Check, Excuse, Verdict};
 use crate::pipeline::Plan;
 use crate::refine::{Counters, Stop, StopReason};
-use crate::request::Request;
+use crate::request::{Engine, Request};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -110,10 +110,18 @@ pub struct RequestReport {
     pub far_field_chords: f64,
     pub incidence_deg: f64,
     pub face: Option<String>,
+    /// δ₂, δ₁ and μ as used; `null` with another engine.
+    pub delta2: Option<f64>,
+    pub delta1: Option<f64>,
+    pub mu: Option<f64>,
+    pub steiner: Option<String>,
+    pub seed: Option<u64>,
 }
 
 impl RequestReport {
     pub fn new(request: &Request) -> Self {
+        let gcdr = request.engine == Engine::Gcdr;
+        let regions = gcdr.then(|| request.regions());
         Self {
             length_unit: None,
             engine: word(&request.engine),
@@ -146,6 +154,11 @@ impl RequestReport {
             far_field_chords: request.far_field,
             incidence_deg: request.incidence,
             face: request.face.clone(),
+            delta2: regions.map(|r| r.delta2),
+            delta1: regions.map(|r| r.delta1),
+            mu: regions.map(|r| r.mu),
+            steiner: gcdr.then(|| word(&request.steiner)),
+            seed: gcdr.then_some(request.seed),
         }
     }
 }

@@ -6,6 +6,8 @@
 use crate::curve::Curve;
 use crate::domain::FillRule;
 use crate::mesh::verify::guaranteed_angle;
+use crate::plane::gcdr::Regions;
+use crate::plane::gcdr::parameters::radius_edge_of;
 use crate::size::Given;
 use clap::ValueEnum;
 use serde::{Deserialize, Serialize};
@@ -60,6 +62,16 @@ pub struct Request {
     /// Pixels to an inch, in a drawing that gives no physical size.
     pub dpi: f64,
     pub corner_arcs: Switch,
+    /// δ₂, δ₁ and μ of gcdr; see [`Request::regions`] for the defaults.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub delta2: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub delta1: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mu: Option<f64>,
+    pub steiner: Steiner,
+    /// Of `steiner = "random"`.
+    pub seed: u64,
     pub max_vertices: usize,
     /// Seconds.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -100,6 +112,11 @@ impl Default for Request {
             scale: None,
             dpi: 96.0, // CSS
             corner_arcs: Switch::On,
+            delta2: None,
+            delta1: None,
+            mu: None,
+            steiner: Steiner::Center,
+            seed: 0,
             max_vertices: 5_000_000,
             timeout: None,
             trailing_edge: TrailingEdge::Keep,
@@ -173,6 +190,11 @@ impl Request {
         {
             return refuse("min-edge", &least, "more than --max-edge");
         }
+        for (option, value) in [("delta2", self.delta2), ("delta1", self.delta1), ("mu", self.mu)] {
+            if let Some(value) = value.filter(|v| !(*v > 0.0 && *v <= 1.0)) {
+                return refuse(option, &value, "a share above 0 and at most 1 is needed");
+            }
+        }
         if self.max_vertices < 3 {
             return refuse("max-vertices", &self.max_vertices, "a mesh has 3 vertices or more");
         }
@@ -188,6 +210,21 @@ impl Request {
     /// κ in radians.
     pub fn angle_min_rad(&self) -> f64 {
         self.min_angle.to_radians()
+    }
+
+    /// δ₂, δ₁ and μ as given; where not: centres, but the widest disks that the angle leaves to a strategy that would not take centres.
+    pub fn regions(&self) -> Regions {
+        let default = match self.steiner {
+            Steiner::Center | Steiner::OffcenterFree | Steiner::OptimalFree => Regions::CENTERS,
+            Steiner::Offcenter | Steiner::Optimal | Steiner::Extreme | Steiner::Random => {
+                Regions::widest_disks(radius_edge_of(self.angle_min_rad()))
+            }
+        };
+        Regions {
+            delta2: self.delta2.unwrap_or(default.delta2),
+            delta1: self.delta1.unwrap_or(default.delta1),
+            mu: self.mu.unwrap_or(default.mu),
+        }
     }
 
     /// τ in radians for these curves: as given, or for `auto` the largest from 0.1 to π/3 whose guarantee covers the angle, else 0.5.
@@ -229,6 +266,8 @@ fn largest_tau(angle_rad: f64, lens_share: f64) -> f64 {
 pub enum Engine {
     /// Corner lopping (Pav & Walkington 2005).
     Lop,
+    /// Generalized constrained Delaunay refinement (Foteinos, Chernikov & Chrisochoides 2010).
+    Gcdr,
 }
 
 impl FromStr for Engine {
@@ -236,10 +275,30 @@ impl FromStr for Engine {
     fn from_str(text: &str) -> Result<Self, String> {
         match text {
             "lop" => Ok(Self::Lop),
-            "gcdr" => Err("gcdr is not in this version; lop is".into()),
-            _ => Err("lop is expected".into()),
+            "gcdr" => Ok(Self::Gcdr),
+            _ => Err("lop or gcdr is expected".into()),
         }
     }
+}
+
+/// Who chooses the points that refine triangles, with gcdr.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Steiner {
+    /// Centres: Chew's second algorithm.
+    Center,
+    /// Off-centres (Üngör 2004), kept within the regions.
+    Offcenter,
+    /// Locally optimal points (Erten & Üngör 2007), kept within the regions.
+    Optimal,
+    /// The border of the regions.
+    Extreme,
+    /// Anywhere in the regions, by --seed.
+    Random,
+    /// Off-centres wherever they lie: nothing is proven.
+    OffcenterFree,
+    /// Locally optimal points wherever they lie: nothing is proven.
+    OptimalFree,
 }
 
 /// Polynomial order of the cells.
@@ -601,7 +660,7 @@ mod tests {
             "size-of = ['0.1']",
             "order = 3",
             "size = 'x +'",
-            "engine = 'gcdr'",
+            "engine = 'ruppert'",
         ] {
             assert!(toml::from_str::<Request>(wrong).is_err(), "{wrong}");
         }

@@ -188,7 +188,7 @@ fn wrong_usage_is_2_and_leaves_nothing() {
 #[test]
 fn what_comes_later_is_refused_by_name() {
     let bench = Bench::new("later");
-    for option in ["--engine=gcdr", "--seed=1"] {
+    for option in ["--radius-edge=2", "--max-volume=1"] {
         let output = bench.ends(2, &["mesh", "square.poly", "-o", "a.vtu", option]);
         assert!(said(&output).contains("not in this version"), "{option}: {}", said(&output));
     }

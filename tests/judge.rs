@@ -52,6 +52,7 @@ fn promise(angle_min_deg: f64) -> Promise {
         arc_turning_rad: FRAC_PI_3,
         midpoint_bisector: true,
         sizing: Sizing::default(),
+        constrained: None,
         foreign: false,
     }
 }

@@ -131,7 +131,7 @@ fn dispatch(verb: Verb, volume: Volume) -> Result<Exit, Halt> {
 }
 
 /// Options and verbs of the contract that this version does not have yet.
-const LATER: &[&str] = &["--seed", "--steiner", "--delta1", "--delta2", "--mu", "--radius-edge", "--max-volume"];
+const LATER: &[&str] = &["--radius-edge", "--max-volume"];
 
 fn usage(error: clap::Error) -> ExitCode {
     use clap::error::{ContextKind, ContextValue};

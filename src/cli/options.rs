@@ -8,7 +8,7 @@ use squinch::import::Format;
 use squinch::pipeline::Exit;
 use squinch::request::{
     BallShrinking, ChordError, EdgeTurning, Engine, FillChoice, Keep, MaxTurning, Midpoint, Order, Request, SizeOf,
-    Strokes, Switch, TrailingEdge,
+    Steiner, Strokes, Switch, TrailingEdge,
 };
 use squinch::size::Given;
 use std::path::{Path, PathBuf};
@@ -104,8 +104,8 @@ pub struct Options {
     #[arg(long, value_name = "S", allow_hyphen_values = true, help_heading = "Budget")]
     timeout: Option<f64>,
 
-    /// Who refines [default: lop, corner lopping]
-    #[arg(long, value_name = "lop", help_heading = "Engine")]
+    /// Who refines: lop, corner lopping, or gcdr, generalized constrained Delaunay refinement [default: lop]
+    #[arg(long, value_name = "lop|gcdr", help_heading = "Engine")]
     engine: Option<Engine>,
     /// Largest turning of a curve before it is meshed, at most π/3; auto: the largest whose guarantee covers the angle [default: 0.5]
     #[arg(long, value_name = "RAD|auto", allow_hyphen_values = true, help_heading = "Engine")]
@@ -122,6 +122,22 @@ pub struct Options {
     /// Arcs around sharp corners, which bound the largest angle [default: on]
     #[arg(long, value_enum, value_name = "on|off", help_heading = "Engine")]
     corner_arcs: Option<Switch>,
+    /// With gcdr: points in triangles lie within r(1 - delta2) of the circumcenter [default: 1; the least that the angle allows where
+    /// --steiner does not take centres]
+    #[arg(long, value_name = "D", allow_hyphen_values = true, help_heading = "Engine")]
+    delta2: Option<f64>,
+    /// With gcdr: points on segments lie in the middle part of length |s|(1 - delta1) [default: 1]
+    #[arg(long, value_name = "D", allow_hyphen_values = true, help_heading = "Engine")]
+    delta1: Option<f64>,
+    /// With gcdr: so do those with a vertex of another segment nearby, for |s|(1 - mu) [default: 1]
+    #[arg(long, value_name = "M", allow_hyphen_values = true, help_heading = "Engine")]
+    mu: Option<f64>,
+    /// With gcdr: who chooses the points in triangles; nothing is proven of the free ones [default: center]
+    #[arg(long, value_enum, value_name = "WHO", help_heading = "Engine")]
+    steiner: Option<Steiner>,
+    /// With --steiner random [default: 0]
+    #[arg(long, value_name = "N", help_heading = "Engine")]
+    seed: Option<u64>,
 }
 
 /// Keys of [`Options`] that say how to run, not what to make.
@@ -239,6 +255,9 @@ mod tests {
             scale: Some(1.0),
             timeout: Some(1.0),
             face: Some("largest".into()),
+            delta2: Some(1.0),
+            delta1: Some(1.0),
+            mu: Some(1.0),
             ..Request::default()
         };
         assert_eq!(given, keys(toml::Table::try_from(full).unwrap()));

@@ -119,6 +119,27 @@ impl Domain {
         self.corner(p).is_some_and(|corner| corner.angle_rad < FRAC_PI_2 - self.angle_rounding(p))
     }
 
+    /// The corner across which the first two of three places lie, that of the drawing whose small angle no mesh can part: they lie on two
+    /// curves that end at the corner, equally far from it, and it sees them less than 60° apart. If one of them is the other end of its curve,
+    /// the third must lie on one of the two curves: beyond it the drawing has no angle. `curves[i]` are the curves at place i.
+    pub fn corner_between(&self, curves: [&[CurveId]; 3], places: [Point; 2]) -> Option<PointId> {
+        // Places cut at one distance are rounded; beyond a thousandth a triangle has a longer side to split.
+        const EQUAL: f64 = 1e-3;
+        let narrow = |corner: PointId| {
+            let [u, v] = places.map(|place| place - self.points[corner]);
+            let (a, b) = (u.hypot(), v.hypot());
+            // 60° up to rounding is no small angle.
+            (a - b).abs() <= EQUAL * a.min(b) && u.dot(v) > (0.5 + 1e-8) * a * b
+        };
+        let ends = |c: CurveId| self.curves[c].ends;
+        let is_end = |i: usize, c: CurveId| ends(c).iter().any(|&p| self.points[p] == places[i]);
+        let between = |c: CurveId, d: CurveId| {
+            !(is_end(0, c) || is_end(1, d)) || curves[2].contains(&c) || curves[2].contains(&d)
+        };
+        let meets = |p: PointId, c: CurveId| curves[1].iter().any(|&d| d != c && ends(d).contains(&p) && between(c, d));
+        curves[0].iter().flat_map(|&c| ends(c).map(|p| (c, p))).find(|&(c, p)| narrow(p) && meets(p, c)).map(|(_, p)| p)
+    }
+
     /// How far rounded coordinates can turn a right angle at p: four units in the last place of the coordinates, seen along the
     /// shortest chord at p.
     fn angle_rounding(&self, p: PointId) -> f64 {

@@ -1,6 +1,7 @@
 //! Ground floor: points and vectors, exact signs, insertion order, box hierarchy, planes in space. Numbers only, nothing of meshes.
 
 pub mod boxes;
+pub mod dice;
 pub mod exact;
 pub mod order;
 pub mod space;

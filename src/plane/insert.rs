@@ -238,8 +238,9 @@ impl<'a> Sight<'a> {
         self.orient(a, b, p)
     }
 
-    /// Collects the triangles that make room for `p`, from one of them, depth first around the tree that they form.
-    fn collect(&mut self, p: Point, start: TriangleId, cavity: &mut Cavity) {
+    /// Collects the triangles that make room for `p`, from one of them, depth first around the tree that they form, never across a side
+    /// that is `closed`.
+    pub(super) fn collect(&mut self, p: Point, start: TriangleId, closed: impl Fn(Side) -> bool, cavity: &mut Cavity) {
         let Cavity { triangles, border, open } = cavity;
         triangles.clear();
         border.clear();
@@ -251,7 +252,7 @@ impl<'a> Sight<'a> {
         loop {
             let (t, i) = entry.split();
             let Record { corners, twins } = *self.net.record(t);
-            if self.conflicts(corners, p) {
+            if !closed(entry) && self.conflicts(corners, p) {
                 triangles.push(t);
                 open.push(twins[before(i)]);
                 entry = twins[after(i)];
@@ -365,7 +366,7 @@ impl Delaunay {
             Location::Side(s) => s.triangle(),
             Location::Triangle(t) => t,
         };
-        self.in_sight(|sight| sight.collect(p, start, cavity));
+        self.in_sight(|sight| sight.collect(p, start, |_| false, cavity));
     }
 
     /// Acts: replaces the cavity of `p` by the triangles that join `p` to its border, and returns the new vertex.
@@ -469,7 +470,7 @@ fn triangulate(points: &[Point]) -> Result<(Net, Counters), Degenerate> {
             Location::Side(s) => s.triangle(),
             Location::Triangle(t) => t,
         };
-        sight.collect(p, start, &mut cavity);
+        sight.collect(p, start, |_| false, &mut cavity);
         work = sight.work;
         net.star(VertexId(v), &cavity.triangles, &cavity.border);
         near = cavity.triangles[0];

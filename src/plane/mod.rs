@@ -2,6 +2,9 @@
 
 mod balls;
 mod carve;
+pub mod constrained;
+pub mod gcdr;
+mod harvest;
 pub mod insert;
 pub mod lopping;
 mod remove;

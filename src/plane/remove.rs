@@ -49,7 +49,7 @@ impl Delaunay {
     /// The link is star-shaped around `v`: a neighbour w between neighbours u and x is an ear where u w x turns left
     /// and v is not strictly inside u w x. Inside the hull a link of four or more has one: of the two ears that any
     /// triangulation of it has, v, which lies inside or on one side of it, spoils at most one.
-    fn clip_ears(&mut self, v: VertexId) -> Vec<Side> {
+    pub(super) fn clip_ears(&mut self, v: VertexId) -> Vec<Side> {
         let mut diagonals = Vec::new();
         let mut left = self.topology.sides_from(v).count();
         let inside = self.topology.sides_from(v).all(|s| self.topology.target(s) != GHOST);
@@ -99,7 +99,7 @@ impl Delaunay {
         }
     }
 
-    fn is_locally_delaunay(&self, s: Side) -> bool {
+    pub(super) fn is_locally_delaunay(&self, s: Side) -> bool {
         let topology = &self.topology;
         let (corners, across) = (topology.corners(s.triangle()), topology.apex(topology.twin(s)));
         if corners.contains(&GHOST) || across == GHOST {

@@ -8,8 +8,9 @@ use crate::domain::Domain;
 use crate::geometry::boxes::BoxHierarchy;
 use crate::geometry::exact::{CircleSide, in_circle};
 use crate::geometry::{Point, Rect};
-use crate::ids::TriangleId;
+use crate::ids::{CurveId, Id, PointId, TriangleId, VertexId};
 use crate::mesh::quality::angle_range;
+use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_PI_2, PI, SQRT_2};
 
 /// The guarantee of the angle rule on straight input, arcsin ¼ = 14.4775° in radians.
@@ -43,6 +44,15 @@ fn status_of_angle_bound(ev: &Evidence, kappa: f64) -> Status {
     // What theory says of our engine says nothing of a mesh from elsewhere; and triangles left alone for their size are
     // no part of it.
     let ours = ev.domain.filter(|_| !ev.promise.foreign && ev.promise.sizing.min_edge.is_none());
+    if let Some(constrained) = ev.promise.constrained {
+        let straight = |domain: &Domain| domain.curves().iter().all(|c| c.curve.is_straight());
+        let proven = ours.filter(|d| straight(d)).zip(constrained.proven_above_rad).is_some_and(|(domain, least)| {
+            let corners = domain.points().ids().filter_map(|p| domain.corner(p));
+            // An angle of the bound itself, rounded, is not above it.
+            corners.map(|corner| corner.angle_rad).all(|angle| angle > least + 1e-9)
+        });
+        return if proven { Status::Proven } else { Status::Reached };
+    }
     let covered = |domain: &Domain| {
         let lens = domain.curves().iter().map(|c| c.curve.lens_angle(0.0, 1.0)).fold(0.0, f64::max);
         let has_arcs = ev.promise.corner_arcs && domain.points().ids().any(|p| domain.is_acute(p));
@@ -57,13 +67,22 @@ fn status_of_angle_bound(ev: &Evidence, kappa: f64) -> Status {
     if ours.is_some_and(|domain| kappa < covered(domain)) { Status::Proven } else { Status::Reached }
 }
 
-/// No triangle beside an edge has its far corner inside the circle of the other, exactly. Checked: edges with two
-/// triangles. Worst: the largest sum of the two angles that face an edge, in degrees (180 where all four corners lie on
-/// a circle).
+/// No triangle beside an edge has its far corner inside the circle of the other, exactly; where the mesh is constrained Delaunay, edges on
+/// curves are exempt. Checked: edges with two triangles. Worst: the largest sum of the two angles that face an edge, in degrees (180 where
+/// all four corners lie on a circle).
 pub fn delaunay(ev: &Evidence) -> Check {
-    let mut tally = Tally::highest("delaunay");
-    for edge in ev.edges.edges() {
+    let constrained = ev.promise.constrained.is_some();
+    let mut tally = Tally::highest(if constrained { "constrained_delaunay" } else { "delaunay" });
+    let mut on_curve = vec![false; if constrained { ev.edges.edges().len() } else { 0 }];
+    if constrained {
+        ev.pieces.iter().filter_map(|piece| piece.edge).for_each(|edge| on_curve[edge] = true);
+    }
+    for (i, edge) in ev.edges.edges().iter().enumerate() {
         let (Some(left), Some(right)) = (edge.left(), edge.right()) else { continue };
+        if constrained && on_curve[i] {
+            tally.exempt();
+            continue;
+        }
         tally.count();
         let apex = ev.mesh.triangles[left.triangle][(left.corner + 2) % 3];
         let across = ev.mesh.triangles[right.triangle][(right.corner + 2) % 3];
@@ -102,6 +121,8 @@ pub fn min_angle(ev: &Evidence, balls: &[SoundBall]) -> (Check, Vec<Excuse>) {
     let Some(kappa) = ev.promise.angle_min_rad else { return (Check::not_asked("min_angle"), Vec::new()) };
     let mut tally = Tally::lowest("min_angle");
     let corners = Corners::new(ev, balls);
+    let across = ev.domain.filter(|_| ev.promise.constrained.is_some()).map(|domain| AcrossCorners::new(ev, domain));
+    let mut input_angles: BTreeMap<PointId, Vec<u32>> = BTreeMap::new();
     let mut cells: Vec<Vec<u32>> = vec![Vec::new(); balls.len()];
     let mut too_small = Vec::new();
     for t in ev.mesh.triangles.ids() {
@@ -110,6 +131,10 @@ pub fn min_angle(ev: &Evidence, balls: &[SoundBall]) -> (Check, Vec<Excuse>) {
         if least < kappa - ANGLE {
             if let Some(ball) = corners.excuse(t) {
                 cells[ball].push(t.0);
+                continue;
+            }
+            if let Some(corner) = across.as_ref().and_then(|across| across.excuse(t)) {
+                input_angles.entry(corner).or_default().push(t.0);
                 continue;
             }
             if is_below_min_edge(ev, t) {
@@ -124,8 +149,72 @@ pub fn min_angle(ev: &Evidence, balls: &[SoundBall]) -> (Check, Vec<Excuse>) {
     let mut excused: Vec<Excuse> = by_ball
         .map(|(b, cells)| Excuse { at: [b.center.x, b.center.y], radius: b.radius, why: b.why, cells })
         .collect();
+    excused.extend(across.iter().flat_map(|across| across.excuses(&input_angles)));
     excused.extend(excuse_of_min_edge(ev, &too_small));
     (tally.finish(status_of_angle_bound(ev, kappa)), excused)
+}
+
+/// Where asked: the radius-edge ratio of every triangle without excuse is at most that of κ, 1/(2 sin κ). Worst: the largest.
+pub fn radius_edge(ev: &Evidence, excused: &[Excuse]) -> Check {
+    let Some(kappa) = ev.promise.angle_min_rad else { return Check::not_asked("radius_edge") };
+    let mut tally = Tally::highest("radius_edge");
+    let mut is_excused = vec![false; ev.mesh.triangles.len()];
+    excused.iter().flat_map(|e| &e.cells).for_each(|&t| is_excused[TriangleId(t).index()] = true);
+    let limit = 0.5 / libm::sin(kappa - ANGLE);
+    for t in ev.mesh.triangles.ids().filter(|t| !is_excused[t.index()]) {
+        tally.count();
+        let ratio = 0.5 / libm::sin(angle_range(ev.mesh.corners(t)).0);
+        tally.measure(ratio, ev.centroid(t));
+        if ratio > limit {
+            tally.flaw(|| format!("{} has a radius-edge ratio of {ratio}", ev.tell(t)));
+        }
+    }
+    tally.finish(status_of_angle_bound(ev, kappa))
+}
+
+/// Sharp corners of the domain, and which nodes lie on the curves that meet there.
+struct AcrossCorners<'a> {
+    ev: &'a Evidence<'a>,
+    domain: &'a Domain,
+    /// Curves at each node, ascending.
+    at_nodes: Vec<(VertexId, CurveId)>,
+}
+
+impl<'a> AcrossCorners<'a> {
+    fn new(ev: &'a Evidence<'a>, domain: &'a Domain) -> Self {
+        let mut at_nodes: Vec<_> = ev.pieces.iter().flat_map(|p| p.nodes.map(|v| (v, p.curve))).collect();
+        at_nodes.sort_unstable();
+        at_nodes.dedup();
+        Self { ev, domain, at_nodes }
+    }
+
+    fn curves(&self, v: VertexId) -> Vec<CurveId> {
+        let first = self.at_nodes.partition_point(|&(w, _)| w < v);
+        self.at_nodes[first..].iter().take_while(|&&(w, _)| w == v).map(|&(_, curve)| curve).collect()
+    }
+
+    /// The corner that lies across the shortest edge of a triangle: its smallest angle is the drawing's own.
+    fn excuse(&self, t: TriangleId) -> Option<PointId> {
+        let [a, b, c] = self.ev.mesh.triangles[t];
+        let length = |e: &[VertexId; 3]| self.ev.node(e[0]).distance(self.ev.node(e[1]));
+        let turns = [[a, b, c], [b, c, a], [c, a, b]];
+        // Of edges that are equal but for rounding the engine may have taken any.
+        let least = turns.iter().map(length).fold(f64::INFINITY, f64::min) * (1.0 + 1e-9);
+        turns.into_iter().filter(|turn| length(turn) <= least).find_map(|turn| {
+            let [a, b, c] = turn.map(|v| self.curves(v));
+            self.domain.corner_between([&a, &b, &c], [0, 1].map(|i| self.ev.node(turn[i])))
+        })
+    }
+
+    fn excuses(&self, cells: &BTreeMap<PointId, Vec<u32>>) -> Vec<Excuse> {
+        let excuse = |(&corner, cells): (&PointId, &Vec<u32>)| {
+            let at = self.domain.points()[corner];
+            let nodes = cells.iter().flat_map(|&t| self.ev.mesh.corners(TriangleId(t)));
+            let radius = nodes.map(|p| p.distance(at)).fold(0.0, f64::max);
+            Excuse { at: [at.x, at.y], radius, why: "input_angle", cells: cells.clone() }
+        };
+        cells.iter().map(excuse).collect()
+    }
 }
 
 /// The user's own wish: triangles with a circumradius below `min_edge` are not refined for their angles.

@@ -53,7 +53,11 @@ impl Circles {
         if side == CircleSide::Outside {
             return;
         }
-        if side == CircleSide::Inside && !is_on_rim(ev, balls, piece, v) {
+        if ev.promise.constrained.is_some() {
+            if side == CircleSide::Inside && orient(x, y, ev.signs[v]) == Orientation::Collinear {
+                self.intruder[i].fetch_min(v.0, Ordering::Relaxed);
+            }
+        } else if side == CircleSide::Inside && !is_on_rim(ev, balls, piece, v) {
             self.intruder[i].fetch_min(v.0, Ordering::Relaxed);
         }
         for &j in at_node.of(v) {
@@ -66,11 +70,24 @@ impl Circles {
 
     /// Chords that cross although their curves do not: the triangles beside them would overlap.
     pub fn tell_crossings(&self, ev: &Evidence, tally: &mut Tally) {
+        if ev.promise.constrained.is_some() {
+            self.tell_nodes_on_chords(ev, tally);
+        }
         for (i, other) in self.crossing.iter().enumerate() {
             let other = other.load(Ordering::Relaxed);
             if other != NONE {
                 let [first, second] = [i, other as usize].map(|k| ev.tell_edge(ev.pieces[k].nodes));
                 tally.flaw(|| format!("{first} crosses {second}"));
+            }
+        }
+    }
+
+    /// Of a constrained mesh: an open circle counts only for the nodes on the chord itself.
+    fn tell_nodes_on_chords(&self, ev: &Evidence, tally: &mut Tally) {
+        for (piece, intruder) in ev.pieces.iter().zip(&self.intruder) {
+            let intruder = intruder.load(Ordering::Relaxed);
+            if intruder != NONE {
+                tally.flaw(|| format!("node {intruder} lies on {}", ev.tell_edge(piece.nodes)));
             }
         }
     }

@@ -8,7 +8,8 @@
 //! of a region that cover a point is therefore the winding number of the chords around it; and since no two chords
 //! cross (*conforming*) and none has a node on it (*empty_diametral*), that number is 0 or 1: the triangles tile the
 //! region, without overlap. Locally Delaunay edges (*delaunay*) and empty diametral circles at the rim then make the
-//! tiling Delaunay as a whole.
+//! tiling Delaunay as a whole. A constrained tiling has other evidence that chords do not cross and no node lies on one
+//! (*conforming* looks into every circle all the same), and is Delaunay but at chords (*constrained_delaunay*).
 //!
 //! **Proven or reached.** A check of the output is `proven` where it holds, since nothing is left to believe. The angle
 //! bounds are `proven` only where [`guaranteed_angle`] covers κ, so that no input of that turning could have missed it;
@@ -52,8 +53,17 @@ pub struct Promise {
     /// The bisector rule (whose η, μ are known), or the angle rule (η ≥ √2).
     pub midpoint_bisector: bool,
     pub sizing: Sizing,
+    /// Made by constrained Delaunay refinement: what it promises instead of empty diametral circles and balls.
+    pub constrained: Option<ConstrainedPromise>,
     /// A mesh from elsewhere: no links to curves, balls taken as (√2−1)·lfs₀.
     pub foreign: bool,
+}
+
+/// What generalized constrained Delaunay refinement promises.
+#[derive(Clone, Copy, Debug)]
+pub struct ConstrainedPromise {
+    /// The angle is proven on segments that meet at more than this; `None`: nowhere.
+    pub proven_above_rad: Option<f64>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
@@ -121,7 +131,7 @@ fn is_zero(n: &usize) -> bool {
 /// Judges a mesh against the domain (already τ-split) and a promise. `None` for a mesh whose curves are unknown: checks
 /// that need them are n/a.
 ///
-/// The checks come in the contract's order, each once, `n/a` included. A mesh whose ids lead nowhere or whose
+/// The checks come in the contract's order, each once, `n/a` included; *constrained_delaunay* and *radius_edge* only where promised. A mesh whose ids lead nowhere or whose
 /// coordinates are not finite has `manifold` broken, with the culprits, and everything else `n/a`.
 pub fn verify(domain: Option<&Domain>, mesh: &Mesh, promise: &Promise) -> Verdict {
     let mut unreadable = evidence::unreadable(domain, mesh);
@@ -135,7 +145,11 @@ pub fn verify(domain: Option<&Domain>, mesh: &Mesh, promise: &Promise) -> Verdic
     // Checks share nothing but the evidence: the dear ones take what cores there are.
     let (circles, delaunay) =
         rayon::join(|| domain.map(|d| (d, Circles::look(&evidence, d))), || angles::delaunay(&evidence));
+    let constrained = promise.constrained.is_some();
     let (conforming, empty_diametral) = match circles {
+        Some((domain, circles)) if constrained => {
+            (topology::conforming(&evidence, domain, &circles), Check::not_asked("empty_diametral"))
+        }
         Some((domain, circles)) => {
             rayon::join(|| topology::conforming(&evidence, domain, &circles), || circles.empty(&evidence, domain))
         }
@@ -145,7 +159,7 @@ pub fn verify(domain: Option<&Domain>, mesh: &Mesh, promise: &Promise) -> Verdic
         || (known(curves::on_curve, "on_curve"), known(curves::curve_chain, "curve_chain")),
         || (known(curves::chord_error, "chord_error"), known(curves::edge_turning, "edge_turning")),
     );
-    let (ball_radius, lfs_ratio, balls) = match domain {
+    let (ball_radius, lfs_ratio, balls) = match domain.filter(|_| !constrained) {
         Some(domain) => balls::judge(&evidence, domain),
         None => (Check::not_asked("ball_radius"), Check::not_asked("lfs_ratio"), Vec::new()),
     };
@@ -153,7 +167,10 @@ pub fn verify(domain: Option<&Domain>, mesh: &Mesh, promise: &Promise) -> Verdic
         || angles::min_angle(&evidence, &balls),
         || (angles::max_angle(&evidence), measures::size(&evidence)),
     );
-    let checks = vec![
+    let radius_edge = constrained.then(|| angles::radius_edge(&evidence, &excused));
+    let (delaunay, constrained_delaunay) =
+        if constrained { (Check::not_asked("delaunay"), Some(delaunay)) } else { (delaunay, None) };
+    let mut checks = vec![
         topology::orientation(&evidence),
         topology::manifold(&evidence),
         conforming,
@@ -172,6 +189,7 @@ pub fn verify(domain: Option<&Domain>, mesh: &Mesh, promise: &Promise) -> Verdic
         known(measures::names, "names"),
         elevation::jacobian(&evidence),
     ];
+    checks.extend(constrained_delaunay.into_iter().chain(radius_edge));
     Verdict { checks, excused }
 }
 

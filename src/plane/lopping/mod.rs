@@ -32,20 +32,20 @@
 mod begin;
 mod corner_arcs;
 pub mod demand;
-mod harvest;
 mod splitball;
 mod splitcurve;
-mod splittri;
+pub(super) mod splittri;
 
 use super::balls::Balls;
 use super::carve::Carver;
+use super::harvest::Harvest;
 use super::insert::{Cavity, Delaunay};
 use super::subcurves::{Midpoint, Subcurves};
 use crate::domain::Domain;
 use crate::geometry::{self, Point};
 use crate::ids::{BallId, CurveId, IdVec, PieceId, PointId, TriangleId, VertexId};
 use crate::mesh::verify::{Promise, guaranteed_angle};
-use crate::mesh::{Mesh, RIM_ROUNDING};
+use crate::mesh::{Ball, Mesh, RIM_ROUNDING};
 use crate::refine::{Counters, Stop, StopReason, WorstFirst};
 use crate::size::{SizeField, Sizing};
 use crate::watch::{Progress, Watch};
@@ -94,6 +94,7 @@ impl Options {
             arc_turning_rad: self.corner_arcs.unwrap_or(0.0),
             midpoint_bisector: self.midpoint == Midpoint::Bisector,
             sizing: self.sizing.clone(),
+            constrained: None,
             foreign,
         }
     }
@@ -323,6 +324,13 @@ impl Lopping {
         Ok(Refined { mesh, stop: Stop { reason, owed, places }, counters: self.counters })
     }
 
+    fn mesh(&self) -> Mesh {
+        let harvest = Harvest { domain: &self.domain, delaunay: &self.delaunay, subcurves: &self.subcurves };
+        let balls = self.balls.ids().map(|id| self.balls.get(id));
+        let balls = balls.map(|b| Ball { corner: b.corner, radius: b.radius, why: b.why }).collect();
+        Mesh { balls, ..harvest.mesh() }
+    }
+
     fn too_near_error(&self) -> RefineError {
         let at = self.too_near.first().copied().unwrap_or_default();
         RefineError {
@@ -389,7 +397,7 @@ pub fn arc_turning(kappa_rad: f64, lambda_rad: f64) -> f64 {
 }
 
 impl RefineError {
-    fn scaled(mut self, factor: f64) -> Self {
+    pub(super) fn scaled(mut self, factor: f64) -> Self {
         self.at = geometry::scaled(self.at, factor);
         self
     }

@@ -48,7 +48,7 @@ impl Lopping {
 }
 
 /// sin² of the smallest angle of a triangle.
-fn sin2_smallest([a, b, c]: [Point; 3]) -> f64 {
+pub(in crate::plane) fn sin2_smallest([a, b, c]: [Point; 3]) -> f64 {
     let (ab, bc, ca) = (b - a, c - b, a - c);
     let [shortest, l1, l2] = {
         let mut l = [ab.hypot2(), bc.hypot2(), ca.hypot2()];
@@ -151,7 +151,7 @@ impl Lopping {
 }
 
 /// Circumcenter and circumradius.
-fn circumcircle([a, b, c]: [Point; 3]) -> (Point, f64) {
+pub(in crate::plane) fn circumcircle([a, b, c]: [Point; 3]) -> (Point, f64) {
     let (ab, ac) = (b - a, c - a);
     let (bb, cc) = (ab.hypot2(), ac.hypot2());
     let double = 2.0 * ab.cross(ac);

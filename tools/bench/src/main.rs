@@ -2,9 +2,12 @@
 
 mod complexes;
 mod corners;
+mod densities;
 mod fig4;
 mod million;
+mod pslgs;
 mod run;
+mod strategies;
 mod wild;
 
 fn main() {
@@ -14,10 +17,23 @@ fn main() {
         Some("complexes") => complexes::print(args.get(1).and_then(|n| n.parse().ok()).unwrap_or(200)),
         Some("corners") if args.len() == 2 => corners::print(&args[1]),
         Some("million") => million::print(),
+        Some("densities") if args.len() == 2 => told(densities::print(&args[1])),
+        Some("pslgs") => pslgs::print(args.get(1).and_then(|n| n.parse().ok()).unwrap_or(1000)),
+        Some("strategies") if args.len() >= 2 => args[1..].iter().for_each(|path| told(strategies::print(path))),
         Some("wild") => wild::print(args.get(1).is_some_and(|word| word == "large")),
         _ => {
-            eprintln!("usage: squinch-bench fig4 | complexes [N] | corners DIR | million | wild [large]");
+            eprintln!(
+                "usage: squinch-bench fig4 | complexes [N] | corners DIR | million | densities PSLG | pslgs [N] | strategies PSLG… | wild [large]"
+            );
             std::process::exit(2);
         }
+    }
+}
+
+/// An error ends the program.
+fn told(result: Result<(), String>) {
+    if let Err(what) = result {
+        eprintln!("{what}");
+        std::process::exit(1);
     }
 }

@@ -1,15 +1,23 @@
 //! The kept triangles as plain data.
 
-use super::Lopping;
+use super::insert::Delaunay;
+use super::subcurves::{Carrier, Subcurves};
+use crate::domain::Domain;
 use crate::geometry::{Point, order};
 use crate::ids::{CurveId, IdVec, PieceId, TriangleId, VertexId};
-use crate::mesh::{Ball, CurveEdge, CurveLink, Mesh};
-use crate::plane::subcurves::Carrier;
+use crate::mesh::{CurveEdge, CurveLink, Mesh};
 
-impl Lopping {
+/// What a mesh is taken from: vertices 0, 1, … of the triangulation are the points of the domain.
+pub struct Harvest<'a> {
+    pub domain: &'a Domain,
+    pub delaunay: &'a Delaunay,
+    pub subcurves: &'a Subcurves,
+}
+
+impl Harvest<'_> {
     /// The kept triangles as plain data. Nodes are numbered along a Hilbert curve, triangles by their nodes: whoever walks through the
     /// mesh finds neighbours near each other in memory, and files compress better.
-    pub(super) fn mesh(&self) -> Mesh {
+    pub fn mesh(&self) -> Mesh {
         let topology = self.delaunay.topology();
         let kept: Vec<TriangleId> = topology.triangles().filter(|&t| topology.region(t).is_some()).collect();
         let mut mesh = Mesh { names: self.domain.names().clone(), ..Mesh::default() };
@@ -25,19 +33,13 @@ impl Lopping {
         mesh.regions = self.domain.regions().iter().map(|r| r.name).collect();
         mesh.edges = self.curve_edges(&node_of);
         mesh.points = self.domain.points().ids().filter_map(|p| Some((p, node_of[VertexId(p.0)]?))).collect();
-        mesh.balls = self
-            .balls
-            .ids()
-            .map(|id| self.balls.get(id))
-            .map(|b| Ball { corner: b.corner, radius: b.radius, why: b.why })
-            .collect();
         mesh
     }
 
     /// Makes the corners of the kept triangles nodes of the mesh, and says which.
     fn nodes(&self, kept: &[TriangleId], mesh: &mut Mesh) -> IdVec<VertexId, Option<VertexId>> {
         let topology = self.delaunay.topology();
-        let mut node_of: IdVec<VertexId, Option<VertexId>> = vec![None; self.origins.len()].into();
+        let mut node_of: IdVec<VertexId, Option<VertexId>> = vec![None; self.delaunay.points().len()].into();
         kept.iter().flat_map(|&t| topology.corners(t)).for_each(|v| node_of[v] = Some(v));
         let used: Vec<VertexId> = node_of.iter().filter_map(|&v| v).collect();
         let points: Vec<Point> = used.iter().map(|&v| self.delaunay.point(v)).collect();

@@ -1,0 +1,420 @@
+//! The constrained Delaunay triangulation: sides that carry a piece stand whatever lies around them, and nobody sees across.
+//!
+//! A triangulation is constrained Delaunay if no vertex lies inside the circle of a triangle and is visible from its inside (Chew 1989;
+//! Lee & Lin 1986), which is so exactly when every side without a piece is locally Delaunay. Storage and exact signs are those of
+//! [`Delaunay`]; cavities end at pieces, flips leave them alone. Every operation notes the triangles it makes, for whoever judges them.
+
+use super::insert::{Cavity, Degenerate, Delaunay, Location};
+use super::triangulation::{GHOST, Side, Triangulation};
+use crate::geometry::Point;
+use crate::geometry::exact::{CircleSide, Orientation, in_circle, in_diametral, orient};
+use crate::ids::{PieceId, TriangleId, VertexId};
+use std::collections::{BTreeSet, VecDeque};
+
+/// What a look along a line meets first.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Look {
+    /// The place looked for, which may be on a piece.
+    Seen(Location),
+    /// A side with a piece, from the side of the one who looks.
+    Blocked(Side),
+}
+
+/// What keeps two vertices from being joined.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Obstacle {
+    Vertex(VertexId),
+    Piece(PieceId),
+}
+
+/// The constrained Delaunay triangulation of points and of the sides that carry pieces.
+pub struct Constrained {
+    delaunay: Delaunay,
+    /// Triangles made since they were last taken; some may be gone again, some stand twice.
+    touched: Vec<TriangleId>,
+}
+
+impl Constrained {
+    /// The triangulation of points, without pieces so far.
+    ///
+    /// # Errors
+    /// As [`Delaunay::new`].
+    pub fn new(points: Vec<Point>) -> Result<Self, Degenerate> {
+        Ok(Self { delaunay: Delaunay::new(points)?, touched: Vec::new() })
+    }
+
+    pub fn topology(&self) -> &Triangulation {
+        self.delaunay.topology()
+    }
+
+    /// Points, locating and counters. It is no Delaunay triangulation.
+    pub fn kernel(&self) -> &Delaunay {
+        &self.delaunay
+    }
+
+    /// For labels of triangles; pieces are laid by [`Constrained::join`].
+    pub(super) fn kernel_mut(&mut self) -> &mut Delaunay {
+        &mut self.delaunay
+    }
+
+    #[inline]
+    pub fn point(&self, v: VertexId) -> Point {
+        self.delaunay.point(v)
+    }
+
+    /// The triangles made since the last time, each as often as it was made.
+    pub fn take_touched(&mut self) -> Vec<TriangleId> {
+        std::mem::take(&mut self.touched)
+    }
+
+    fn is_piece(&self, s: Side) -> bool {
+        self.topology().piece(s).is_some()
+    }
+
+    // ---- insertion ----
+
+    /// Looks: the triangles that see `p` inside their circle, given where `p` lies. Empty where `p` is a vertex.
+    pub fn cavity(&self, p: Point, at: Location, cavity: &mut Cavity) {
+        assert!(super::insert::in_range(p), "{p:?} is beyond exact signs");
+        let start = match at {
+            Location::Vertex(_) => {
+                cavity.triangles.clear();
+                cavity.border.clear();
+                return;
+            }
+            Location::Side(s) => s.triangle(),
+            Location::Triangle(t) => t,
+        };
+        self.delaunay.in_sight(|sight| sight.collect(p, start, |s| self.is_piece(s), cavity));
+    }
+
+    /// Acts: replaces the cavity of `p`, which must not lie on a piece, by the triangles that join `p` to its border.
+    pub fn fill(&mut self, p: Point, cavity: &Cavity) -> VertexId {
+        let v = self.delaunay.points.push(p);
+        self.delaunay.topology.star(v, &cavity.triangles, &cavity.border);
+        self.touched.extend(self.delaunay.topology.sides_from(v).map(Side::triangle));
+        self.check_slowly();
+        v
+    }
+
+    // ---- pieces ----
+
+    /// Makes the segment between two vertices a side and lays a piece on it.
+    ///
+    /// Sides that cross it are flipped away (Sloan 1993), and what that spoils is flipped back to constrained Delaunay.
+    ///
+    /// # Errors
+    /// The first vertex on the segment, or the first piece that crosses it; then nothing has changed.
+    pub fn join(&mut self, a: VertexId, b: VertexId, piece: PieceId) -> Result<Side, Obstacle> {
+        let mut crossing: VecDeque<[VertexId; 2]> = self.crossings(a, b)?.into();
+        let mut diagonals = Vec::new();
+        while let Some([p, q]) = crossing.pop_front() {
+            let s = self.topology().side_between(p, q).expect("what crosses the segment is a side until it is flipped");
+            if !self.is_flippable(s) {
+                crossing.push_back([p, q]);
+                continue;
+            }
+            let (c, d) = (self.topology().apex(s), self.topology().apex(self.topology().twin(s)));
+            self.flip(s);
+            if self.crosses([a, b], [c, d]) {
+                crossing.push_back([c, d]);
+            } else {
+                diagonals.push([c, d]);
+            }
+        }
+        let side = self.topology().side_between(a, b).expect("nothing crosses it any more");
+        self.delaunay.topology.set_piece(side, Some(piece));
+        let mut stack = diagonals.into_iter().filter_map(|[c, d]| self.topology().side_between(c, d)).collect();
+        self.restore(&mut stack);
+        self.check_slowly();
+        Ok(self.topology().side_between(a, b).expect("a piece is never flipped"))
+    }
+
+    /// Takes the piece from a side; the triangulation is again constrained Delaunay.
+    pub fn release(&mut self, s: Side) {
+        self.touched.extend([s.triangle(), self.topology().twin(s).triangle()]);
+        self.delaunay.topology.set_piece(s, None);
+        self.restore(&mut vec![s]);
+        self.check_slowly();
+    }
+
+    /// The sides that the segment between two vertices crosses, in order.
+    fn crossings(&self, a: VertexId, b: VertexId) -> Result<Vec<[VertexId; 2]>, Obstacle> {
+        let topology = self.topology();
+        let (from, to) = (self.point(a), self.point(b));
+        let mut entry = None;
+        for s in topology.sides_from(a) {
+            let (right, left) = (topology.target(s), topology.apex(s));
+            if right == b {
+                return Ok(Vec::new());
+            }
+            if right == GHOST {
+                continue;
+            }
+            let right_of = orient(from, to, self.point(right));
+            if right_of == Orientation::Collinear && (self.point(right) - from).dot(to - from) > 0.0 {
+                return Err(Obstacle::Vertex(right));
+            }
+            let enters = left != GHOST
+                && right_of == Orientation::Clockwise
+                && orient(from, to, self.point(left)) == Orientation::CounterClockwise;
+            if enters {
+                entry = Some(s.next());
+            }
+        }
+        // Two vertices of one triangulation: the segment leaves the one for the other.
+        let mut s = entry.expect("the segment enters a triangle at its start");
+        let mut crossed = Vec::new();
+        loop {
+            if let Some(piece) = topology.piece(s) {
+                return Err(Obstacle::Piece(piece));
+            }
+            crossed.push([topology.origin(s), topology.target(s)]);
+            let beyond = topology.twin(s);
+            let apex = topology.apex(beyond);
+            if apex == b {
+                return Ok(crossed);
+            }
+            s = match orient(from, to, self.point(apex)) {
+                Orientation::CounterClockwise => beyond.next(),
+                Orientation::Clockwise => beyond.prev(),
+                Orientation::Collinear => return Err(Obstacle::Vertex(apex)),
+            };
+        }
+    }
+
+    /// Whether the two triangles at a side make a strictly convex quadrilateral.
+    fn is_flippable(&self, s: Side) -> bool {
+        let topology = self.topology();
+        let n = topology.twin(s);
+        let [a, b, c, d] =
+            [topology.origin(s), topology.target(s), topology.apex(s), topology.apex(n)].map(|v| self.point(v));
+        orient(d, b, c) == Orientation::CounterClockwise && orient(c, a, d) == Orientation::CounterClockwise
+    }
+
+    /// Whether `c d` crosses `a b` between their ends.
+    fn crosses(&self, [a, b]: [VertexId; 2], [c, d]: [VertexId; 2]) -> bool {
+        if c == a || c == b || d == a || d == b {
+            return false;
+        }
+        let [a, b, c, d] = [a, b, c, d].map(|v| self.point(v));
+        orient(a, b, c) != orient(a, b, d)
+    }
+
+    fn flip(&mut self, s: Side) {
+        self.touched.extend([s.triangle(), self.topology().twin(s).triangle()]);
+        self.delaunay.topology.flip(s);
+    }
+
+    /// Flips sides without a piece that are not locally Delaunay, from those on the stack on (Lawson 1977).
+    fn restore(&mut self, stack: &mut Vec<Side>) {
+        while let Some(s) = stack.pop() {
+            if self.is_piece(s) || self.delaunay.is_locally_delaunay(s) {
+                continue;
+            }
+            let (t, u) = (s.triangle(), self.topology().twin(s).triangle());
+            self.flip(s);
+            stack.extend([t, u].into_iter().flat_map(|t| [t.side_of(0), t.side_of(1)]));
+        }
+    }
+
+    // ---- removal ----
+
+    /// Deletes a vertex inside the hull that no piece ends at, of any degree.
+    pub fn remove(&mut self, v: VertexId) {
+        let star: Vec<Side> = self.topology().sides_from(v).collect();
+        let bound = star.iter().any(|&s| self.topology().target(s) == GHOST || self.is_piece(s));
+        assert!(!star.is_empty() && !bound, "only free vertices go");
+        self.touched.extend(star.into_iter().map(Side::triangle));
+        let mut diagonals = self.delaunay.clip_ears(v);
+        self.delaunay.topology.merge_star(v);
+        self.restore(&mut diagonals);
+        self.check_slowly();
+    }
+
+    // ---- visibility ----
+
+    /// Follows the straight line from within a triangle to `p`, up to the first piece: from its middle, or where the triangle is so thin
+    /// that the middle is rounded out of it, from its border. `None` where no line starts that rounding leaves inside.
+    pub fn look_from(&self, t: TriangleId, p: Point) -> Option<Look> {
+        let topology = self.topology();
+        let sides = [0, 1, 2].map(|i| t.side_of(i));
+        if sides.iter().all(|&s| self.to_left(s, p) != Orientation::Clockwise) {
+            return Some(Look::Seen(self.place_in(t, p)));
+        }
+        let [a, b, c] = topology.corners(t).map(|v| self.point(v));
+        let middle = a + ((b - a) + (c - a)) / 3.0;
+        let leaves = |from: Point, s: Side| {
+            self.to_left(s, p) == Orientation::Clockwise
+                && orient(from, p, self.point(topology.origin(s))) != Orientation::CounterClockwise
+                && orient(from, p, self.point(topology.target(s))) == Orientation::CounterClockwise
+        };
+        let starts = [middle, a.midpoint(b), b.midpoint(c), c.midpoint(a), a, b, c];
+        let line = |from: Point| sides.into_iter().find(|&s| leaves(from, s)).map(|s| (from, s));
+        let (from, mut s) = starts.into_iter().find_map(line)?;
+        // A straight line meets every triangle at most once.
+        loop {
+            if self.is_piece(s) {
+                return Some(Look::Blocked(s));
+            }
+            let beyond = topology.twin(s);
+            let apex = topology.apex(beyond);
+            if apex == GHOST {
+                return Some(Look::Seen(Location::Triangle(beyond.triangle())));
+            }
+            // Through a vertex: to its right.
+            s = match orient(from, p, self.point(apex)) {
+                Orientation::CounterClockwise => beyond.next(),
+                Orientation::Clockwise | Orientation::Collinear => beyond.prev(),
+            };
+            if self.to_left(s, p) != Orientation::Clockwise {
+                return Some(Look::Seen(self.place_in(beyond.triangle(), p)));
+            }
+        }
+    }
+
+    fn to_left(&self, s: Side, p: Point) -> Orientation {
+        orient(self.point(self.topology().origin(s)), self.point(self.topology().target(s)), p)
+    }
+
+    /// Where a point lies that a finite triangle holds.
+    fn place_in(&self, t: TriangleId, p: Point) -> Location {
+        if let Some(&v) = self.topology().corners(t).iter().find(|&&v| self.point(v) == p) {
+            return Location::Vertex(v);
+        }
+        let on = [0, 1, 2].map(|i| t.side_of(i)).into_iter().find(|&s| self.to_left(s, p) == Orientation::Collinear);
+        on.map_or(Location::Triangle(t), Location::Side)
+    }
+
+    /// Whether a vertex to the left of a side sees any place between its ends.
+    ///
+    /// Triangular expansion: the cone of what the vertex sees is followed from triangle to triangle, narrowed by every side it passes
+    /// and ended by pieces.
+    pub fn sees(&self, v: VertexId, side: Side) -> bool {
+        let topology = self.topology();
+        let from = self.point(v);
+        let turns_left = |a: VertexId, b: VertexId| orient(from, self.point(a), self.point(b));
+        let (x, y) = (topology.origin(side), topology.target(side));
+        let mut cones: Vec<(Side, VertexId, VertexId)> = Vec::new();
+        for spoke in topology.sides_from(v) {
+            let (a, b) = (topology.target(spoke), topology.apex(spoke));
+            if a == GHOST || b == GHOST {
+                continue;
+            }
+            let x_within =
+                turns_left(a, x) != Orientation::Clockwise && turns_left(x, b) == Orientation::CounterClockwise;
+            let y_within =
+                turns_left(a, y) == Orientation::CounterClockwise && turns_left(y, b) != Orientation::Clockwise;
+            let a_within =
+                turns_left(x, a) != Orientation::Clockwise && turns_left(a, y) == Orientation::CounterClockwise;
+            if x_within || y_within || a_within {
+                cones.push((spoke.next(), if x_within { x } else { a }, if y_within { y } else { b }));
+            }
+        }
+        while let Some((s, right, left)) = cones.pop() {
+            if s == side {
+                return true;
+            }
+            if self.is_piece(s) {
+                continue;
+            }
+            let beyond = topology.twin(s);
+            let apex = topology.apex(beyond);
+            if apex == GHOST {
+                continue;
+            }
+            if turns_left(right, apex) == Orientation::CounterClockwise {
+                let narrowed = if turns_left(apex, left) == Orientation::CounterClockwise { apex } else { left };
+                cones.push((beyond.next(), right, narrowed));
+            }
+            if turns_left(apex, left) == Orientation::CounterClockwise {
+                let narrowed = if turns_left(right, apex) == Orientation::CounterClockwise { apex } else { right };
+                cones.push((beyond.prev(), narrowed, left));
+            }
+        }
+        false
+    }
+
+    /// The vertices inside the diametral circle of a side with a piece that see any of it, on both sides, in the order of their ids.
+    pub fn visible_in_diametral_circle(&self, side: Side) -> Vec<VertexId> {
+        let mut seen = Vec::new();
+        for s in [side, self.topology().twin(side)] {
+            self.look_into_half_circle(s, &mut seen);
+        }
+        seen.sort_unstable();
+        seen
+    }
+
+    /// Those to the left of a side. The apex of its triangle tells whether there are any: if it lies outside, so does whatever else the
+    /// triangle sees. Otherwise triangles are searched that hang together within the circle.
+    fn look_into_half_circle(&self, side: Side, seen: &mut Vec<VertexId>) {
+        let topology = self.topology();
+        let [x, y] = [topology.origin(side), topology.target(side)].map(|v| self.point(v));
+        let inside = |v: VertexId| v != GHOST && in_diametral(x, y, self.point(v)) == CircleSide::Inside;
+        if !inside(topology.apex(side)) {
+            return;
+        }
+        // What a rounded distance leaves out is no vertex inside: those are told exactly.
+        let (center, radius) = (x.midpoint(y), 0.5 * x.distance(y) * (1.0 + 1e-9));
+        let mut found: BTreeSet<VertexId> = BTreeSet::new();
+        let mut visited: BTreeSet<TriangleId> = BTreeSet::from([side.triangle()]);
+        let mut open = vec![side.triangle()];
+        while let Some(t) = open.pop() {
+            found.extend(topology.corners(t).into_iter().filter(|&v| inside(v)));
+            for s in [0, 1, 2].map(|i| t.side_of(i)) {
+                let beyond = topology.twin(s).triangle();
+                if self.is_piece(s) || topology.is_ghost(beyond) {
+                    continue;
+                }
+                let ends = [topology.origin(s), topology.target(s)].map(|v| self.point(v));
+                if distance_to_segment(center, ends) < radius && visited.insert(beyond) {
+                    open.push(beyond);
+                }
+            }
+        }
+        let left = |v: &VertexId| orient(x, y, self.point(*v)) == Orientation::CounterClockwise;
+        seen.extend(found.into_iter().filter(|v| left(v) && self.sees(*v, side)));
+    }
+
+    // ---- checks ----
+
+    /// With feature `slow-checks`: the first change that spoils something is the one reported.
+    fn check_slowly(&self) {
+        if cfg!(feature = "slow-checks") {
+            assert_eq!(self.flaws(), Vec::<String>::new());
+        }
+    }
+
+    /// What is wrong, with culprits: structure, orientation, and sides without a piece that are not locally Delaunay. All signs exact.
+    /// Empty when all is well. Takes linear time.
+    pub fn flaws(&self) -> Vec<String> {
+        let topology = self.topology();
+        let mut flaws = topology.flaws();
+        if !flaws.is_empty() {
+            return flaws;
+        }
+        for t in topology.triangles() {
+            let [a, b, c] = topology.corners(t).map(|v| self.point(v));
+            if orient(a, b, c) != Orientation::CounterClockwise {
+                flaws.push(format!("triangle {} is not counter-clockwise", t.0));
+                continue;
+            }
+            for s in [0, 1, 2].map(|i| t.side_of(i)).into_iter().filter(|&s| !self.is_piece(s)) {
+                let d = topology.apex(topology.twin(s));
+                if d != GHOST && in_circle(a, b, c, self.point(d)) == CircleSide::Inside {
+                    flaws.push(format!("triangle {} sees vertex {} in its circle", t.0, d.0));
+                }
+            }
+        }
+        flaws
+    }
+}
+
+fn distance_to_segment(p: Point, [a, b]: [Point; 2]) -> f64 {
+    let (ab, ap) = (b - a, p - a);
+    let share = if ab.hypot2() > 0.0 { (ap.dot(ab) / ab.hypot2()).clamp(0.0, 1.0) } else { 0.0 };
+    (ap - share * ab).hypot()
+}
+
+#[cfg(test)]
+mod tests;

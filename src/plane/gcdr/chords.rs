@@ -1,0 +1,249 @@
+//! The beginning: pieces of curves whose chords are a valid PSLG, and stay one however the pieces are split.
+//!
+//! What is split later stays within the convex hull of its piece, and so does every chord of it. A piece of lens angle λ lies in its
+//! lens, which is convex and lies in the rhombus on its chord with angles 2λ at the ends. So curved pieces are split until no two rhombi
+//! meet but in a common end. Two curves that share an end at a sharp corner may lie in each other's hulls however short they are: there
+//! all curves are cut at one distance from the corner, and from then on together ([`Fan`]): equal distances keep their order.
+
+use super::{Fan, Origin};
+use crate::curve::{Curve, End};
+use crate::domain::Domain;
+use crate::geometry::boxes::BoxHierarchy;
+use crate::geometry::{Point, Rect, bounds_of, turn_from};
+use crate::ids::{BallId, CurveId, Id, IdVec, PieceId, PointId, VertexId};
+use crate::plane::subcurves::{Carrier, Piece, Standing, Subcurves};
+use crate::size::SizeField;
+use crate::watch::{Progress, Stopped, Watch};
+
+/// What stands before there is a triangulation.
+pub(super) struct Beginning<'a> {
+    domain: &'a Domain,
+    pub(super) points: Vec<Point>,
+    pub(super) origins: IdVec<VertexId, Origin>,
+    pub(super) subcurves: Subcurves,
+    pub(super) fans: IdVec<BallId, Fan>,
+    /// No lengths below this are told apart.
+    resolution: f64,
+}
+
+/// A piece as the search for meetings sees it.
+pub(super) struct Hull {
+    piece: Option<PieceId>,
+    ends: [Point; 2],
+    /// λ, 0 of what is straight.
+    lambda: f64,
+}
+
+impl<'a> Beginning<'a> {
+    pub(super) fn new(domain: &'a Domain, resolution: f64) -> Self {
+        Self {
+            domain,
+            points: domain.points().iter().copied().collect(),
+            origins: domain.points().ids().map(Origin::Input).collect(),
+            subcurves: Subcurves::default(),
+            fans: IdVec::new(),
+            resolution,
+        }
+    }
+
+    fn add(&mut self, at: Point, origin: Origin) -> VertexId {
+        self.points.push(at);
+        self.origins.push(origin)
+    }
+
+    /// Cuts every curve at the fans of its ends.
+    pub(super) fn cut_curves(&mut self, sharp: &IdVec<PointId, bool>, field: &SizeField) {
+        let fan_of = self.place_fans(sharp, field);
+        for (id, curve) in self.domain.curves().enumerate() {
+            let carrier = Carrier::Curve(id);
+            let (mut t, mut ends) = ([0.0, 1.0], curve.ends.map(|p| VertexId(p.0)));
+            for (i, end) in [End::Start, End::Finish].into_iter().enumerate() {
+                let Some(fan) = fan_of[curve.ends[i]] else { continue };
+                let Some(leave) = curve.curve.leaves_ball(end, self.fans[fan].radius, 0.0, 1.0) else { continue };
+                let x = self.add(curve.curve.point(leave), Origin::OnCurve(id));
+                let (spoke_t, spoke_ends) = match end {
+                    End::Start => ([0.0, leave], [ends[0], x]),
+                    End::Finish => ([leave, 1.0], [x, ends[1]]),
+                };
+                let spoke = self.subcurves.add(carrier, spoke_t, spoke_ends, Standing::Spoke(fan));
+                self.fans[fan].spokes.push(spoke);
+                (t[i], ends[i]) = (leave, x);
+            }
+            self.subcurves.add(carrier, t, ends, Standing::Ordinary);
+        }
+    }
+
+    /// A fan at every sharp corner that a bent curve ends at: of a radius that is a power of two, at most a third of lfs(p), so that two
+    /// never meet and nothing else comes in.
+    fn place_fans(&mut self, sharp: &IdVec<PointId, bool>, field: &SizeField) -> IdVec<PointId, Option<BallId>> {
+        let bent = |p: PointId| self.domain.star(p).iter().any(|i| !self.domain.curves()[i.curve].curve.is_straight());
+        let wanted: Vec<PointId> = self.domain.points().ids().filter(|&p| sharp[p] && bent(p)).collect();
+        let mut fan_of: IdVec<PointId, Option<BallId>> = vec![None; self.domain.points().len()].into();
+        if wanted.is_empty() {
+            return fan_of;
+        }
+        let lfs = self.domain.lfs();
+        for p in wanted {
+            let most = field.largest_ball(self.domain, p, lfs[p] / 3.0);
+            let radius = libm::ldexp(1.0, libm::ilogb(most));
+            fan_of[p] = Some(self.fans.push(Fan { corner: p, radius, spokes: Vec::new() }));
+        }
+        fan_of
+    }
+
+    /// Splits bent pieces until the hulls of any two are apart, as far as the budget and the watch allow.
+    pub(super) fn part_hulls(&mut self, max_vertices: usize, watch: &mut Watch) -> Result<(), Stopped> {
+        let mut dirty: Vec<PieceId> = self.subcurves.ids().collect();
+        while !dirty.is_empty() && self.points.len() <= max_vertices {
+            Progress { phase: "conforming", vertices: self.points.len(), queued: dirty.len() }.tell(watch)?;
+            let met = self.meeting(&dirty);
+            dirty.clear();
+            for id in met {
+                dirty.extend(self.split(id).into_iter().flatten());
+            }
+        }
+        Ok(())
+    }
+
+    /// Bent pieces that meet another, where one of the two is among `dirty`; ascending.
+    fn meeting(&self, dirty: &[PieceId]) -> Vec<PieceId> {
+        let live = self.subcurves.ids().filter(|&id| !self.subcurves.get(id).is_gone());
+        let mut hulls: Vec<Hull> = live.map(|id| self.hull(id)).collect();
+        let lone = self.domain.points().ids().filter(|&p| self.domain.star(p).is_empty());
+        hulls.extend(lone.map(|p| {
+            let at = self.domain.points()[p];
+            Hull { piece: None, ends: [at, at], lambda: 0.0 }
+        }));
+        let boxes = BoxHierarchy::new(hulls.iter().map(|h| h.bounds(self.resolution)));
+        let place = |id: PieceId| hulls.binary_search_by_key(&(id.index()), |h| h.piece.map_or(usize::MAX, Id::index));
+        let mut met = Vec::new();
+        for &id in dirty {
+            let Ok(i) = place(id) else { continue };
+            boxes.meeting(hulls[i].bounds(self.resolution), |j| {
+                if i != j && (hulls[i].lambda > 0.0 || hulls[j].lambda > 0.0) && !self.are_apart(&hulls[i], &hulls[j]) {
+                    let bent = |h: &&Hull| h.lambda > 0.0 && !h.is_noise(self.resolution);
+                    met.extend([&hulls[i], &hulls[j]].into_iter().filter(bent).filter_map(|h| h.piece));
+                }
+                true
+            });
+        }
+        met.sort_unstable();
+        met.dedup();
+        met
+    }
+
+    fn hull(&self, id: PieceId) -> Hull {
+        let piece = self.subcurves.get(id);
+        Hull { piece: Some(id), ..Hull::of(self.domain, piece, piece.t) }
+    }
+
+    /// Whether two hulls meet at most in a common end.
+    fn are_apart(&self, a: &Hull, b: &Hull) -> bool {
+        let [Some(first), Some(second)] = [a.piece, b.piece].map(|id| id.map(|id| self.subcurves.get(id))) else {
+            return a.is_apart(b, self.resolution);
+        };
+        // Of two that are noise, joining tells whether their chords cross.
+        if self.share_a_fan(first, second) || a.is_noise(self.resolution) && b.is_noise(self.resolution) {
+            return true;
+        }
+        let common = |v: &VertexId| second.ends.contains(v);
+        let mut shared = first.ends.into_iter().filter(common).peekable();
+        if shared.peek().is_none() {
+            return a.is_apart(b, self.resolution);
+        }
+        shared.all(|x| {
+            let away = |piece: &Piece| {
+                let other = piece.ends[usize::from(piece.ends[0] == x)];
+                self.points[other.index()] - self.points[x.index()]
+            };
+            // Beyond a millionth of a radian directions of rounded points can be told apart.
+            turn_from(away(first), away(second)).abs() > a.lambda + b.lambda + 1e-6
+        })
+    }
+
+    /// Whether one is a spoke and the other lies on a curve of the same corner: spokes keep their order, and the others lie outside.
+    fn share_a_fan(&self, first: &Piece, second: &Piece) -> bool {
+        let meets = |spoke: &Piece, other: &Piece| {
+            let Standing::Spoke(fan) = spoke.standing else { return false };
+            let corner = self.fans[fan].corner;
+            matches!(other.carrier, Carrier::Curve(c) if self.domain.curves()[c].ends.contains(&corner))
+        };
+        meets(first, second) || meets(second, first)
+    }
+
+    /// Splits a bent piece at its bisector; `None` of a spoke, and where coordinates cannot hold it: joining will tell.
+    fn split(&mut self, id: PieceId) -> Option<[PieceId; 2]> {
+        let piece = *self.subcurves.get(id);
+        let shape = shape_of(self.domain, &piece);
+        let t = shape.bisector_crossing(piece.t[0], piece.t[1]);
+        let at = shape.point(t);
+        let room = piece.ends.map(|v| at.distance(self.points[v.index()]));
+        if piece.is_spoke() || room[0].min(room[1]) < self.resolution || !(piece.t[0] < t && t < piece.t[1]) {
+            return None;
+        }
+        let origin = match piece.carrier {
+            Carrier::Curve(curve) => Origin::OnCurve(curve),
+            Carrier::Arc(..) => unreachable!("there are no arcs here"),
+        };
+        let v = self.add(at, origin);
+        self.subcurves.retire(id);
+        let mut part = |t, ends| self.subcurves.add(piece.carrier, t, ends, Standing::Ordinary);
+        Some([part([piece.t[0], t], [piece.ends[0], v]), part([t, piece.t[1]], [v, piece.ends[1]])])
+    }
+}
+
+/// The curve that a piece is a part of.
+pub(super) fn shape_of<'a>(domain: &'a Domain, piece: &Piece) -> &'a Curve {
+    &domain.curves()[curve_of(piece)].curve
+}
+
+/// Its id.
+pub(super) fn curve_of(piece: &Piece) -> CurveId {
+    match piece.carrier {
+        Carrier::Curve(curve) => curve,
+        Carrier::Arc(..) => unreachable!("this engine makes no arcs"),
+    }
+}
+
+impl Hull {
+    /// Of the part t of the curve of a piece.
+    pub(super) fn of(domain: &Domain, piece: &Piece, t: [f64; 2]) -> Self {
+        let shape = shape_of(domain, piece);
+        let lambda = if shape.is_straight() { 0.0 } else { shape.lens_angle(t[0], t[1]) };
+        Self { piece: None, ends: t.map(|t| shape.point(t)), lambda }
+    }
+
+    /// Whether it is so short that its shape is mostly rounding: splitting would find no end.
+    fn is_noise(&self, resolution: f64) -> bool {
+        self.ends[0].distance(self.ends[1]) < 4096.0 * resolution
+    }
+
+    /// The rhombus; of what is straight its chord.
+    fn corners(&self) -> [Point; 4] {
+        let [x, y] = self.ends;
+        let half = 0.5 * (y - x);
+        let height = libm::tan(self.lambda);
+        let normal = crate::geometry::Vec2::new(-half.y, half.x) * height;
+        let middle = x.midpoint(y);
+        [x, middle - normal, y, middle + normal]
+    }
+
+    fn bounds(&self, slack: f64) -> Rect {
+        bounds_of(self.corners()).unwrap_or_default().inflate(slack, slack)
+    }
+
+    /// Whether a line along a side of either parts two convex quadrilaterals, with `slack` between them.
+    pub(super) fn is_apart(&self, other: &Self, slack: f64) -> bool {
+        let (p, q) = (self.corners(), other.corners());
+        let sides = [p, q].into_iter().flat_map(|r| [r[1] - r[0], r[2] - r[1], r[2] - r[0]]);
+        let mut normals = sides.filter(|s| s.hypot2() > 0.0).map(|s| crate::geometry::Vec2::new(-s.y, s.x) / s.hypot());
+        normals.any(|n| {
+            let range = |r: &[Point; 4]| {
+                let along = r.map(|c| c.to_vec2().dot(n));
+                along.into_iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)))
+            };
+            let ((p0, p1), (q0, q1)) = (range(&p), range(&q));
+            p1 + slack < q0 || q1 + slack < p0
+        })
+    }
+}

@@ -1,0 +1,384 @@
+//! Generalized constrained Delaunay refinement, GCDR (Foteinos, Chernikov & Chrisochoides 2010, Algorithm 2).
+//!
+//! The engine keeps a constrained Delaunay triangulation of what stands. As long as a triangle is skinny, a point p of its selection
+//! disk is chosen (type A). If a segment s hides p from the triangle, p is rejected: the free vertices in the diametral circle of the
+//! nearest such s that see s are deleted, and s is split within its selection interval, of type C if another vertex in its diametral circle
+//! sees it, else of type B. Otherwise p goes in. Whose point it is, a [`SteinerStrategy`] says.
+//!
+//! *What is proven.* It ends, on segments that meet at 60° and more, for angles up to 30° and points within their regions (Theorem 6.1). Good
+//! grading is proven where C₁C₂ > 1, up to 26.57° for centres ([`Regions::least_densities`]); beyond, it is observed. Above 30°, with a
+//! [free](SteinerStrategy::is_free) strategy, on curves and at sharper corners, that it ends is observed, and the budget ends what does not.
+//!
+//! What the paper leaves open, and how it is done here:
+//!
+//! - *Curves.* A segment is a piece of a curve, seen as its chord; its point is taken on the curve, above the place chosen on the chord.
+//!   [`chords`] splits curves at the beginning until chords are a valid PSLG, whatever is split later. To move a segment to its curve, its
+//!   chord is taken out of the triangulation, the point inserted and the two new chords joined; regions are carved anew there.
+//! - *Corners sharper than 60°.* Segments that end there are split on concentric shells (Ruppert 1995), at distances from the corner that
+//!   are round binary numbers; a triangle whose shortest edge lies across the corner, from one curve to the other, with ends equally far from the corner is
+//!   left as it is: its small angle is the input's. Curves that leave a sharp corner are cut together: [`chords`] says why.
+//! - *Rounding.* Decisions are made on the rounded point. A point that would not remove its triangle is not inserted, and owed.
+
+mod chords;
+pub mod parameters;
+mod segments;
+pub mod steiner;
+mod triangles;
+
+use super::carve::{self, Carver};
+use super::constrained::Constrained;
+use super::harvest::Harvest;
+use super::insert::{Cavity, Degenerate};
+use super::lopping::{RefineError, Refined};
+use super::subcurves::Subcurves;
+use crate::domain::Domain;
+use crate::geometry::{self, Point};
+use crate::ids::{BallId, CurveId, Id, IdVec, PieceId, PointId, TriangleId, VertexId};
+use crate::mesh::RIM_ROUNDING;
+use crate::mesh::verify::{ConstrainedPromise, Promise};
+use crate::refine::{Counters, Stop, StopReason, WorstFirst};
+use crate::size::{SizeField, Sizing};
+use crate::watch::{Progress, Watch};
+use chords::Beginning;
+pub use parameters::{Densities, Regions, Violation};
+use std::f64::consts::FRAC_PI_3;
+pub use steiner::SteinerStrategy;
+
+/// What is asked of the engine.
+#[derive(Clone, Debug)]
+pub struct Options {
+    /// Smallest angle; ρ̄ = 1/(2 sin κ).
+    pub angle_min_rad: f64,
+    pub regions: Regions,
+    pub sizing: Sizing,
+    /// Vertices after which nothing is split any more.
+    pub max_vertices: usize,
+}
+
+/// Corners up to this angle are sharp: less than 60° by more than rounding explains.
+pub const SHARP_RAD: f64 = FRAC_PI_3 - 1e-8;
+
+impl Options {
+    /// What the judge holds a mesh to that was made by these options and a strategy that is `free` or not; `foreign`: it comes from
+    /// elsewhere, without links to curves.
+    pub fn promise(&self, tau_rad: f64, free: bool, foreign: bool) -> Promise {
+        let proven = self.regions.proven_above(self.angle_min_rad);
+        Promise {
+            angle_min_rad: (self.angle_min_rad > 0.0).then_some(self.angle_min_rad),
+            constrained: Some(ConstrainedPromise { proven_above_rad: proven.filter(|_| !free) }),
+            tau_rad,
+            beta: 0.0,
+            corner_arcs: false,
+            arc_turning_rad: 0.0,
+            midpoint_bisector: true,
+            sizing: self.sizing.clone(),
+            foreign,
+        }
+    }
+}
+
+/// What type of point a vertex was inserted as.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Kind {
+    A,
+    B,
+    C,
+}
+
+/// A point as it was inserted.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Insertion {
+    pub kind: Kind,
+    pub at: Point,
+    /// R(p): the distance to the nearest vertex that it saw (Definition 2.4).
+    pub radius: f64,
+}
+
+/// Where a vertex came from.
+#[derive(Clone, Copy, PartialEq, Debug)]
+enum Origin {
+    Input(PointId),
+    OnCurve(CurveId),
+    Free,
+}
+
+/// Curves around a sharp corner, cut at one distance from it.
+struct Fan {
+    corner: PointId,
+    radius: f64,
+    spokes: Vec<PieceId>,
+}
+
+/// A triangle as it was when it was queued: a triangle's id may be another's by now.
+type Suspect = (TriangleId, [VertexId; 3]);
+
+/// The engine, held at a step.
+pub struct Gcdr<'s> {
+    domain: Domain,
+    /// What the domain was multiplied by.
+    scale: f64,
+    options: Options,
+    field: SizeField,
+    mesh: Constrained,
+    origins: IdVec<VertexId, Origin>,
+    /// Vertices that were not deleted.
+    alive: usize,
+    subcurves: Subcurves,
+    fans: IdVec<BallId, Fan>,
+    /// Whether curves meet at less than 60°.
+    sharp: IdVec<PointId, bool>,
+    strategy: &'s mut dyn SteinerStrategy,
+    /// Pieces whose size is to be looked at.
+    suspects: Vec<PieceId>,
+    skinny: WorstFirst<Suspect>,
+    oversized: WorstFirst<Suspect>,
+    carver: Carver,
+    cavity: Cavity,
+    counters: Counters,
+    reason: StopReason,
+    /// Where something could not be done: below what the coordinates can tell apart.
+    too_near: Vec<Point>,
+    /// sin² of the smallest angle.
+    sin2_min: f64,
+    /// No edge shorter than this is made on purpose.
+    resolution: f64,
+    insertions: Option<Vec<Insertion>>,
+}
+
+/// Meshes a domain whose curves turn at most π/3 each, as long as `watch` says to go on, in `most` steps or as many as there are.
+///
+/// # Errors
+/// Where coordinates cannot tell features apart.
+pub fn refine(
+    domain: &Domain,
+    options: &Options,
+    strategy: &mut dyn SteinerStrategy,
+    most: Option<u64>,
+    watch: &mut Watch,
+) -> Result<Refined, RefineError> {
+    /// Steps between two questions, of microseconds each.
+    const STEPS: u64 = 64;
+    let mut gcdr = match Gcdr::start(domain, options, strategy, watch)? {
+        Start::Ready(gcdr) => gcdr,
+        Start::Ended(refined) => return Ok(*refined),
+    };
+    let mut steps = 0u64;
+    loop {
+        if most.is_some_and(|most| steps >= most) || steps.is_multiple_of(STEPS) && !watch(&gcdr.progress()) {
+            gcdr.cancel();
+        }
+        if !gcdr.step() {
+            return gcdr.finish();
+        }
+        steps += 1;
+    }
+}
+
+/// What came of the beginning.
+pub enum Start<'s> {
+    Ready(Box<Gcdr<'s>>),
+    /// The watch said stop, or the budget ended, before there was a triangulation.
+    Ended(Box<Refined>),
+}
+
+impl<'s> Gcdr<'s> {
+    /// The constrained Delaunay triangulation of chords, regions given.
+    ///
+    /// # Errors
+    /// As [`refine`].
+    pub fn start(
+        domain: &Domain,
+        options: &Options,
+        strategy: &'s mut dyn SteinerStrategy,
+        watch: &mut Watch,
+    ) -> Result<Start<'s>, RefineError> {
+        let magnitude = geometry::magnitude(domain.bounds());
+        let scale = geometry::unit_scale(magnitude);
+        let domain = domain.scaled(scale);
+        let field = SizeField::new(&options.sizing.scaled(scale), &domain);
+        let resolution = RIM_ROUNDING * magnitude * scale;
+        let is_sharp = |p: PointId| domain.corner(p).is_some_and(|corner| corner.angle_rad <= SHARP_RAD);
+        let sharp: IdVec<PointId, bool> = domain.points().ids().map(is_sharp).collect();
+        let mut beginning = Beginning::new(&domain, resolution);
+        beginning.cut_curves(&sharp, &field);
+        let stopped = beginning.part_hulls(options.max_vertices, watch).is_err();
+        if stopped || beginning.points.len() > options.max_vertices {
+            let reason = if stopped { StopReason::Cancelled } else { StopReason::VertexBudget };
+            let stop = Stop { reason, owed: 1, places: Vec::new() };
+            return Ok(Start::Ended(Box::new(Refined { mesh: None, stop, counters: Counters::default() })));
+        }
+        let mesh = triangulated(&beginning).map_err(|e| e.scaled(1.0 / scale))?;
+        let Beginning { origins, subcurves, fans, .. } = beginning;
+        let sin_min = libm::sin(options.angle_min_rad);
+        let mut gcdr = Self {
+            suspects: Vec::new(),
+            skinny: WorstFirst::default(),
+            oversized: WorstFirst::default(),
+            carver: Carver::default(),
+            cavity: Cavity::default(),
+            counters: Counters::default(),
+            reason: StopReason::Done,
+            too_near: Vec::new(),
+            sin2_min: sin_min * sin_min,
+            alive: origins.len(),
+            options: options.clone(),
+            insertions: None,
+            resolution,
+            domain,
+            scale,
+            field,
+            mesh,
+            origins,
+            subcurves,
+            fans,
+            sharp,
+            strategy,
+        };
+        gcdr.counters.add("vertices_input", gcdr.domain.points().len() as u64);
+        gcdr.counters.add("vertices_chord", (gcdr.origins.len() - gcdr.domain.points().len()) as u64);
+        let live: Vec<PieceId> = gcdr.subcurves.ids().rev().filter(|&id| !gcdr.subcurves.get(id).is_gone()).collect();
+        live.into_iter().for_each(|id| gcdr.suspect(id));
+        gcdr.mesh.take_touched();
+        let mut all = carve::all_triangles(gcdr.mesh.kernel());
+        gcdr.carver.carve(gcdr.mesh.kernel_mut(), &gcdr.subcurves, gcdr.domain.curves(), &mut all);
+        all.into_iter().for_each(|t| gcdr.judge(t));
+        Ok(Start::Ready(Box::new(gcdr)))
+    }
+
+    /// Keeps what every insertion was, for densities.
+    pub fn recording(mut self) -> Self {
+        self.insertions = Some(Vec::new());
+        self
+    }
+
+    /// What was inserted since [`Gcdr::recording`], in the domain's own scale.
+    pub fn insertions(&self) -> Vec<Insertion> {
+        let down = 1.0 / self.scale;
+        let scaled = |i: &Insertion| Insertion { at: geometry::scaled(i.at, down), radius: i.radius * down, ..*i };
+        self.insertions.iter().flatten().map(scaled).collect()
+    }
+
+    /// The nearest vertex that a vertex sees is its neighbour in a constrained Delaunay triangulation.
+    fn record(&mut self, v: VertexId, kind: Kind) {
+        let Some(insertions) = &mut self.insertions else { return };
+        let topology = self.mesh.topology();
+        let at = self.mesh.point(v);
+        let away = topology.sides_from(v).map(|s| topology.target(s)).filter(|&w| w != super::triangulation::GHOST);
+        let radius = away.map(|w| at.distance(self.mesh.point(w))).fold(f64::INFINITY, f64::min);
+        insertions.push(Insertion { kind, at, radius });
+    }
+
+    /// Splits the first of: a piece that is too large, the worst skinny triangle, the largest triangle. `false`: there is none, or the run
+    /// is over.
+    pub fn step(&mut self) -> bool {
+        if self.reason == StopReason::Done
+            && let Some(piece) = self.suspects.pop()
+        {
+            self.look_at_piece(piece);
+            return true;
+        }
+        if self.reason != StopReason::Done {
+            return false;
+        }
+        match self.skinny.pop().or_else(|| self.oversized.pop()) {
+            Some(suspect) => self.split_triangle(suspect),
+            None => return false,
+        }
+        true
+    }
+
+    /// Whether there are as many vertices as may be; also where most of what is inserted is deleted again.
+    fn is_spent(&self) -> bool {
+        let most = self.options.max_vertices;
+        self.alive >= most || self.origins.len() >= most.saturating_mul(4)
+    }
+
+    pub fn cancel(&mut self) {
+        if self.reason == StopReason::Done {
+            self.reason = StopReason::Cancelled;
+        }
+    }
+
+    pub fn progress(&self) -> Progress {
+        let queued = self.suspects.len() + self.skinny.len() + self.oversized.len();
+        Progress { phase: "refining", vertices: self.alive, queued }
+    }
+
+    /// The mesh of the kept regions, in the domain's own scale.
+    ///
+    /// # Errors
+    /// Where a split had to be given up half-way.
+    pub fn finish(mut self) -> Result<Refined, RefineError> {
+        if self.subcurves.ids().any(|id| !self.subcurves.get(id).is_gone() && !self.is_side(id)) {
+            let at = self.too_near.first().copied().unwrap_or_default();
+            return Err(too_near(at).scaled(1.0 / self.scale));
+        }
+        let (owed, mut places) = self.owed();
+        places.extend(self.too_near.iter().copied());
+        places.iter_mut().for_each(|p| *p = geometry::scaled(*p, 1.0 / self.scale));
+        let harvest = Harvest { domain: &self.domain, delaunay: self.mesh.kernel(), subcurves: &self.subcurves };
+        let mesh = Some(harvest.mesh().scaled(1.0 / self.scale));
+        let kernel = self.mesh.kernel().counters();
+        self.counters.add("predicates", kernel.orient + kernel.in_circle);
+        self.counters.add("exact_fallbacks", kernel.exact_fallbacks);
+        self.counters.add("cavity_triangles", kernel.cavity_triangles);
+        Ok(Refined { mesh, stop: Stop { reason: self.reason, owed, places }, counters: self.counters })
+    }
+
+    fn is_side(&self, id: PieceId) -> bool {
+        let [x, y] = self.subcurves.get(id).ends;
+        let topology = self.mesh.topology();
+        topology.side_between(y, x).is_some_and(|s| topology.piece(s) == Some(id))
+    }
+
+    /// What still misses a bound, and some of the places.
+    fn owed(&mut self) -> (usize, Vec<Point>) {
+        const PLACES: usize = 16;
+        let (mut owed, mut places) = (self.too_near.len(), Vec::new());
+        while let Some(suspect) = self.skinny.pop().or_else(|| self.oversized.pop()) {
+            if self.is_stale(&suspect) {
+                continue;
+            }
+            owed += 1;
+            if places.len() < PLACES {
+                places.push(self.mesh.point(suspect.1[0]));
+            }
+        }
+        (owed, places)
+    }
+}
+
+/// The constrained Delaunay triangulation of all chords.
+fn triangulated(beginning: &Beginning) -> Result<Constrained, RefineError> {
+    let at = |i: usize| beginning.points[i];
+    let mut mesh = Constrained::new(beginning.points.clone()).map_err(|e| match e {
+        Degenerate::Duplicate { first, .. } => too_near(at(first)),
+        Degenerate::OutOfRange { index } => RefineError {
+            what: "a coordinate is so small beside the others that exact signs cannot hold it".to_owned(),
+            at: at(index),
+            help: "round it to 0".to_owned(),
+        },
+        Degenerate::TooFew | Degenerate::Collinear => RefineError {
+            what: "nothing to mesh: everything lies on one line".to_owned(),
+            at: beginning.points.first().copied().unwrap_or_default(),
+            help: "draw at least one closed outline".to_owned(),
+        },
+    })?;
+    for id in beginning.subcurves.ids() {
+        let piece = beginning.subcurves.get(id);
+        if piece.is_gone() {
+            continue;
+        }
+        let [a, b] = piece.ends;
+        mesh.join(a, b, id).map_err(|_| too_near(at(a.index())))?;
+    }
+    Ok(mesh)
+}
+
+fn too_near(at: Point) -> RefineError {
+    RefineError {
+        what: "features lie nearer to each other than the coordinates can tell apart".to_owned(),
+        at,
+        help: "move the drawing nearer to the origin, or weld the features with a larger --tolerance".to_owned(),
+    }
+}

@@ -1,0 +1,279 @@
+//! Points of types B and C: segments that are encroached or too large, and where they are split.
+
+use super::chords::{Hull, curve_of, shape_of};
+use super::steiner::Encroached;
+use super::{Gcdr, Kind, Origin};
+use crate::curve::End;
+use crate::geometry::exact::{CircleSide, in_diametral};
+use crate::geometry::{Point, Vec2, scaled};
+use crate::ids::{BallId, PieceId, PointId, TriangleId, VertexId};
+use crate::plane::insert::{self, Location};
+use crate::plane::subcurves::{Piece, Standing};
+use crate::plane::triangulation::Side;
+use crate::refine::StopReason;
+
+impl Gcdr<'_> {
+    pub(super) fn ends_of(&self, piece: &Piece) -> [Point; 2] {
+        piece.ends.map(|v| self.mesh.point(v))
+    }
+
+    /// Splits a piece that is larger than asked.
+    pub(super) fn look_at_piece(&mut self, id: PieceId) {
+        self.subcurves.get_mut(id).queued = false;
+        let piece = *self.subcurves.get(id);
+        if piece.is_gone() || self.is_spent() {
+            return;
+        }
+        let [t0, t1] = piece.t;
+        if self.field.edge_too_large(curve_of(&piece), shape_of(&self.domain, &piece), t0, t1) {
+            self.split_segment(id, "vertices_size");
+        }
+    }
+
+    pub(super) fn suspect(&mut self, piece: PieceId) {
+        let entry = self.subcurves.get_mut(piece);
+        if !entry.queued {
+            entry.queued = true;
+            self.suspects.push(piece);
+        }
+    }
+
+    /// Lines 7–14 of Algorithm 2: free vertices in the diametral circle go, and a point of type B or C comes. A spoke takes its whole fan
+    /// with it. `false` where coordinates cannot hold it.
+    pub(super) fn split_segment(&mut self, id: PieceId, why: &'static str) -> bool {
+        let piece = *self.subcurves.get(id);
+        if let Standing::Spoke(fan) = piece.standing {
+            return self.cut_fan(fan, why);
+        }
+        let type_c = self.encroachers(id).into_iter().any(|v| self.origins[v] != Origin::Free);
+        let t = match self.distance_to_sharp_end(&piece) {
+            Some((end, radius)) => shape_of(&self.domain, &piece).leaves_ball(end, radius, 0.0, 1.0),
+            None => self.choose(&piece, type_c),
+        };
+        let Some(parts) = self.split_together(&[(id, vec![t.unwrap_or(f64::NAN)])], why) else { return false };
+        let v = self.subcurves.get(parts[0][0]).ends[1];
+        self.record(v, if type_c { Kind::C } else { Kind::B });
+        true
+    }
+
+    /// The parameter that the strategy chooses: the place on the curve above its place on the chord.
+    fn choose(&mut self, piece: &Piece, type_c: bool) -> Option<f64> {
+        let shape = shape_of(&self.domain, piece);
+        let [t0, t1] = piece.t;
+        let size = if type_c { self.options.regions.mu } else { self.options.regions.delta1 };
+        let interval = [0.5 * size, 1.0 - 0.5 * size];
+        let [x, y] = self.ends_of(piece);
+        let ends = [x, y].map(|p| scaled(p, 1.0 / self.scale));
+        let share = self.strategy.on_segment(&Encroached { ends, interval, type_c });
+        let share = if share >= interval[0] { share.min(interval[1]) } else { interval[0] };
+        if share == 0.5 {
+            return Some(shape.bisector_crossing(t0, t1));
+        }
+        if shape.is_straight() {
+            return Some(t0 + share * (t1 - t0));
+        }
+        let normal = Vec2::new(x.y - y.y, y.x - x.x);
+        let found = shape.line_crossings(x.lerp(y, share), normal, t0, t1);
+        Some(found.first().copied().unwrap_or_else(|| shape.bisector_crossing(t0, t1)))
+    }
+
+    /// On a curve that ends at a sharp corner: which end that is, and the distance from it at which a piece is split: the roundest binary
+    /// number in the middle third. Next to the corner that is a power of two (Ruppert's concentric shells); and wherever they are split, the
+    /// two curves of a narrow corner are split at the same distances.
+    fn distance_to_sharp_end(&self, piece: &Piece) -> Option<(End, f64)> {
+        let curve = &self.domain.curves()[curve_of(piece)];
+        let [x, y] = self.ends_of(piece);
+        let middle = x.midpoint(y);
+        let corners =
+            [(End::Start, curve.ends[0]), (End::Finish, curve.ends[1])].into_iter().filter(|&(_, p)| self.sharp[p]);
+        let away = |p: PointId| middle.distance(self.domain.points()[p]);
+        let (end, corner) = corners.min_by(|a, b| away(a.1).total_cmp(&away(b.1)))?;
+        let at = self.domain.points()[corner];
+        let (near, far) = (at.distance(x).min(at.distance(y)), at.distance(x).max(at.distance(y)));
+        let chord = x.distance(y);
+        let third = (far - near) / 3.0;
+        (far - near > 0.5 * chord).then(|| (end, roundest_between(near + third, far - third)))
+    }
+
+    /// The vertices in the diametral circle of a piece that see it.
+    fn encroachers(&self, id: PieceId) -> Vec<VertexId> {
+        self.side_of(id).map_or(Vec::new(), |side| self.mesh.visible_in_diametral_circle(side))
+    }
+
+    /// Deletes the free vertices among them.
+    fn clear_diametral_circle(&mut self, id: PieceId) {
+        for v in self.encroachers(id) {
+            if self.origins[v] == Origin::Free {
+                self.mesh.remove(v);
+                self.counters.add("vertices_deleted", 1);
+                self.alive -= 1;
+            }
+        }
+    }
+
+    fn side_of(&self, id: PieceId) -> Option<Side> {
+        let [x, y] = self.subcurves.get(id).ends;
+        // A corner may have as many neighbours as there are curves at it; the other end has a handful.
+        let topology = self.mesh.topology();
+        match self.origins[x] {
+            Origin::Input(_) => topology.side_between(y, x).map(|s| topology.twin(s)),
+            _ => topology.side_between(x, y),
+        }
+    }
+
+    /// Cuts all curves of a fan at half its radius, and where their chords between there and the old radius might come to cross, at more
+    /// distances in between.
+    fn cut_fan(&mut self, id: BallId, why: &'static str) -> bool {
+        let fan = &self.fans[id];
+        let (corner, radius) = (VertexId(fan.corner.0), 0.5 * fan.radius);
+        let cuts = self.shells(corner, radius, &fan.spokes);
+        let Some(parts) = self.split_together(&cuts, why) else { return false };
+        self.fans[id].radius = radius;
+        self.fans[id].spokes.clear();
+        for parts in parts {
+            let ends_there = |&&part: &&PieceId| self.subcurves.get(part).ends.contains(&corner);
+            let inner = *parts.iter().find(ends_there).expect("the first or the last part");
+            self.subcurves.get_mut(inner).standing = Standing::Spoke(id);
+            self.fans[id].spokes.push(inner);
+        }
+        true
+    }
+
+    /// Parameters, ascending, at which spokes are cut from `radius` on outward: so many shells that the hulls of neighbours are apart.
+    fn shells(&self, corner: VertexId, radius: f64, spokes: &[PieceId]) -> Vec<(PieceId, Vec<f64>)> {
+        const SHELLS_MOST: u32 = 64;
+        let center = self.mesh.point(corner);
+        let mut around = spokes.to_vec();
+        let away = |id: &PieceId| {
+            let piece = self.subcurves.get(*id);
+            self.mesh.point(piece.ends[usize::from(piece.ends[0] == corner)]) - center
+        };
+        around.sort_by(|a, b| away(a).atan2().total_cmp(&away(b).atan2()).then(a.cmp(b)));
+        let mut shells = 1;
+        loop {
+            let radii: Vec<f64> = (0..shells).map(|k| radius * (1.0 + f64::from(k) / f64::from(shells))).collect();
+            let cuts: Vec<(PieceId, Vec<f64>)> =
+                around.iter().map(|&id| (id, self.leaves(id, corner, &radii))).collect();
+            let hulls: Vec<Vec<Hull>> = cuts.iter().map(|(id, ts)| self.hulls_outside(*id, corner, ts)).collect();
+            let neighbours =
+                hulls.iter().zip(hulls.iter().cycle().skip(1)).take(if hulls.len() > 1 { hulls.len() } else { 0 });
+            let apart =
+                |(a, b): (&Vec<Hull>, &Vec<Hull>)| a.iter().all(|h| b.iter().all(|k| h.is_apart(k, self.resolution)));
+            if shells >= SHELLS_MOST || neighbours.into_iter().all(apart) {
+                return cuts;
+            }
+            shells *= 2;
+        }
+    }
+
+    /// Ascending parameters at which a spoke leaves the circles of ascending radii around its corner; NaN where it does not.
+    fn leaves(&self, spoke: PieceId, corner: VertexId, radii: &[f64]) -> Vec<f64> {
+        let piece = self.subcurves.get(spoke);
+        let end = if piece.ends[0] == corner { End::Start } else { End::Finish };
+        let shape = shape_of(&self.domain, piece);
+        let leave = |&r: &f64| shape.leaves_ball(end, r, 0.0, 1.0).unwrap_or(f64::NAN);
+        let mut ts: Vec<f64> = radii.iter().map(leave).collect();
+        if end == End::Finish {
+            ts.reverse();
+        }
+        ts
+    }
+
+    /// The hulls of the parts of a spoke that do not end at its corner.
+    fn hulls_outside(&self, spoke: PieceId, corner: VertexId, ts: &[f64]) -> Vec<Hull> {
+        let piece = self.subcurves.get(spoke);
+        let bounds: Vec<f64> =
+            if piece.ends[0] == corner { [ts, &piece.t[1..]].concat() } else { [&piece.t[..1], ts].concat() };
+        bounds.windows(2).map(|t| Hull::of(&self.domain, piece, [t[0], t[1]])).collect()
+    }
+
+    /// Splits pieces at ascending parameters, all at once: between two of a fan chords may cross. `None` where coordinates cannot hold it:
+    /// the place is owed; if that shows only half-way, the run is over.
+    fn split_together(&mut self, cuts: &[(PieceId, Vec<f64>)], why: &'static str) -> Option<Vec<Vec<PieceId>>> {
+        for (id, ts) in cuts {
+            let piece = *self.subcurves.get(*id);
+            if !self.has_room(&piece, ts) {
+                self.too_near.push(self.mesh.point(piece.ends[0]));
+                return None;
+            }
+        }
+        cuts.iter().for_each(|(id, _)| self.clear_diametral_circle(*id));
+        for (id, _) in cuts {
+            let side = self.side_of(*id).expect("a piece is a side");
+            self.mesh.release(side);
+        }
+        let mut all = Vec::with_capacity(cuts.len());
+        for (id, ts) in cuts {
+            let piece = *self.subcurves.get(*id);
+            self.subcurves.retire(*id);
+            let (mut t, mut from, mut parts) = (piece.t[0], piece.ends[0], Vec::new());
+            for &next in ts {
+                let v = self.insert_on(&piece, next, why)?;
+                parts.push(self.subcurves.add(piece.carrier, [t, next], [from, v], Standing::Ordinary));
+                (t, from) = (next, v);
+            }
+            parts.push(self.subcurves.add(piece.carrier, [t, piece.t[1]], [from, piece.ends[1]], Standing::Ordinary));
+            all.push(parts);
+        }
+        for &part in all.iter().flatten() {
+            let [a, b] = self.subcurves.get(part).ends;
+            if self.mesh.join(a, b, part).is_err() {
+                self.stop_too_near(self.mesh.point(a));
+                return None;
+            }
+            self.suspect(part);
+        }
+        self.settle(true);
+        Some(all)
+    }
+
+    /// Whether points of a piece can part it: coordinates tell them from each other and from the ends, and they lie in the diametral
+    /// circle.
+    fn has_room(&self, piece: &Piece, ts: &[f64]) -> bool {
+        let [x, y] = self.ends_of(piece);
+        let bounds = [&piece.t[..1], ts, &piece.t[1..]].concat();
+        if !bounds.windows(2).all(|t| t[0] < t[1]) {
+            return false;
+        }
+        let places: Vec<Point> = ts.iter().map(|&t| shape_of(&self.domain, piece).point(t)).collect();
+        let chain: Vec<Point> = [x].into_iter().chain(places.iter().copied()).chain([y]).collect();
+        chain.windows(2).all(|p| p[0].distance(p[1]) >= self.resolution)
+            && places.iter().all(|&at| insert::in_range(at) && in_diametral(x, y, at) == CircleSide::Inside)
+    }
+
+    /// Inserts the point of a piece at a parameter; the piece lies on no side any more.
+    fn insert_on(&mut self, piece: &Piece, t: f64, why: &'static str) -> Option<VertexId> {
+        let at = shape_of(&self.domain, piece).point(t);
+        let near = self.mesh.topology().sides_from(piece.ends[1]).next().map_or(TriangleId(0), Side::triangle);
+        let location = self.mesh.kernel().locate(at, near);
+        if matches!(location, Location::Vertex(_)) {
+            self.stop_too_near(at);
+            return None;
+        }
+        self.mesh.cavity(at, location, &mut self.cavity);
+        let v = self.mesh.fill(at, &self.cavity);
+        self.origins.push(Origin::OnCurve(curve_of(piece)));
+        self.alive += 1;
+        self.counters.add(why, 1);
+        Some(v)
+    }
+
+    pub(super) fn stop_too_near(&mut self, at: Point) {
+        self.too_near.push(at);
+        self.reason = StopReason::Arithmetic;
+    }
+}
+
+/// The multiple of the largest power of two between two positive numbers.
+fn roundest_between(low: f64, high: f64) -> f64 {
+    let mut exponent = libm::ilogb(high);
+    // A step no longer than the interval has a multiple in it.
+    loop {
+        let step = libm::ldexp(1.0, exponent);
+        let multiple = (high / step).floor() * step;
+        if multiple >= low || step < 0.25 * (high - low) || high <= low {
+            return multiple;
+        }
+        exponent -= 1;
+    }
+}

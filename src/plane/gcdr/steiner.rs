@@ -1,0 +1,228 @@
+//! Who chooses the point inside a selection region.
+
+use super::parameters::radius_edge_of;
+use crate::geometry::dice::Dice;
+use crate::geometry::{Point, direction};
+use std::f64::consts::TAU;
+
+/// A skinny triangle, and the disk from which its point is chosen; in the domain's own coordinates.
+#[derive(Clone, Copy, Debug)]
+pub struct Skinny {
+    /// Counter-clockwise; the first two are the ends of its shortest edge.
+    pub corners: [Point; 3],
+    /// The corner across each side (0: between corners 0 and 1, and so on); `None` where a segment stands, or nothing is beyond.
+    pub across: [Option<Point>; 3],
+    pub center: Point,
+    pub radius: f64,
+    /// Radius of the disk around `center`: r(1−δ₂).
+    pub reach: f64,
+}
+
+/// An encroached segment, and the interval from which its point is chosen.
+#[derive(Clone, Copy, Debug)]
+pub struct Encroached {
+    pub ends: [Point; 2],
+    /// Shares of the way from end to end: the middle part of 1−δ₁ (type B) or 1−μ (type C).
+    pub interval: [f64; 2],
+    /// Whether a vertex of a segment lies in the diametral circle and is seen.
+    pub type_c: bool,
+}
+
+/// Which skinny triangle is refined first: Algorithm 2 leaves it open, and it makes up to a fourth of the triangles.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Order {
+    SmallestAngle,
+    ShortestEdge,
+    SmallestCircle,
+}
+
+/// F_A, F_B and F_C of Algorithm 2. What it answers is moved to the nearest place in the region, unless it is [free](Self::is_free).
+pub trait SteinerStrategy {
+    /// F_A: a point of the selection disk.
+    fn in_disk(&mut self, triangle: &Skinny) -> Point;
+
+    /// F_B and F_C: a share of the way from end to end, within the interval.
+    fn on_segment(&mut self, _segment: &Encroached) -> f64 {
+        0.5
+    }
+
+    fn order(&self) -> Order {
+        Order::SmallestAngle
+    }
+
+    /// Whether its points of type A are taken as they are, region or not. Then nothing is proven.
+    fn is_free(&self) -> bool {
+        false
+    }
+}
+
+/// The centre of every region: Chew's second algorithm.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Center;
+
+impl SteinerStrategy for Center {
+    fn in_disk(&mut self, triangle: &Skinny) -> Point {
+        triangle.center
+    }
+}
+
+/// The off-centre (Üngör 2004): on the way to the circumcenter, no farther from the shortest edge than makes a triangle with it that is
+/// not skinny.
+#[derive(Clone, Copy, Debug)]
+pub struct OffCenter {
+    /// Length from the shortest edge, in units of it.
+    height: f64,
+    free: bool,
+}
+
+impl OffCenter {
+    /// `free`: outside the selection disks, too.
+    pub fn new(angle_min_rad: f64, free: bool) -> Self {
+        // A triangle of that very height would be on the brink: it is 5 % flatter.
+        Self { height: 0.475 / libm::tan(0.5 * angle_min_rad), free }
+    }
+
+    fn point(&self, triangle: &Skinny) -> Point {
+        let [p, q, _] = triangle.corners;
+        let middle = p.midpoint(q);
+        let (away, height) = (triangle.center - middle, self.height * p.distance(q));
+        if away.hypot() <= height { triangle.center } else { middle + away * (height / away.hypot()) }
+    }
+}
+
+impl SteinerStrategy for OffCenter {
+    fn in_disk(&mut self, triangle: &Skinny) -> Point {
+        self.point(triangle)
+    }
+
+    fn order(&self) -> Order {
+        Order::ShortestEdge
+    }
+
+    fn is_free(&self) -> bool {
+        self.free
+    }
+}
+
+/// On the border of a petal triangles would be on the brink.
+const PETAL: f64 = 0.98;
+
+/// The locally optimal point (Erten & Üngör 2007): of the places that make a triangle with the shortest edge which is not skinny (its
+/// *petal*), the one farthest from all vertices that the triangle and its neighbours know.
+#[derive(Clone, Copy, Debug)]
+pub struct Optimal {
+    off_center: OffCenter,
+    rho: f64,
+}
+
+impl Optimal {
+    /// `free`: outside the selection disks, too.
+    pub fn new(angle_min_rad: f64, free: bool) -> Self {
+        Self { off_center: OffCenter::new(angle_min_rad, free), rho: radius_edge_of(angle_min_rad) }
+    }
+}
+
+impl SteinerStrategy for Optimal {
+    fn in_disk(&mut self, triangle: &Skinny) -> Point {
+        let [p, q, r] = triangle.corners;
+        let shortest = p.distance(q);
+        let radius = PETAL * self.rho * shortest;
+        let toward = (triangle.center - p.midpoint(q)) / (triangle.center.distance(p.midpoint(q)));
+        let height = (radius * radius - 0.25 * shortest * shortest).max(0.0).sqrt();
+        let petal = p.midpoint(q) + toward * height;
+        let known = || [p, q, r].into_iter().chain(triangle.across.into_iter().flatten());
+        let room = |at: Point| known().map(|v| v.distance(at)).fold(f64::INFINITY, f64::min);
+        // Centers of the circles through a longer side and what lies across it; where they lie outside, the way to them leaves the petal.
+        let around = [(q, r, triangle.across[1]), (r, p, triangle.across[2])];
+        let vertices = around.into_iter().filter_map(|(a, b, across)| circumcenter([b, a, across?]));
+        let candidates = vertices.filter_map(|voronoi| {
+            if voronoi.distance(petal) <= radius {
+                Some(voronoi)
+            } else {
+                leaves_disk(triangle.center, voronoi, petal, radius)
+            }
+        });
+        let first = self.off_center.point(triangle);
+        candidates.fold(first, |best, at| if room(at) > room(best) * (1.0 + 1e-9) { at } else { best })
+    }
+
+    fn order(&self) -> Order {
+        Order::SmallestCircle
+    }
+
+    fn is_free(&self) -> bool {
+        self.off_center.free
+    }
+}
+
+fn circumcenter([a, b, c]: [Point; 3]) -> Option<Point> {
+    let (u, v) = (b - a, c - a);
+    let double = 2.0 * u.cross(v);
+    let to_center =
+        crate::geometry::Vec2::new(v.y * u.hypot2() - u.y * v.hypot2(), u.x * v.hypot2() - v.x * u.hypot2());
+    Some(a + to_center / double).filter(|p| double != 0.0 && p.is_finite())
+}
+
+/// Where the segment from `a` to `b` first leaves a disk or enters it: the last place on it that the disk's border has.
+fn leaves_disk(a: Point, b: Point, center: Point, radius: f64) -> Option<Point> {
+    let (d, f) = (b - a, a - center);
+    let (dd, df, ff) = (d.hypot2(), d.dot(f), f.hypot2() - radius * radius);
+    let root = df * df - dd * ff;
+    if root < 0.0 || dd == 0.0 {
+        return None;
+    }
+    [(-df + root.sqrt()) / dd, (-df - root.sqrt()) / dd]
+        .into_iter()
+        .find(|t| (0.0..=1.0).contains(t))
+        .map(|t| a + d * t)
+}
+
+/// The border of every region, as near to a corner or an end as may be (experiment 1 of the paper).
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Extreme;
+
+impl SteinerStrategy for Extreme {
+    fn in_disk(&mut self, triangle: &Skinny) -> Point {
+        triangle.center + (triangle.corners[0] - triangle.center) * (triangle.reach / triangle.radius)
+    }
+
+    fn on_segment(&mut self, segment: &Encroached) -> f64 {
+        segment.interval[0]
+    }
+}
+
+/// Anywhere in the region, by seeded chance (experiment 2).
+#[derive(Clone, Debug)]
+pub struct Random(Dice);
+
+impl Random {
+    pub fn new(seed: u64) -> Self {
+        Self(Dice::new(seed))
+    }
+}
+
+impl SteinerStrategy for Random {
+    fn in_disk(&mut self, triangle: &Skinny) -> Point {
+        let (angle, share) = (self.0.between(0.0, TAU), self.0.between(0.0, 1.0));
+        triangle.center + direction(angle) * (triangle.reach * share.sqrt())
+    }
+
+    fn on_segment(&mut self, segment: &Encroached) -> f64 {
+        let [from, to] = segment.interval;
+        if from < to { self.0.between(from, to) } else { from }
+    }
+}
+
+/// The point of a square grid nearest to the centre, where the region has one; else the centre.
+#[derive(Clone, Copy, Debug)]
+pub struct Grid {
+    pub pitch: f64,
+}
+
+impl SteinerStrategy for Grid {
+    fn in_disk(&mut self, triangle: &Skinny) -> Point {
+        let snap = |x: f64| (x / self.pitch).round() * self.pitch;
+        let at = Point::new(snap(triangle.center.x), snap(triangle.center.y));
+        if at.distance(triangle.center) <= triangle.reach { at } else { triangle.center }
+    }
+}

@@ -1,0 +1,181 @@
+//! Points of type A: which triangles miss a bound, whom a corner excuses, and what mends the others.
+
+use super::steiner::{Order, Skinny};
+use super::{Gcdr, Kind, Origin, Suspect};
+use crate::geometry::{Point, scaled};
+use crate::ids::{CurveId, TriangleId, VertexId};
+use crate::plane::constrained::Look;
+use crate::plane::insert::{self, Location};
+use crate::plane::lopping::splittri::{circumcircle, sin2_smallest};
+use crate::plane::triangulation::{GHOST, Side};
+use crate::refine::StopReason;
+
+impl Gcdr<'_> {
+    pub(super) fn corners(&self, t: TriangleId) -> [Point; 3] {
+        self.mesh.topology().corners(t).map(|v| self.mesh.point(v))
+    }
+
+    /// Judges the triangles made since the last time; where a piece has moved, they get their regions first.
+    pub(super) fn settle(&mut self, carve: bool) {
+        let mut touched = self.mesh.take_touched();
+        if carve {
+            let kernel = self.mesh.kernel_mut();
+            self.carver.carve(kernel, &self.subcurves, self.domain.curves(), &mut touched);
+        } else {
+            touched.sort_unstable();
+            touched.dedup();
+            touched.retain(|&t| self.mesh.topology().is_alive(t));
+        }
+        for t in touched {
+            self.judge(t);
+        }
+    }
+
+    /// Queues a kept triangle that misses a bound.
+    pub(super) fn judge(&mut self, t: TriangleId) {
+        let Some(region) = self.mesh.topology().region(t) else { return };
+        let corners = self.corners(t);
+        let suspect = (t, self.mesh.topology().corners(t));
+        let sin2 = sin2_smallest(corners);
+        if sin2 < self.sin2_min {
+            return self.push_skinny(suspect);
+        }
+        let excess = self.field.excess(region, corners);
+        if excess > 1.0 {
+            // Badness by octaves of excess: 2^32 is as bad as it gets.
+            self.oversized.push(suspect, libm::log2(excess) / 32.0);
+        }
+    }
+
+    fn push_skinny(&mut self, suspect: Suspect) {
+        let corners = self.corners(suspect.0);
+        // Lengths by octaves below the unit to which the domain is scaled: 2^-40 is as short as it gets.
+        let octaves = |length: f64| -libm::log2(length) / 40.0;
+        let badness = match self.strategy.order() {
+            Order::SmallestAngle => 1.0 - sin2_smallest(corners) / self.sin2_min,
+            Order::ShortestEdge => octaves((0..3).map(|i| edge2(corners, i)).fold(f64::INFINITY, f64::min).sqrt()),
+            Order::SmallestCircle => octaves(circumcircle(corners).1),
+        };
+        self.skinny.push(suspect, badness);
+    }
+
+    pub(super) fn is_stale(&self, &(t, corners): &Suspect) -> bool {
+        let topology = self.mesh.topology();
+        !topology.is_alive(t) || topology.corners(t) != corners
+    }
+
+    pub(super) fn split_triangle(&mut self, suspect: Suspect) {
+        if self.is_stale(&suspect) {
+            return;
+        }
+        let (t, vertices) = suspect;
+        let Some(region) = self.mesh.topology().region(t) else { return };
+        let corners = self.corners(t);
+        let oversized = self.field.excess(region, corners) > 1.0;
+        let skinny = sin2_smallest(corners) < self.sin2_min;
+        let (center, radius) = circumcircle(corners);
+        let too_small = self.field.sizing().min_edge.is_some_and(|h| radius < h);
+        if !oversized && (too_small || skinny && self.is_excused(vertices)) {
+            return;
+        }
+        if self.is_spent() {
+            self.reason = StopReason::VertexBudget;
+            return self.skinny.push(suspect, 1.0);
+        }
+        let p = if skinny { self.choose_in_disk(t, center, radius) } else { center };
+        self.kill(suspect, p);
+    }
+
+    /// Whether the shortest edge of a triangle lies across a sharp corner, with its ends equally far from it: an angle that the input has.
+    fn is_excused(&self, [a, b, c]: [VertexId; 3]) -> bool {
+        let length = |e: &[VertexId; 3]| self.mesh.point(e[0]).distance_squared(self.mesh.point(e[1]));
+        let turns = [[a, b, c], [b, c, a], [c, a, b]];
+        let shortest = turns.into_iter().min_by(|e, f| length(e).total_cmp(&length(f))).expect("three edges");
+        if shortest[..2].iter().any(|&v| self.origins[v] == Origin::Free) {
+            return false;
+        }
+        let [a, b, c] = shortest.map(|v| self.curves_at(v));
+        self.domain.corner_between([&a, &b, &c], [0, 1].map(|i| self.mesh.point(shortest[i]))).is_some()
+    }
+
+    fn curves_at(&self, v: VertexId) -> Vec<CurveId> {
+        match self.origins[v] {
+            Origin::Input(p) => self.domain.star(p).iter().map(|i| i.curve).collect(),
+            Origin::OnCurve(curve) => vec![curve],
+            Origin::Free => Vec::new(),
+        }
+    }
+
+    /// F_A, moved into the disk unless the strategy is free.
+    fn choose_in_disk(&mut self, t: TriangleId, center: Point, radius: f64) -> Point {
+        let topology = self.mesh.topology();
+        let down = |p: Point| scaled(p, 1.0 / self.scale);
+        let corners = self.corners(t);
+        let first = (0..3).min_by(|&i, &j| edge2(corners, i).total_cmp(&edge2(corners, j))).expect("three sides");
+        let sides = [0, 1, 2].map(|i| t.side_of((first + i) % 3));
+        let across = sides.map(|s| {
+            let apex = topology.apex(topology.twin(s));
+            (topology.piece(s).is_none() && apex != GHOST).then(|| down(self.mesh.point(apex)))
+        });
+        let reach = radius * (1.0 - self.options.regions.delta2);
+        let skinny = Skinny {
+            corners: sides.map(|s| down(self.mesh.point(topology.origin(s)))),
+            across,
+            center: down(center),
+            radius: radius / self.scale,
+            reach: reach / self.scale,
+        };
+        let p = scaled(self.strategy.in_disk(&skinny), self.scale);
+        let away = p.distance(center);
+        if self.strategy.is_free() && away.is_finite() || away <= reach {
+            p
+        } else if reach > 0.0 && away.is_finite() {
+            center + (p - center) * (reach / away)
+        } else {
+            center
+        }
+    }
+
+    /// Inserts a point that removes a triangle, or splits the nearest segment that hides it from there.
+    fn kill(&mut self, suspect: Suspect, p: Point) {
+        let (t, vertices) = suspect;
+        let place = self.mesh.point(vertices[0]);
+        if !insert::in_range(p) {
+            return self.too_near.push(place);
+        }
+        let location = match self.mesh.look_from(t, p) {
+            Some(Look::Blocked(side)) => return self.encroach(suspect, side),
+            Some(Look::Seen(Location::Side(side))) if self.mesh.topology().piece(side).is_some() => {
+                return self.encroach(suspect, side);
+            }
+            Some(Look::Seen(location)) => location,
+            None => return self.too_near.push(place),
+        };
+        self.mesh.cavity(p, location, &mut self.cavity);
+        if !self.cavity.triangles.contains(&t) {
+            // Rounding took the point out of the triangle's circle, or onto a vertex.
+            return self.too_near.push(place);
+        }
+        let v = self.mesh.fill(p, &self.cavity);
+        self.origins.push(Origin::Free);
+        self.alive += 1;
+        self.counters.add("vertices_free", 1);
+        self.record(v, Kind::A);
+        self.settle(false);
+    }
+
+    /// The chosen point is rejected: Definition 2.1.
+    fn encroach(&mut self, suspect: Suspect, side: Side) {
+        let Some(piece) = self.mesh.topology().piece(side) else { return };
+        self.counters.add("rejected", 1);
+        let split = self.split_segment(piece, "vertices_segment");
+        if split && !self.is_stale(&suspect) {
+            self.push_skinny(suspect);
+        }
+    }
+}
+
+/// Squared length of side i of a triangle.
+fn edge2(corners: [Point; 3], i: usize) -> f64 {
+    corners[i].distance_squared(corners[(i + 1) % 3])
+}

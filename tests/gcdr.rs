@@ -1,0 +1,253 @@
+//! Generalized constrained Delaunay refinement, held to its promises by the judge.
+
+use squinch::curve::Curve;
+use squinch::domain::{ArrangeOptions, Domain, Drawing, FillRule};
+use squinch::generate::curved_complex;
+use squinch::geometry::Point;
+use squinch::mesh::Mesh;
+use squinch::mesh::verify::{Status, Verdict, verify};
+use squinch::plane::gcdr::steiner::{Center, Encroached, Extreme, Grid, OffCenter, Optimal, Random, Skinny};
+use squinch::plane::gcdr::{self, Gcdr, Kind, Options, Regions, Start, SteinerStrategy};
+use squinch::refine::StopReason;
+use squinch::size::Sizing;
+use std::f64::consts::SQRT_2;
+
+const TAU_RAD: f64 = 0.5;
+
+fn domain_of(drawing: &Drawing) -> Domain {
+    drawing.arrange(&ArrangeOptions::default()).expect("a sound drawing").split_to_turning(TAU_RAD)
+}
+
+/// A drawing of lines and bulged lines (x0, y0, x1, y1, bulge), every bounded face a region.
+fn drawing_of(curves: &[(f64, f64, f64, f64, f64)]) -> Drawing {
+    let mut drawing = Drawing { fill: FillRule::Regions, ..Drawing::default() };
+    for (i, &(x0, y0, x1, y1, bulge)) in curves.iter().enumerate() {
+        let curve = Curve::bulge(Point::new(x0, y0), Point::new(x1, y1), bulge).expect("a sound curve");
+        drawing.add(curve, "edge", format!("curve {i}"));
+    }
+    drawing
+}
+
+fn boxed(half: f64) -> Vec<(f64, f64, f64, f64, f64)> {
+    let h = half;
+    vec![(-h, -h, h, -h, 0.0), (h, -h, h, h, 0.0), (h, h, -h, h, 0.0), (-h, h, -h, -h, 0.0)]
+}
+
+/// Fig. 7.1: five concentric squares, the gap one hundredth of the side.
+fn squares() -> Drawing {
+    drawing_of(&(0..5).flat_map(|i| boxed(0.5 - 0.01 * f64::from(i))).collect::<Vec<_>>())
+}
+
+/// Two segments at an angle in a box.
+fn wedge(angle_deg: f64, lengths: [f64; 2]) -> Drawing {
+    let (s, c) = angle_deg.to_radians().sin_cos();
+    let mut curves = boxed(2.0);
+    curves.extend([(0.0, 0.0, lengths[0], 0.0, 0.0), (0.0, 0.0, lengths[1] * c, lengths[1] * s, 0.0)]);
+    drawing_of(&curves)
+}
+
+/// Circles of radius 1, ½ and ⅓ that touch in the origin from within, in a box.
+fn touching_circles() -> Drawing {
+    let mut curves = boxed(3.0);
+    for r in [1.0, 0.5, 1.0 / 3.0] {
+        curves.extend([(0.0, 0.0, 2.0 * r, 0.0, 1.0), (2.0 * r, 0.0, 0.0, 0.0, 1.0)]);
+    }
+    drawing_of(&curves)
+}
+
+fn options(angle_min_deg: f64, regions: Regions) -> Options {
+    Options { angle_min_rad: angle_min_deg.to_radians(), regions, sizing: Sizing::default(), max_vertices: 100_000 }
+}
+
+/// Refines and judges; the verdict must be kept.
+fn kept(drawing: &Drawing, options: &Options, strategy: &mut dyn SteinerStrategy) -> (Mesh, Verdict) {
+    let domain = domain_of(drawing);
+    let refined = gcdr::refine(&domain, options, strategy, None, &mut |_| true).expect("coordinates can hold it");
+    assert_eq!(refined.stop.reason, StopReason::Done);
+    assert_eq!(refined.stop.owed, 0);
+    let mesh = refined.mesh.expect("a run that is done has a mesh");
+    let verdict = verify(Some(&domain), &mesh, &options.promise(TAU_RAD, strategy.is_free(), false));
+    let broken: Vec<_> = verdict.checks.iter().filter(|c| c.status == Status::Broken).collect();
+    assert!(broken.is_empty(), "{broken:#?}");
+    (mesh, verdict)
+}
+
+fn status(verdict: &Verdict, name: &str) -> Status {
+    verdict.checks.iter().find(|c| c.name == name).expect("a check of this name").status
+}
+
+fn excused(verdict: &Verdict) -> usize {
+    verdict.excused.iter().map(|e| e.cells.len()).sum()
+}
+
+#[test]
+fn the_papers_squares_take_the_papers_triangles() {
+    // 1583 and 3200 in the paper, 1592 and 3139 by Triangle.
+    let (mesh, verdict) = kept(&squares(), &options(20.7, Regions::CENTERS), &mut Center);
+    assert!((1500..1620).contains(&mesh.triangles.len()), "{}", mesh.triangles.len());
+    for name in ["min_angle", "radius_edge", "constrained_delaunay"] {
+        assert_eq!(status(&verdict, name), Status::Proven, "{name}");
+    }
+    for name in ["delaunay", "empty_diametral", "ball_radius"] {
+        assert_eq!(status(&verdict, name), Status::NotAsked, "{name}");
+    }
+    assert_eq!(excused(&verdict), 0);
+    let (mesh, verdict) = kept(&squares(), &options(30.0, Regions::CENTERS), &mut Center);
+    assert!(mesh.triangles.len() < 3350, "{}", mesh.triangles.len());
+    assert_eq!(status(&verdict, "min_angle"), Status::Reached);
+}
+
+#[test]
+fn free_points_take_fewer_triangles_at_larger_angles() {
+    let (mesh, verdict) =
+        kept(&squares(), &options(34.0, Regions::CENTERS), &mut Optimal::new(34f64.to_radians(), true));
+    assert!(mesh.triangles.len() < 4503, "{}", mesh.triangles.len());
+    assert_eq!(status(&verdict, "min_angle"), Status::Reached);
+    let angle = 20.7f64.to_radians();
+    let (_, verdict) = kept(&squares(), &options(20.7, Regions::CENTERS), &mut OffCenter::new(angle, true));
+    assert_eq!(status(&verdict, "min_angle"), Status::Reached, "nothing is proven of free points");
+}
+
+/// Whatever a strategy answers, no number included: the engine moves it into the region.
+struct Stubborn(usize);
+
+impl SteinerStrategy for Stubborn {
+    fn in_disk(&mut self, triangle: &Skinny) -> Point {
+        self.0 += 1;
+        match self.0 % 4 {
+            0 => Point::new(f64::NAN, 0.0),
+            1 => Point::new(f64::INFINITY, -1.0),
+            2 => triangle.corners[2],
+            _ => Point::new(1e9, 1e9),
+        }
+    }
+
+    fn on_segment(&mut self, segment: &Encroached) -> f64 {
+        if segment.type_c { f64::NAN } else { 7.0 }
+    }
+}
+
+#[test]
+fn any_strategy_keeps_the_promises() {
+    let angle = 20.7f64.to_radians();
+    let regions = Regions { delta2: 0.9, delta1: 0.9, mu: 0.6 };
+    let strategies: Vec<Box<dyn SteinerStrategy>> = vec![
+        Box::new(Center),
+        Box::new(OffCenter::new(angle, false)),
+        Box::new(Optimal::new(angle, false)),
+        Box::new(Extreme),
+        Box::new(Random::new(3)),
+        Box::new(Grid { pitch: 0.01 }),
+        Box::new(Stubborn(0)),
+    ];
+    for mut strategy in strategies {
+        for drawing in [squares(), touching_circles(), wedge(25.0, [1.0, 0.7])] {
+            kept(&drawing, &options(20.7, regions), &mut *strategy);
+        }
+    }
+}
+
+#[test]
+fn points_lie_in_their_regions_and_densities_below_the_bounds() {
+    let domain = domain_of(&squares());
+    let regions = Regions { delta2: 0.9, delta1: 0.9, mu: 0.6 };
+    for seed in 0..4 {
+        let mut strategy = Random::new(seed);
+        let options = options((0.5 / SQRT_2).asin().to_degrees(), regions);
+        let Ok(Start::Ready(gcdr)) = Gcdr::start(&domain, &options, &mut strategy, &mut |_| true) else {
+            panic!("a small domain begins")
+        };
+        let mut gcdr = gcdr.recording();
+        while gcdr.step() {}
+        let insertions = gcdr.insertions();
+        let bounds = regions.printed_densities(SQRT_2, std::f64::consts::FRAC_PI_2);
+        for kind in [Kind::A, Kind::B, Kind::C] {
+            assert!(insertions.iter().any(|i| i.kind == kind), "seed {seed}: no {kind:?}");
+        }
+        for i in &insertions {
+            let bound = match i.kind {
+                Kind::A => bounds.a,
+                Kind::B => bounds.b,
+                Kind::C => bounds.c,
+            };
+            let density = lfs_in_squares(i.at) / i.radius;
+            assert!(density > 0.0 && density <= bound, "seed {seed}: {i:?} has density {density}");
+        }
+    }
+}
+
+/// The second smallest distance to sides of the squares that have no common end: no less than lfs.
+fn lfs_in_squares(p: Point) -> f64 {
+    let to_side = |square: usize, side: usize| {
+        let half = 0.5 - 0.01 * square as f64;
+        let (along, across) = if side.is_multiple_of(2) { (p.x, p.y) } else { (p.y, p.x) };
+        let off = if side < 2 { across - half } else { across + half };
+        ((along.abs() - half).max(0.0)).hypot(off)
+    };
+    let mut sides: Vec<(f64, usize, usize)> =
+        (0..5).flat_map(|q| (0..4).map(move |s| (q, s))).map(|(q, s)| (to_side(q, s), q, s)).collect();
+    sides.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let apart = |i: usize, j: usize| sides[i].1 != sides[j].1 || (sides[i].2 + 2) % 4 == sides[j].2;
+    (1..20).find(|&j| (0..j).any(|i| apart(i, j))).map_or(f64::INFINITY, |j| sides[j].0)
+}
+
+#[test]
+fn sharp_corners_are_excused_and_nothing_else() {
+    for angle in [0.01, 0.5, 5.0, 20.0, 40.0, 59.0] {
+        for lengths in [[1.0, 1.0], [1.0, 0.3], [0.7, 0.69]] {
+            let (mesh, verdict) = kept(&wedge(angle, lengths), &options(30.0, Regions::CENTERS), &mut Center);
+            assert!(mesh.triangles.len() < 4000, "{angle}° {lengths:?}: {}", mesh.triangles.len());
+            assert!(excused(&verdict) < 60, "{angle}° {lengths:?}: {}", excused(&verdict));
+        }
+    }
+    let (_, verdict) = kept(&wedge(60.0, [1.0, 0.3]), &options(30.0, Regions::CENTERS), &mut Center);
+    assert_eq!(excused(&verdict), 0);
+}
+
+#[test]
+fn curves_that_touch_end_and_verify() {
+    let (mesh, verdict) = kept(&touching_circles(), &options(30.0, Regions::CENTERS), &mut Center);
+    assert!(mesh.triangles.len() < 3000 && excused(&verdict) < 80, "{} {}", mesh.triangles.len(), excused(&verdict));
+    let sizing = Sizing { max_edge: Some(0.05), edge_turning_rad: Some(0.1), ..Sizing::default() };
+    kept(&touching_circles(), &Options { sizing, ..options(25.0, Regions::CENTERS) }, &mut Center);
+}
+
+#[test]
+fn random_complexes_end_and_verify() {
+    for seed in 0..24 {
+        let drawing = curved_complex(seed);
+        let domain = domain_of(&drawing);
+        let options = options(20.7, Regions::CENTERS);
+        let refined = gcdr::refine(&domain, &options, &mut Center, None, &mut |_| true)
+            .unwrap_or_else(|e| panic!("seed {seed}: {e}"));
+        assert_eq!((refined.stop.reason, refined.stop.owed), (StopReason::Done, 0), "seed {seed}");
+        let verdict = verify(Some(&domain), &refined.mesh.unwrap(), &options.promise(TAU_RAD, false, false));
+        let broken: Vec<_> = verdict.checks.iter().filter(|c| c.status == Status::Broken).collect();
+        assert!(broken.is_empty(), "seed {seed}: {broken:#?}");
+    }
+}
+
+#[test]
+fn the_same_seed_gives_the_same_mesh() {
+    let regions = Regions { delta2: 0.8, delta1: 0.9, mu: 0.8 };
+    let mesh = |seed| kept(&touching_circles(), &options(20.7, regions), &mut Random::new(seed)).0;
+    assert_eq!(mesh(1), mesh(1));
+    assert_ne!(mesh(1), mesh(2));
+}
+
+#[test]
+fn a_budget_and_a_watch_end_a_run_with_a_valid_mesh() {
+    let domain = domain_of(&squares());
+    let few = Options { max_vertices: 300, ..options(30.0, Regions::CENTERS) };
+    let refined = gcdr::refine(&domain, &few, &mut Center, None, &mut |_| true).unwrap();
+    assert_eq!(refined.stop.reason, StopReason::VertexBudget);
+    assert!(refined.stop.owed > 0 && refined.mesh.is_some());
+    let all = options(30.0, Regions::CENTERS);
+    let refined = gcdr::refine(&domain, &all, &mut Center, None, &mut |p| p.vertices < 200).unwrap();
+    assert_eq!(refined.stop.reason, StopReason::Cancelled);
+    let verdict = verify(Some(&domain), &refined.mesh.unwrap(), &all.promise(TAU_RAD, false, false));
+    assert_eq!(status(&verdict, "constrained_delaunay"), Status::Proven);
+    assert_eq!(status(&verdict, "conforming"), Status::Proven);
+    let begun = gcdr::refine(&domain, &all, &mut Center, Some(0), &mut |_| true).unwrap();
+    assert_eq!(begun.mesh.unwrap().nodes.len(), 20);
+}
