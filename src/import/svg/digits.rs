@@ -8,21 +8,22 @@ const STRAY: f64 = 0.01;
 
 /// Whether next to no number of a file has more digits than pictures need.
 pub(super) fn is_sketch(text: &str) -> bool {
-    let of_word = |c: char| c.is_ascii_alphanumeric() || matches!(c, '.' | '#' | '_');
-    let counts = text.split(|c| !of_word(c)).map(significant).filter(|&digits| digits > 0);
-    let (numbers, exact) =
-        counts.fold((0u64, 0u64), |(n, exact), digits| (n + 1, exact + u64::from(digits >= EXACT_DIGITS)));
-    exact as f64 <= STRAY * numbers as f64
+    let counts = significant_digits(text);
+    let exact = counts.iter().filter(|&&digits| digits >= EXACT_DIGITS).count();
+    exact as f64 <= STRAY * counts.len() as f64
 }
 
-/// The significant digits of a number, without its exponent; 0 of any other word.
-fn significant(word: &str) -> usize {
-    if !word.starts_with(|c: char| c.is_ascii_digit() || c == '.') {
-        return 0;
+/// The significant digits of every number but 0, without exponents. As in path data, a number ends where a second point begins the next.
+fn significant_digits(text: &str) -> Vec<usize> {
+    let mut counts = Vec::new();
+    for run in text.split(|c: char| !c.is_ascii_digit() && c != '.') {
+        let mut parts = run.split('.');
+        let whole = parts.next().unwrap_or_default();
+        let first = format!("{whole}{}", parts.next().unwrap_or_default());
+        let numbers = [first.as_str()].into_iter().chain(parts);
+        counts.extend(numbers.map(|digits| digits.trim_start_matches('0').len()).filter(|&digits| digits > 0));
     }
-    let mantissa = word.split(['e', 'E']).next().unwrap_or(word);
-    let digits = mantissa.bytes().filter(u8::is_ascii_digit);
-    digits.skip_while(|&digit| digit == b'0').count()
+    counts
 }
 
 #[cfg(test)]
@@ -31,13 +32,12 @@ mod tests {
 
     #[test]
     fn digits_are_counted_from_the_first_that_is_not_zero() {
-        let counts = ["0.00120", "12.5e-13", "path1234", "#ff0011", "3px", "0"].map(significant);
-        assert_eq!(counts, [3, 3, 0, 0, 1, 0]);
+        assert_eq!(significant_digits("0.00120 M12.5-3px 0 c2.341.0234.567"), [3, 3, 1, 4, 3, 3]);
     }
 
     #[test]
     fn exact_numbers_make_no_sketch() {
-        assert!(is_sketch("<path d='M12.345678,0l1.5-7.25z'/>"));
+        assert!(is_sketch("<path d='M12.345678,0l1.5-7.25c2.341.234.567.123.456z'/>"));
         assert!(!is_sketch("<circle cx='2.000000000001' cy='0' r='1'/>"));
     }
 }
