@@ -163,6 +163,10 @@ impl<'a> Healing<'a> {
             if best.as_ref().is_none_or(|best| candidate.vertices < WORTH * best.vertices) {
                 self.taken = tolerance;
                 best = Some(candidate);
+                if self.left.last().is_some_and(|&last| last < tolerance) {
+                    // What follows is finer, and leaves more.
+                    break;
+                }
             }
         }
         Ok(best.map(|best| best.domain))

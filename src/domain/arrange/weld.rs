@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 
 /// Rounds of meeting and welding. Each round moves what it welds by a tolerance at most, which seldom makes a new meeting; a drawing
 /// that needs more rounds is one whose features lie as near to each other as its tolerance.
-const ROUNDS: usize = 16;
+const ROUNDS: usize = 48;
 
 /// A gap is narrower than this part of the curves beside it: else it is no gap, but the length of a stub.
 const NARROW: f64 = 0.5;
