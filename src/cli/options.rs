@@ -60,7 +60,7 @@ pub struct Options {
     #[arg(long, value_name = "1|2", allow_hyphen_values = true, help_heading = "Bounds")]
     order: Option<Order>,
 
-    /// Welding distance; 0 heals nothing [default: 1e-9 of the diagonal, 1e-6 where narrower slivers would take too many vertices; ends that meet nothing else: 1e-6]
+    /// Welding distance; 0 heals nothing [default: 1e-9 of the diagonal, or up to 1e-4 (SVG) or 1e-6 where slivers would take too many vertices; ends that meet nothing else: 1e-6]
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, help_heading = "Input")]
     tolerance: Option<f64>,
     /// Which faces are inside [default: auto, the file's own rule]

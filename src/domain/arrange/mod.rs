@@ -14,6 +14,10 @@
 //! Lines around one point, repeated ends and components in each other cost n log n. Compared each with each are still: pieces whose boxes meet
 //! although they do not (rings in each other, fans of curves, long parallel slanted lines), and curves between the same two points.
 //!
+//! Within a tolerance that was asked for, curves that part slowly (from a tangent contact, or from a common end) are one as long as they are
+//! within it: else the sliver between them, which begins at width 0, would stay at any tolerance. Bends far narrower than the tolerance become
+//! corners.
+//!
 //! All of it happens in a frame scaled by a power of two, so that the same drawing at another such scale gives the same bits.
 
 mod cut;
