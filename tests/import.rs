@@ -341,6 +341,18 @@ fn text_amid_the_data_is_told_by_its_lines() {
 }
 
 #[test]
+fn tables_with_dots_and_parentheses_are_read() {
+    let points = contour();
+    let (first, last) = (points[0], points[points.len() - 1]);
+    let inner = lines(&points[1..points.len() - 1]);
+    let [(x0, y0), (x1, y1)] = [first, last];
+    let text = format!("Table\n{x0:.9} ({y0:.9})\n{:.4} ......\n{inner}{x1:.9} ({y1:.9})\n", points[1].0);
+    let drawing = dat(&text);
+    assert!(noted(&drawing, "leave the ordinate out, passed over: 3."), "{:?}", drawing.notes);
+    assert_eq!(one(&drawing, "upper").start(), one(&selig(), "upper").start());
+}
+
+#[test]
 fn a_blunt_edge_may_be_drawn_in_the_file() {
     let mut points = contour();
     points.insert(0, (1.0, 0.0));

@@ -120,15 +120,20 @@ enum Row {
     },
     /// A number, then something else.
     Half,
+    /// A number and dots: tables that leave an ordinate out print them in its place.
+    Dotted,
     Text,
 }
 
 impl Row {
     fn of(line: &str, decimal_commas: &mut bool) -> Self {
-        let mut fields = line.split([' ', '\t', ';']).map(str::trim).filter(|f| !f.is_empty()).peekable();
+        // Tables put computed ordinates in parentheses.
+        let plain = |field| str::trim_matches(field, ['(', ')', ' ', '\r', '\n']);
+        let mut fields = line.split([' ', '\t', ';']).map(plain).filter(|f| !f.is_empty()).peekable();
         if fields.peek().is_none() {
             return Self::Blank;
         }
+        let is_dotted = fields.clone().nth(1).is_some_and(|f| f.len() > 1 && f.bytes().all(|b| b == b'.'));
         let decimal = is_decimal_comma(fields.clone());
         let mut values: [Option<f64>; 4] = [None; 4];
         let mut columns = 0;
@@ -152,6 +157,7 @@ impl Row {
                 *decimal_commas |= decimal;
                 Self::Point { at: Point::new(x, y), columns, words }
             }
+            (Some(_), None) if is_dotted => Self::Dotted,
             (Some(_), None) => Self::Half,
             _ => Self::Text,
         }
@@ -244,7 +250,7 @@ fn first_data(rows: &[Row]) -> Option<usize> {
     let mut last: Option<usize> = None;
     for (i, row) in rows.iter().enumerate() {
         match row {
-            Row::Blank => {}
+            Row::Blank | Row::Dotted => {}
             _ if row.point().is_none() => last = None,
             _ => match last {
                 Some(first) => return Some(first),
@@ -294,12 +300,13 @@ fn gather(rows: &[Row], start: usize, notes: &mut Vec<String>) -> Result<Vec<Vec
     let mut gap = false;
     // Points of the current element before the last line of text.
     let mut before_text: Option<usize> = None;
-    let (mut extra_columns, mut text_lines) = (false, Vec::new());
+    let (mut extra_columns, mut text_lines, mut dotted) = (false, Vec::new(), Vec::new());
     for (i, row) in rows.iter().enumerate().skip(start) {
         let here = elements.len() - 1;
         let beside_point = i > start && rows[i - 1].point().is_some();
         match *row {
             Row::Blank => gap = true,
+            Row::Dotted => dotted.push(i + 1),
             Row::Point { at, words: false, .. } if is_separator(at) => {
                 elements.push(Vec::new());
                 (gap, before_text) = (false, None);
@@ -329,6 +336,9 @@ fn gather(rows: &[Row], start: usize, notes: &mut Vec<String>) -> Result<Vec<Vec
     }
     if !text_lines.is_empty() {
         notes.push(format!("Lines of text among or behind the coordinates, passed over: {}.", few(&text_lines)));
+    }
+    if !dotted.is_empty() {
+        notes.push(format!("Lines that leave the ordinate out, passed over: {}.", few(&dotted)));
     }
     if extra_columns {
         notes.push("What follows the first two numbers of a line was passed over.".into());
