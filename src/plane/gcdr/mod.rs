@@ -311,7 +311,7 @@ impl<'s> Gcdr<'s> {
     pub fn finish(mut self) -> Result<Refined, RefineError> {
         if self.subcurves.ids().any(|id| !self.subcurves.get(id).is_gone() && !self.is_side(id)) {
             let at = self.too_near.first().copied().unwrap_or_default();
-            return Err(too_near(at).scaled(1.0 / self.scale));
+            return Err(RefineError::too_near(at).scaled(1.0 / self.scale));
         }
         let (owed, mut places) = self.owed();
         places.extend(self.too_near.iter().copied());
@@ -352,7 +352,7 @@ impl<'s> Gcdr<'s> {
 fn triangulated(beginning: &Beginning) -> Result<Constrained, RefineError> {
     let at = |i: usize| beginning.points[i];
     let mut mesh = Constrained::new(beginning.points.clone()).map_err(|e| match e {
-        Degenerate::Duplicate { first, .. } => too_near(at(first)),
+        Degenerate::Duplicate { first, .. } => RefineError::too_near(at(first)),
         Degenerate::OutOfRange { index } => RefineError {
             what: "a coordinate is so small beside the others that exact signs cannot hold it".to_owned(),
             at: at(index),
@@ -370,15 +370,7 @@ fn triangulated(beginning: &Beginning) -> Result<Constrained, RefineError> {
             continue;
         }
         let [a, b] = piece.ends;
-        mesh.join(a, b, id).map_err(|_| too_near(at(a.index())))?;
+        mesh.join(a, b, id).map_err(|_| RefineError::too_near(at(a.index())))?;
     }
     Ok(mesh)
-}
-
-fn too_near(at: Point) -> RefineError {
-    RefineError {
-        what: "features lie nearer to each other than the coordinates can tell apart".to_owned(),
-        at,
-        help: "move the drawing nearer to the origin, or weld the features with a larger --tolerance".to_owned(),
-    }
 }

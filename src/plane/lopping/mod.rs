@@ -332,12 +332,7 @@ impl Lopping {
     }
 
     fn too_near_error(&self) -> RefineError {
-        let at = self.too_near.first().copied().unwrap_or_default();
-        RefineError {
-            what: "features lie nearer to each other than the coordinates can tell apart".to_owned(),
-            at: geometry::scaled(at, 1.0 / self.scale),
-            help: "move the drawing nearer to the origin, or weld the features with a larger --tolerance".to_owned(),
-        }
+        RefineError::too_near(self.too_near.first().copied().unwrap_or_default()).scaled(1.0 / self.scale)
     }
 
     /// Pieces and triangles that still miss a bound, and some of their places, the most crowded pieces first.
@@ -397,6 +392,14 @@ pub fn arc_turning(kappa_rad: f64, lambda_rad: f64) -> f64 {
 }
 
 impl RefineError {
+    pub(super) fn too_near(at: Point) -> Self {
+        Self {
+            what: "features lie nearer to each other than the coordinates can tell apart".to_owned(),
+            at,
+            help: "move the drawing nearer to the origin, or weld the features with a larger --tolerance".to_owned(),
+        }
+    }
+
     pub(super) fn scaled(mut self, factor: f64) -> Self {
         self.at = geometry::scaled(self.at, factor);
         self
