@@ -986,7 +986,12 @@ const CONTACT: &str = r#"{ "squinch": 1, "fill": "regions", "curves": [
 #[test]
 fn slivers_that_nobody_drew_on_purpose_are_welded_and_itemised() {
     let bench = Bench::new("slivers");
-    fs::write(bench.0.join("contact.json"), CONTACT).unwrap();
+    // Exact work is refused: to weld it would move its areas.
+    fs::write(bench.0.join("exact.json"), CONTACT).unwrap();
+    let output = bench.ends(4, &["mesh", "exact.json", "-o", "exact.vtu"]);
+    assert!(said(&output).contains("--tolerance"), "{}", said(&output));
+    let sketch = CONTACT.replace(r#""squinch": 1,"#, r#""squinch": 1, "sketch": true,"#);
+    fs::write(bench.0.join("contact.json"), sketch).unwrap();
     let output = bench.ends(0, &["mesh", "contact.json", "-o", "a.vtu", "--report", "r.json"]);
     assert!(said(&output).contains("1 tolerance raised"), "{}", said(&output));
     let report = bench.report("r.json");

@@ -10,8 +10,9 @@
 //!   changes by no more than a billionth: exact work stays exact, or is refused by the estimate.
 //! - `--min-edge H` says that nothing finer than H needs to be meshed: any drawing is a sketch of a third of it (a loop is safe from three
 //!   tolerances on).
-//! - What cannot be arranged or meshed because its features lie nearer to each other than the coordinates can tell apart is tried again
-//!   within the next coarser one of these tolerances, whatever the drawing; its area may change by a thousandth.
+//! - What cannot be meshed because its features lie nearer to each other than the coordinates can tell apart is tried again within the
+//!   next coarser one of these tolerances, under the same limit to its area; a sketch that cannot be arranged is, too. Exact work is
+//!   refused instead: of what was never arranged nobody knows what welding changes.
 //!
 //! That it was done is the first repair of the list ([`RepairKind::ToleranceRaised`]), with the tolerance taken.
 
@@ -56,8 +57,6 @@ pub struct Healing<'a> {
     left: Vec<f64>,
     /// The one that was taken last; 0 before.
     taken: f64,
-    vertices: [f64; 2],
-    area: f64,
     /// Areas of the kept regions, by name, within the finest tolerance that was arranged.
     areas: Option<Areas>,
 }
@@ -70,7 +69,7 @@ struct Why {
     what: String,
 }
 
-/// A domain, and the vertices that its slivers take at least.
+/// A domain, and the vertices that its slivers take at least; infinite where they are too many to be counted.
 struct Candidate {
     domain: Domain,
     vertices: f64,
@@ -80,16 +79,15 @@ impl<'a> Healing<'a> {
     pub fn new(drawing: &'a Drawing, request: &'a Request) -> Self {
         let diagonal = drawing.bounds().map_or(0.0, |b| libm::hypot(b.width(), b.height()));
         let simplified = request.min_edge.map(|edge| edge / 3.0);
-        let sketch = drawing.sketch || simplified.is_some();
         let parts = if drawing.sketch { &SKETCH[..] } else { &[EXACT] };
         let mut left: Vec<f64> = parts.iter().map(|part| part * diagonal).chain(simplified).collect();
         left.retain(|&t| 0.0 < t && t < diagonal / 4.0 && request.tolerance.is_none());
         left.sort_by(f64::total_cmp);
-        let (vertices, area) = match sketch {
-            true => (SKETCH_VERTICES, SKETCH_AREA),
-            false => (EXACT_VERTICES, EXACT_AREA),
-        };
-        Self { drawing, request, left, taken: 0.0, vertices, area, areas: None }
+        Self { drawing, request, left, taken: 0.0, areas: None }
+    }
+
+    fn is_sketch(&self) -> bool {
+        self.drawing.sketch || self.request.min_edge.is_some()
     }
 
     /// The drawing within the request's tolerance, or the finest that will do.
@@ -100,7 +98,7 @@ impl<'a> Healing<'a> {
         let domain = match self.arrange_within(self.request.tolerance, watch) {
             Ok(domain) if domain.regions().is_empty() => return Err(no_region()),
             Ok(domain) => domain,
-            Err(Unarranged::Invalid(error)) if error.near => {
+            Err(Unarranged::Invalid(error)) if error.near && self.is_sketch() => {
                 let why = Why { at: error.at, what: error.what.clone() };
                 return self.coarser(None, &why, watch)?.ok_or_else(|| error.into());
             }
@@ -111,7 +109,7 @@ impl<'a> Healing<'a> {
         }
         self.areas = Some(areas(&domain));
         let slivers = self.slivers(&domain, watch)?;
-        let finest = Candidate { vertices: sum(&slivers), domain };
+        let finest = self.candidate(domain, &slivers);
         let Some((_, dearest)) = slivers.iter().max_by(|a, b| a.0.total_cmp(&b.0)).filter(|_| !self.will_do(&finest))
         else {
             return Ok(finest.domain);
@@ -123,8 +121,7 @@ impl<'a> Healing<'a> {
         last.reverse();
         first.extend(last);
         self.left = first;
-        let vertices = finest.vertices;
-        let what = format!("slivers between curves would take {vertices:.1e} vertices or more");
+        let what = format!("slivers between curves would take {:.1e} vertices or more", sum(&slivers));
         let why = Why { at: dearest.at, what };
         Ok(self.coarser(Some(finest), &why, watch)?.expect("there was one to begin with"))
     }
@@ -135,7 +132,6 @@ impl<'a> Healing<'a> {
     /// Where the watch says stop.
     pub fn retreat(&mut self, failure: &FailureReport, watch: &mut Watch) -> Result<Option<Domain>, FailureReport> {
         let [x, y] = failure.at.unwrap_or_default();
-        self.area = SKETCH_AREA;
         self.left.retain(|&tolerance| tolerance != self.taken);
         self.coarser(None, &Why { at: Point::new(x, y), what: failure.what.clone() }, watch)
     }
@@ -154,13 +150,13 @@ impl<'a> Healing<'a> {
                 Err(stopped) => return Err(stopped.into()),
             };
             domain.itemise_first(why.repair(tolerance));
-            let vertices = sum(&self.slivers(&domain, watch)?);
-            let candidate = Candidate { domain, vertices };
+            let slivers = self.slivers(&domain, watch)?;
+            let candidate = self.candidate(domain, &slivers);
             if self.will_do(&candidate) {
                 self.taken = tolerance;
                 return Ok(Some(candidate.domain));
             }
-            if best.as_ref().is_none_or(|best| candidate.vertices < WORTH * best.vertices) {
+            if best.as_ref().is_none_or(|best| candidate.vertices <= WORTH * best.vertices) {
                 self.taken = tolerance;
                 best = Some(candidate);
                 if self.left.last().is_some_and(|&last| last < tolerance) {
@@ -172,12 +168,19 @@ impl<'a> Healing<'a> {
         Ok(best.map(|best| best.domain))
     }
 
+    fn candidate(&self, domain: Domain, slivers: &[(f64, Sliver)]) -> Candidate {
+        let vertices = sum(slivers);
+        let counted = vertices <= COUNTED * self.enough(&domain);
+        Candidate { domain, vertices: if counted { vertices } else { f64::INFINITY } }
+    }
+
     fn will_do(&self, candidate: &Candidate) -> bool {
         candidate.vertices <= self.enough(&candidate.domain)
     }
 
     fn enough(&self, domain: &Domain) -> f64 {
-        self.vertices[0] + self.vertices[1] * domain.curves().len() as f64
+        let [few, per_curve] = if self.is_sketch() { SKETCH_VERTICES } else { EXACT_VERTICES };
+        few + per_curve * domain.curves().len() as f64
     }
 
     fn slivers(&self, domain: &Domain, watch: &mut Watch) -> Result<Vec<(f64, Sliver)>, Stopped> {
@@ -187,9 +190,10 @@ impl<'a> Healing<'a> {
     /// Whether the regions of a domain are what they are within the finest tolerance.
     fn is_alike(&self, domain: &Domain) -> bool {
         let Some(finest) = &self.areas else { return !domain.regions().is_empty() };
+        let part = if self.is_sketch() { SKETCH_AREA } else { EXACT_AREA };
         let mut moved = areas(domain);
         finest.iter().for_each(|(&name, area)| *moved.entry(name).or_default() -= area);
-        moved.values().map(|change| change.abs()).sum::<f64>() <= self.area * finest.values().sum::<f64>()
+        moved.values().map(|change| change.abs()).sum::<f64>() <= part * finest.values().sum::<f64>()
     }
 
     fn arrange_within(&self, tolerance: Option<f64>, watch: &mut Watch) -> Result<Domain, Unarranged> {

@@ -21,6 +21,10 @@ const SLOW: f64 = 16.0;
 /// In the middle of such a contact they are within this part of their widest distance: less than straight lines would be.
 const BENT: f64 = 0.375;
 
+/// Pieces that cross within the tolerance of a common end begin up to so many times as far from it, and no farther than this part of the tolerance.
+const BEYOND: f64 = 16.0;
+const BEYOND_REACH: f64 = 0.9;
+
 /// A hook turns at least so far within this part of the tolerance: a disc that is wider than the tolerance has none.
 const HOOK_RAD: f64 = 0.05;
 const HOOK: f64 = 0.0625;
@@ -590,6 +594,7 @@ impl Network<'_> {
             let [on_a, on_b] = [0, 1].map(|k| self.site(ids[k], ts[k], self.pieces[ids[k]].curve.point(ts[k])));
             match (on_a, on_b) {
                 (Site::End(m), Site::End(n)) if m == n => {
+                    let ts = self.beyond(ids, ts, m);
                     for (piece, t) in ids.into_iter().zip(ts).filter(|&(_, t)| 0.0 < t && t < 1.0) {
                         let at = self.pieces[piece].curve.point(t);
                         found.cuts.push(Cut { piece, t, at, node: m });
@@ -599,6 +604,20 @@ impl Network<'_> {
             }
         }
         Ok(())
+    }
+
+    /// Where two pieces that cross near a node are to begin: farther from it than where they cross, as far as the tolerance goes. What is left of
+    /// them turns a little as it is moved to the node, and so would cross again, somewhat nearer; farther away they have parted.
+    fn beyond(&self, ids: [CurveId; 2], ts: [f64; 2], node: PointId) -> [f64; 2] {
+        let away = |k: usize, t: f64| self.pieces[ids[k]].curve.point(t).distance(self.nodes[node].at);
+        let reach = BEYOND_REACH * self.tolerances.weld;
+        let times = (reach / away(0, ts[0]).max(away(1, ts[1]))).min(BEYOND);
+        let farther = [0, 1].map(|k| {
+            let end = if self.pieces[ids[k]].ends[0] == node { 0.0 } else { 1.0 };
+            end + times * (ts[k] - end)
+        });
+        let is_near = |k: usize| (0.0..=1.0).contains(&farther[k]) && away(k, farther[k]) <= self.tolerances.weld;
+        if times > 1.0 && is_near(0) && is_near(1) { farther } else { ts }
     }
 
     fn meetings_of(&self, a: CurveId, b: CurveId, tolerance: f64) -> Result<Meetings, ArrangeError> {

@@ -3,10 +3,10 @@
 /// Digits that no picture needs: pens, screens and single precision end at nine, careful programs write twelve.
 const EXACT_DIGITS: usize = 13;
 
-/// Part of a file's numbers that are exact in a picture too: sums that a program left as they came out.
-const STRAY: f64 = 0.01;
+/// Part of a file's numbers that are exact in a picture too: sums that a program left as they came out, a symbol that it computed.
+const STRAY: f64 = 0.1;
 
-/// Whether next to no number of a file has more digits than pictures need.
+/// Whether few numbers of a file have more digits than pictures need.
 pub(super) fn is_sketch(text: &str) -> bool {
     let counts = significant_digits(text);
     let exact = counts.iter().filter(|&&digits| digits >= EXACT_DIGITS).count();
