@@ -50,6 +50,7 @@ impl Mesh {
         let written = self.write(&outputs, &input, &request, &mut outcome);
         if let Some(failure) = &outcome.report.failure {
             say::failure(failure, Some(&input));
+            say::notes(&outcome.report.input.notes, volume);
         }
         let wrote = written?;
         say::summary(&outcome, &wrote, volume);

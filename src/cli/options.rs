@@ -7,8 +7,8 @@ use serde::{Deserialize, Serialize};
 use squinch::import::Format;
 use squinch::pipeline::Exit;
 use squinch::request::{
-    BallShrinking, ChordError, EdgeTurning, Engine, FillChoice, Keep, MaxTurning, Midpoint, Order, Request, SizeOf,
-    Steiner, Strokes, Switch, TrailingEdge,
+    BallShrinking, ChordError, EdgeTurning, Engine, FillChoice, Keep, MaxTurning, Midpoint, Order, Overlap, Request,
+    SizeOf, Steiner, Strokes, Switch, TrailingEdge,
 };
 use squinch::size::Given;
 use std::path::{Path, PathBuf};
@@ -69,6 +69,9 @@ pub struct Options {
     /// What becomes of strokes: auto makes centre lines where nothing is filled [default: auto]
     #[arg(long, value_enum, value_name = "HOW", help_heading = "Input")]
     strokes: Option<Strokes>,
+    /// Filled shapes that overlap: the topmost has it all, or each overlap is a region named by all of its shapes [default: paint]
+    #[arg(long, value_enum, value_name = "HOW", help_heading = "Input")]
+    overlap: Option<Overlap>,
     /// all: adds a box named `box` and keeps every bounded face [default: inside]
     #[arg(long, value_enum, value_name = "WHAT", help_heading = "Input")]
     keep: Option<Keep>,
