@@ -4,7 +4,7 @@ mod healing;
 
 use crate::domain::{ArrangeError, Domain, DomainCurve, Drawing, DrawnCurve, Repair, SizeRequest, Unarranged};
 use crate::geometry::{Point, metres};
-use crate::ids::Id;
+use crate::ids::{Id, PointId, VertexId};
 use crate::import::{self, AirfoilOptions, Format, ImportError, SvgOptions};
 use crate::mesh::Mesh;
 use crate::mesh::elevate::elevate;
@@ -173,6 +173,9 @@ impl Outcome {
         let mut mesh = mesh.ok_or_else(|| no_mesh(&stop, more))?;
         mesh.unit = drawing.unit.as_ref().map(|(unit, _)| unit.clone());
         mesh.frame = drawing.frame;
+        let name_of = |&(point, node): &(PointId, VertexId)| Some((node, *domain.point_names().get(&point)?));
+        mesh.named_nodes = mesh.points.iter().filter_map(name_of).collect();
+        mesh.named_nodes.sort_unstable();
         let straightened = match request.order {
             Order::First => Vec::new(),
             Order::Second => elevate(&mut mesh, &domain),

@@ -1004,6 +1004,37 @@ fn slivers_that_nobody_drew_on_purpose_are_welded_and_itemised() {
     assert_eq!(report["request"]["tolerance"], 1e-9);
 }
 
+#[test]
+fn overlaps_of_shapes_become_regions_where_asked_for() {
+    let bench = Bench::new("overlap");
+    let picture = r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 9 6">
+        <rect id="low" width="6" height="4"/><rect id="top" x="4" y="2" width="5" height="4"/></svg>"#;
+    fs::write(bench.0.join("boxes.svg"), picture).unwrap();
+    let regions = |more: &[&str]| -> Vec<(String, f64)> {
+        bench.ends(0, &[&["mesh", "boxes.svg", "-o", "a.vtu", "--report", "r.json"], more].concat());
+        bench.ends(0, &["check", "a.vtu", "--against", "boxes.svg"]);
+        let of = |r: &serde_json::Value| (r["name"].as_str().unwrap().to_owned(), r["measure"].as_f64().unwrap());
+        bench.report("r.json")["mesh"]["regions"].as_array().unwrap().iter().map(of).collect()
+    };
+    let near = |found: Vec<(String, f64)>, wanted: &[(&str, f64)]| {
+        assert_eq!(found.len(), wanted.len(), "{found:?}");
+        let same = |(f, w): (&(String, f64), &(&str, f64))| f.0 == w.0 && (f.1 - w.1).abs() < 1e-9;
+        assert!(found.iter().zip(wanted).all(same), "{found:?}");
+    };
+    near(regions(&[]), &[("low", 20.0), ("top", 20.0)]);
+    near(regions(&["--overlap", "fragment"]), &[("low", 20.0), ("top", 16.0), ("top+low", 4.0)]);
+}
+
+#[test]
+fn what_a_format_does_not_hold_is_said_of_a_run_too() {
+    let bench = Bench::new("losses");
+    let output = bench.ends(0, &["mesh", "lens.json", "-o", "a.vtu", "-o", "a.png", "-o", "a.su2"]);
+    let lost: Vec<_> = said(&output).lines().filter(|l| l.contains("not kept")).map(str::to_owned).collect();
+    let wanted = ["the unit: coordinates stay as they are", "links to curves and protecting balls"];
+    assert_eq!(lost, wanted.map(|what| format!("  not kept by su2: {what}")));
+    assert!(said(&bench.ends(0, &["mesh", "lens.json", "-o", "a.su2", "--quiet"])).is_empty());
+}
+
 /// A plate with a near-miss of every kind, each below the default tolerances (5e-9, and 5e-6 for ends that meet nothing): and a notch
 /// drawn twice, which is no miss.
 const NEAR_MISSES: &str = r#"{ "squinch": 1, "curves": [
@@ -1059,6 +1090,13 @@ fn a_tolerance_of_0_heals_nothing_and_reports_what_it_leaves() {
     let mut all: Vec<_> = missed.iter().map(|&m| m.to_owned()).chain(places_of(&left["repairs"])).collect();
     all.sort();
     assert_eq!(places_of(&healed["repairs"]), all);
+    // Pictures show both.
+    for stage in ["drawing", "domain"] {
+        bench.ends(0, &["draw", "near.json", "--stage", stage, "--tolerance", "0", "-o", "x.svg"]);
+        let picture = bench.text("x.svg");
+        assert!(picture.contains("id=\"repairs\"") && picture.contains(">left as it is: 1 gap closed<"), "{stage}");
+        assert!(picture.contains(">1 duplicate dropped<") && picture.contains(">1 split<"), "{stage}");
+    }
     // A run reports the same, and says so; where it comes to no mesh too.
     let run = ["mesh", "near.json", "-o", "a.vtu", "--tolerance", "0", "--min-edge", "0.1", "--report", "r.json"];
     let output = bench.ends(0, &run);
@@ -1067,7 +1105,8 @@ fn a_tolerance_of_0_heals_nothing_and_reports_what_it_leaves() {
     let triangle = r#"{ "squinch": 1, "curves": [ { "name": "a", "line": [[0, 0], [1, 0]] },
         { "name": "a", "line": [[1, 0], [0, 1]] }, { "name": "a", "line": [[0, 1], [-1e-7, 1e-7]] } ] }"#;
     fs::write(bench.0.join("ajar.json"), triangle).unwrap();
-    bench.ends(4, &["mesh", "ajar.json", "-o", "b.vtu", "--tolerance", "0", "--report", "r.json"]);
+    let output = bench.ends(4, &["mesh", "ajar.json", "-o", "b.vtu", "--tolerance", "0", "--report", "r.json"]);
+    assert!(said(&output).contains("unhealed  by default there would be 1 gap closed"), "{}", said(&output));
     assert_eq!(places_of(&bench.report("r.json")["input"]["unhealed"]), ["gap_closed 0.000000 0.000000"]);
 }
 

@@ -60,7 +60,7 @@ pub struct Options {
     #[arg(long, value_name = "1|2", allow_hyphen_values = true, help_heading = "Bounds")]
     order: Option<Order>,
 
-    /// Welding distance; 0 heals nothing [default: 1e-9 of the diagonal, or up to 1e-4 (SVG) or 1e-6 where slivers would take too many vertices; ends that meet nothing else: 1e-6]
+    /// Welding distance; 0 heals nothing, and lists what it leaves as `unhealed` [default: 1e-9 of the diagonal, or up to 1e-4 (SVG) or 1e-6 where slivers would take too many vertices; ends that meet nothing else: 1e-6]
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, help_heading = "Input")]
     tolerance: Option<f64>,
     /// Which faces are inside [default: auto, the file's own rule]
@@ -95,8 +95,8 @@ pub struct Options {
     #[arg(long, value_name = "DEG", allow_hyphen_values = true, help_heading = "Airfoils")]
     incidence: Option<f64>,
 
-    /// The planar face to mesh, by its entity number or name, or largest [default: largest]
-    #[arg(long, value_name = "ID|NAME|largest", help_heading = "Solids")]
+    /// The planar face to mesh, by its entity number or name, or largest; with batch, all gives each a mesh of its own [default: largest]
+    #[arg(long, value_name = "ID|NAME|largest|all", help_heading = "Solids")]
     face: Option<String>,
 
     /// Vertices after which refinement stops [default: 5000000]

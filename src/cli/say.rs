@@ -5,10 +5,12 @@ use super::{Halt, Volume};
 use indicatif::{ProgressBar, ProgressStyle};
 use miette::{LabeledSpan, MietteDiagnostic, NamedSource};
 use squinch::domain::{Repair, RepairKind};
+use squinch::export::Format;
+use squinch::mesh::Mesh;
 use squinch::mesh::verify::{Check, Excuse, Status, Verdict};
 use squinch::pipeline::{Exit, Outcome};
 use squinch::refine::StopReason;
-use squinch::report::{FailureReport, Report};
+use squinch::report::{FailureReport, InputReport, Report};
 use squinch::watch::Progress;
 use std::collections::BTreeMap;
 use std::io::{self, IsTerminal, Write};
@@ -97,15 +99,24 @@ pub fn failure(report: &FailureReport, input: Option<&Input>) {
 }
 
 /// What was noticed of an input that failed, as far as a few lines tell it: it may be why.
-pub fn notes(notes: &[String], volume: Volume) {
+pub fn remarks(input: &InputReport, volume: Volume) {
     const FEW: usize = 4;
     // Otherwise nothing is said of it, or all.
     if volume != Volume::Normal {
         return;
     }
-    notes.iter().take(FEW).for_each(|note| line(&format!("  {} {note}", Ink::stderr().dim("note:"))));
-    if notes.len() > FEW {
-        line(&format!("  and {} (-v lists them)", plural(notes.len() - FEW, "note more", "notes more")));
+    let row = |name: &str, text: &str| line(&format!("  {}  {text}", Ink::stderr().dim(&format!("{name:<8}"))));
+    input.notes.iter().take(FEW).for_each(|note| row("note", note));
+    if input.notes.len() > FEW {
+        row("", &format!("and {} (-v lists them)", plural(input.notes.len() - FEW, "note more", "notes more")));
+    }
+    repair_rows(&[], &input.unhealed, volume, &mut |name, text| row(name, text));
+}
+
+/// What of a mesh a format does not hold.
+pub fn losses(format: Format, mesh: &Mesh, volume: Volume) {
+    if volume > Volume::Quiet {
+        format.losses(mesh).iter().for_each(|loss| line(&format!("  not kept by {}: {loss}", format.name())));
     }
 }
 
