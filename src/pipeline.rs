@@ -2,9 +2,9 @@
 
 mod healing;
 
-use crate::domain::{ArrangeError, Domain, DomainCurve, Drawing, DrawnCurve, SizeRequest, Unarranged};
+use crate::domain::{ArrangeError, Domain, DomainCurve, Drawing, DrawnCurve, Repair, SizeRequest, Unarranged};
 use crate::geometry::{Point, metres};
-use crate::ids::Id;
+use crate::ids::{Id, PointId, VertexId};
 use crate::import::{self, AirfoilOptions, Format, ImportError, SvgOptions};
 use crate::mesh::Mesh;
 use crate::mesh::elevate::elevate;
@@ -141,7 +141,9 @@ impl Outcome {
         let mut clock = Clock::start();
         let more = if steps.is_none() { "--timeout" } else { "--until" };
         let mut healing = Healing::new(drawing, request);
-        let mut arranged = healing.arrange(watch)?;
+        let arranged = healing.arrange(watch);
+        self.report.input.unhealed = unhealed(drawing, request, &mut self.report.input.notes, watch);
+        let mut arranged = arranged?;
         let (domain, plan, refined) = loop {
             self.report.input.repairs = arranged.repairs().to_vec();
             let (domain, plan) = Plan::new(drawing, &arranged, request, watch)?;
@@ -171,6 +173,9 @@ impl Outcome {
         let mut mesh = mesh.ok_or_else(|| no_mesh(&stop, more))?;
         mesh.unit = drawing.unit.as_ref().map(|(unit, _)| unit.clone());
         mesh.frame = drawing.frame;
+        let name_of = |&(point, node): &(PointId, VertexId)| Some((node, *domain.point_names().get(&point)?));
+        mesh.named_nodes = mesh.points.iter().filter_map(name_of).collect();
+        mesh.named_nodes.sort_unstable();
         let straightened = match request.order {
             Order::First => Vec::new(),
             Order::Second => elevate(&mut mesh, &domain),
@@ -371,6 +376,17 @@ fn scaled(mut drawing: Drawing, factor: f64) -> Drawing {
 /// Drawing → domain, as long as `watch` says to go on, within the request's tolerance or the one that [`Healing`] takes.
 pub fn arrange(drawing: &Drawing, request: &Request, watch: &mut Watch) -> Result<Domain, FailureReport> {
     Healing::new(drawing, request).arrange(watch)
+}
+
+/// Where the request says to heal nothing: what the default tolerance would have mended. A note where that cannot be told.
+pub fn unhealed(drawing: &Drawing, request: &Request, notes: &mut Vec<String>, watch: &mut Watch) -> Vec<Repair> {
+    if request.tolerance != Some(0.0) {
+        return Vec::new();
+    }
+    drawing.unhealed(watch).unwrap_or_else(|why| {
+        notes.push(format!("--tolerance 0: it cannot be told what the default would heal: {why}"));
+        Vec::new()
+    })
 }
 
 impl From<ArrangeError> for FailureReport {

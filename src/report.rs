@@ -49,6 +49,8 @@ pub struct InputReport {
     pub skipped: Vec<Skipped>,
     pub notes: Vec<String>,
     pub repairs: Vec<Repair>,
+    /// Where nothing is to be healed (`tolerance` 0): what the default would have mended, as `repairs` would list it.
+    pub unhealed: Vec<Repair>,
 }
 
 impl InputReport {
@@ -100,6 +102,7 @@ pub struct RequestReport {
     pub tolerance: Option<f64>,
     pub fill_rule: String,
     pub strokes: String,
+    pub overlap: String,
     pub keep: String,
     pub unit: Option<String>,
     pub scale: f64,
@@ -144,6 +147,7 @@ impl RequestReport {
             tolerance: None,
             fill_rule: word(&request.fill_rule),
             strokes: word(&request.strokes),
+            overlap: word(&request.overlap),
             keep: word(&request.keep),
             unit: request.unit.clone(),
             scale: request.scale.unwrap_or(1.0),

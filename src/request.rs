@@ -54,6 +54,7 @@ pub struct Request {
     pub tolerance: Option<f64>,
     pub fill_rule: FillChoice,
     pub strokes: Strokes,
+    pub overlap: Overlap,
     pub keep: Keep,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub unit: Option<String>,
@@ -107,6 +108,7 @@ impl Default for Request {
             tolerance: None,
             fill_rule: FillChoice::Auto,
             strokes: Strokes::Auto,
+            overlap: Overlap::Paint,
             keep: Keep::Inside,
             unit: None,
             scale: None,
@@ -373,6 +375,16 @@ pub enum Strokes {
     Lines,
     /// Left out.
     Ignore,
+}
+
+/// What becomes of overlapping shapes of a picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Overlap {
+    /// By paint order: the topmost shape has it all, under its name.
+    Paint,
+    /// Every set of shapes has a region of its own, named by all of them, the topmost first: leaf+stem.
+    Fragment,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]

@@ -451,7 +451,7 @@ fn curves_that_part_slowly_are_one_within_a_tolerance_that_was_asked_for() {
     let drawing = drawing(curves);
     let whole = regions(&drawing);
     assert_eq!(repairs(&whole, RepairKind::Overlap), 0);
-    let options = ArrangeOptions { tolerance: Some(1e-4), fill: Some(FillRule::Regions), keep_all: false };
+    let options = ArrangeOptions { tolerance: Some(1e-4), fill: Some(FillRule::Regions), ..ArrangeOptions::default() };
     let zipped = drawing.arrange(&options).unwrap();
     assert_eq!(zipped.flaws(), [""; 0]);
     assert!(repairs(&zipped, RepairKind::Overlap) > 0, "{:?}", zipped.repairs());
@@ -506,7 +506,11 @@ fn what_is_wider_than_the_tolerance_keeps_its_shape() {
     let tolerance = 0.25;
     for ratio in [1.05, 1.2, 1.42, 1.6, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 16.0, 25.0, 50.0] {
         for (kind, outline, area) in outlines(ratio * tolerance) {
-            let options = ArrangeOptions { tolerance: Some(tolerance), fill: Some(FillRule::Regions), keep_all: false };
+            let options = ArrangeOptions {
+                tolerance: Some(tolerance),
+                fill: Some(FillRule::Regions),
+                ..ArrangeOptions::default()
+            };
             let domain = in_a_plate(&outline).arrange(&options).unwrap();
             assert_eq!(domain.flaws(), [""; 0], "{kind} {ratio}");
             let found = areas(&domain);
@@ -524,7 +528,11 @@ fn what_fits_within_the_tolerance_is_itemised_with_place_and_size() {
     let tolerance = 2.0;
     for ratio in [0.05, 0.3, 0.5, 0.7, 0.8, 0.9, 0.99] {
         for (kind, outline, area) in outlines(ratio * tolerance) {
-            let options = ArrangeOptions { tolerance: Some(tolerance), fill: Some(FillRule::Regions), keep_all: false };
+            let options = ArrangeOptions {
+                tolerance: Some(tolerance),
+                fill: Some(FillRule::Regions),
+                ..ArrangeOptions::default()
+            };
             let domain = in_a_plate(&outline).arrange(&options).unwrap();
             assert_eq!(domain.flaws(), [""; 0], "{kind} {ratio}");
             let told =
@@ -546,7 +554,8 @@ fn a_ring_of_lines_shorter_than_the_tolerance_is_thinned_not_lost() {
             (50.0 + ratio * libm::cos(TAU * f64::from(i) / 400.0), 50.0 + ratio * libm::sin(TAU * f64::from(i) / 400.0))
         };
         let ring = polygon(&(0..n).map(around).collect::<Vec<_>>());
-        let options = ArrangeOptions { tolerance: Some(2.0), fill: Some(FillRule::Regions), keep_all: false };
+        let options =
+            ArrangeOptions { tolerance: Some(2.0), fill: Some(FillRule::Regions), ..ArrangeOptions::default() };
         let domain = in_a_plate(&ring).arrange(&options).unwrap();
         assert_eq!(domain.flaws(), [""; 0]);
         let found = areas(&domain);
@@ -839,7 +848,11 @@ fn heaps_far_from_the_origin_turned_or_drawn_nearly_twice_have_no_flaw() {
 fn a_coarse_tolerance_keeps_every_promise() {
     for seed in 0..12 {
         for tolerance in [0.0, 1e-3, 0.02] {
-            let options = ArrangeOptions { tolerance: Some(tolerance), fill: Some(FillRule::Regions), keep_all: false };
+            let options = ArrangeOptions {
+                tolerance: Some(tolerance),
+                fill: Some(FillRule::Regions),
+                ..ArrangeOptions::default()
+            };
             let domain = drawing(heap(seed, seed % 3 == 0)).arrange(&options).unwrap();
             assert_eq!(domain.flaws(), [""; 0], "seed {seed}, tolerance {tolerance}");
         }

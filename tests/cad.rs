@@ -534,6 +534,32 @@ fn the_largest_face_is_read_unless_another_is_asked_for() {
 }
 
 #[test]
+fn a_batch_meshes_every_face_where_it_is_asked_to() {
+    let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("cad-every-face");
+    let _ = std::fs::remove_dir_all(&folder); // left by an earlier run, if at all
+    std::fs::create_dir_all(&folder).unwrap();
+    let step = two_faces();
+    let faces = step.faces.clone();
+    std::fs::write(folder.join("part.step"), step.text()).unwrap();
+    std::fs::write(folder.join("broken.step"), "ISO-10303-21;\nHEADER;\n").unwrap();
+    let arguments = ["batch", "part.step", "broken.step", "--out-dir", "out", "--format", "vtu", "--face", "all"];
+    let program = || std::process::Command::new(env!("CARGO_BIN_EXE_squinch"));
+    let output = program().current_dir(&folder).args(arguments).output().unwrap();
+    assert_eq!(output.status.code(), Some(1), "the broken file fails alone");
+    let lines = String::from_utf8(output.stdout).unwrap();
+    let lines: Vec<serde_json::Value> = lines.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    let ends: Vec<_> = lines.iter().map(|l| (l["input"].as_str().unwrap().to_owned(), l["exit"].as_u64())).collect();
+    let mut wanted: Vec<_> = faces.iter().map(|face| (format!("part.step#{face}"), Some(0))).collect();
+    wanted.push(("broken.step".into(), Some(3)));
+    assert_eq!(ends, wanted);
+    for face in faces {
+        assert!(folder.join(format!("out/part-face{face}.vtu")).exists(), "{face}");
+    }
+    let again = program().current_dir(&folder).args(arguments).arg("--resume").output().unwrap();
+    assert_eq!(String::from_utf8(again.stdout).unwrap(), "", "what is done is not done again");
+}
+
+#[test]
 fn units_are_told_and_converted() {
     let mut step = plate(Turned::default());
     step.unit = "(CONVERSION_BASED_UNIT('INCH',#inch)LENGTH_UNIT()NAMED_UNIT(*))";

@@ -238,6 +238,32 @@ fn empty_meshes_are_whole_files_or_refused() {
 }
 
 #[test]
+fn named_nodes_are_physical_points_of_gmsh_and_said_to_be_lost_elsewhere() {
+    let mut mesh = strip(2, PLAIN);
+    let [tip, sensor] = ["tip", "sensor"].map(|name| mesh.names.intern(name));
+    // Inside a region, on a boundary, and two of one name.
+    mesh.named_nodes = vec![(VertexId(0), tip), (VertexId(4), sensor), (VertexId(8), tip)];
+    let text = String::from_utf8(encode(&mesh, None, &[], Format::Msh22).expect("written").remove(0)).expect("text");
+    // Two regions and three boundaries come before.
+    assert!(text.contains("0 6 \"tip\"") && text.contains("0 7 \"sensor\""), "{text}");
+    let points: Vec<&str> = text.lines().filter(|line| line.split(' ').nth(1) == Some("15")).collect();
+    let last = mesh.edges.len() + mesh.triangles.len();
+    let wanted =
+        [(1, 6, 1), (2, 7, 5), (3, 6, 9)].map(|(k, tag, node)| format!("{} 15 2 {tag} {tag} {node}", last + k));
+    assert_eq!(points, wanted);
+    for format in [Format::Msh, Format::Msh22] {
+        let back = around(&mesh, format).mesh;
+        assert_eq!((shape(&back), back.nodes.len()), (shape(&mesh), mesh.nodes.len()), "{format:?}");
+    }
+    for format in READ_BACK {
+        let told = format.losses(&mesh).contains(&"names of points");
+        assert_eq!(told, !matches!(format, Format::Msh | Format::Msh22), "{format:?}");
+    }
+    mesh.named_nodes = vec![(VertexId(999), tip)];
+    assert!(encode(&mesh, None, &[], Format::Msh).is_err());
+}
+
+#[test]
 fn lists_that_do_not_fit_are_refused() {
     let right = strip(2, PLAIN);
     let wrong = [

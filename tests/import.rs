@@ -587,6 +587,13 @@ fn without_segments_the_domain_is_the_convex_hull() {
 }
 
 #[test]
+fn a_poly_file_that_ends_before_its_segments_is_refused_there() {
+    let cut = "3 2 0 0\n1 0 0\n2 4 0\n3 4 4\n";
+    let error = read(cut.as_bytes(), Format::Poly, "stem", &Options::default()).unwrap_err();
+    assert_eq!((error.what.as_str(), error.line), ("the file ends before the count of the segments", Some(4)));
+}
+
+#[test]
 fn the_hull_holds_every_point() {
     let mut state = 7u64;
     let mut random = || {

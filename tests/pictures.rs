@@ -3,7 +3,7 @@
 
 use squinch::canvas::Canvas;
 use squinch::curve::Curve;
-use squinch::domain::{ArrangeOptions, Drawing, Seed, SeedKind};
+use squinch::domain::{ArrangeOptions, Drawing, Repair, RepairKind, Seed, SeedKind};
 use squinch::export::picture::{MeshColour, PictureOptions, picture_of_domain, picture_of_drawing, picture_of_mesh};
 use squinch::geometry::{Point, Rect};
 use squinch::ids::{CurveId, PointId, RegionId, VertexId};
@@ -154,4 +154,48 @@ fn a_layer_too_large_for_text_becomes_an_image() {
     let options = PictureOptions { width_px: 200, ..PictureOptions::default() };
     let svg = picture_of_mesh(&mesh, None, MeshColour::Quality, &options).svg().expect("text");
     assert!(svg.contains("data:image/png;base64,") && svg.len() < 1_000_000, "{} bytes", svg.len());
+}
+
+#[test]
+fn every_kind_of_repair_has_a_marker_and_a_crowd_has_one_with_its_number() {
+    let kinds = [
+        RepairKind::ToleranceRaised,
+        RepairKind::Weld,
+        RepairKind::GapClosed,
+        RepairKind::Split,
+        RepairKind::SelfSplit,
+        RepairKind::Corner,
+        RepairKind::Duplicate,
+        RepairKind::Overlap,
+        RepairKind::ZeroLength,
+        RepairKind::Collapsed,
+        RepairKind::Seed,
+    ];
+    let repair = |kind, x: f64, y: f64| Repair { kind, at: [x, y], size: 0.0, what: String::new() };
+    let row = |y: f64| (0..).map(f64::from).zip(kinds).map(move |(x, kind)| repair(kind, 0.4 + 0.5 * x, y)).collect();
+    let mut repairs: Vec<Repair> = row(0.3);
+    repairs.extend((0..20_000).map(|k| repair(RepairKind::Split, 3.0 + 1e-6 * f64::from(k), 1.0)));
+    repairs.push(repair(RepairKind::Weld, 3.005, 1.0));
+    let options = PictureOptions { width_px: 800, repairs, unhealed: row(2.5), ..PictureOptions::default() };
+    let picture = picture_of_drawing(&drawing(1.0), &options);
+    keep("repairs", &picture);
+    // 23 places in sight: one marker each, and one number.
+    let svg = picture.svg().expect("a small picture");
+    let layer = svg.split("id=\"repairs\"").nth(1).and_then(|rest| rest.split("</g>").next()).expect("a layer");
+    assert_eq!(layer.matches("<path").count(), 2 * 23);
+    assert_eq!(svg.matches(">×20001<").count(), 2, "a number on its rim");
+}
+
+#[test]
+fn many_repairs_do_not_drown_a_drawing() {
+    let repair = |k: u32| {
+        let at = [6.0 * f64::from(k % 200) / 200.0, 3.0 * f64::from(k / 200) / 100.0];
+        Repair { kind: RepairKind::Split, at, size: 0.0, what: String::new() }
+    };
+    let options = PictureOptions { repairs: (0..20_000).map(repair).collect(), ..PictureOptions::default() };
+    let svg = picture_of_drawing(&drawing(1.0), &options).svg().expect("a small picture");
+    let layer = svg.split("id=\"repairs\"").nth(1).and_then(|rest| rest.split("</g>").next()).expect("a layer");
+    let markers = layer.matches("<path").count() / 2;
+    assert!((50..=250).contains(&markers), "{markers}");
+    assert!(svg.contains("20\u{202f}000 splits"), "the legend has them all");
 }

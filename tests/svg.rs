@@ -2,7 +2,7 @@
 
 use proptest::prelude::*;
 use squinch::curve::Curve;
-use squinch::domain::{Drawing, FillRule};
+use squinch::domain::{ArrangeOptions, Drawing, FillRule};
 use squinch::geometry::Point;
 use squinch::import::{Format, ImportError, Options, Strokes, SvgOptions, format_of, read};
 use std::f64::consts::PI;
@@ -226,8 +226,18 @@ fn a_path_is_drawn_up_to_its_error() {
     let note = &drawing.notes[0];
     assert!(note.starts_with("path \"p\" (line 2): drawn up to the error in its data at line 3, column 20"), "{note}");
     near_all(&areas(&svg("<path d='M10 10H20V20A1 1 0 2 0 9 9'/>")), &[-50.0]);
-    let none = svg("<path d='L10 10H20V20'/>");
-    assert!(none.curves.is_empty() && none.notes.len() == 1);
+    assert_eq!(left_out(&drawing), ["1 path: in part: what follows an error in its data"]);
+    // Of others there is something to draw.
+    let other = svg("<path d='L10 10H20V20'/><rect width='1' height='1'/>");
+    assert!(other.curves.len() == 4 && other.notes.len() == 1);
+}
+
+#[test]
+fn a_drawing_of_nothing_but_errors_is_refused_at_the_first() {
+    let error =
+        refused("<svg xmlns='http://www.w3.org/2000/svg'>\n <path id='p' d='M0 0\n L 5,x 7'/><path d='z'/></svg>");
+    assert_eq!((error.line, error.column), (Some(3), Some(6)), "{error:?}");
+    assert!(error.what.starts_with("path \"p\" (line 2) has an error in its data"), "{error:?}");
 }
 
 #[test]
@@ -540,8 +550,58 @@ fn invisible_strokes_are_none() {
 #[test]
 fn the_error_of_an_empty_drawing_says_what_was_left_out() {
     let drawing = svg("<text>A</text>");
-    let error = drawing.arrange(&squinch::domain::ArrangeOptions::default()).unwrap_err();
+    let error = drawing.arrange(&ArrangeOptions::default()).unwrap_err();
     assert!(error.help.contains("1 text (text has no outlines here"), "{error:?}");
+}
+
+// ---- overlapping shapes ----
+
+/// Regions by name with their areas, of shapes that overlap.
+fn regions(drawing: &Drawing, fragments: bool) -> Vec<(String, f64)> {
+    let options = ArrangeOptions { fragments, ..ArrangeOptions::default() };
+    let domain = drawing.arrange(&options).expect("a domain");
+    domain.regions().iter().map(|r| (domain.name(r.name).to_owned(), r.area)).collect()
+}
+
+#[track_caller]
+fn regions_are(drawing: &Drawing, fragments: bool, wanted: &[(&str, f64)]) {
+    let found = regions(drawing, fragments);
+    assert_eq!(found.iter().map(|r| r.0.as_str()).collect::<Vec<_>>(), wanted.iter().map(|r| r.0).collect::<Vec<_>>());
+    near_all(&found.iter().map(|r| r.1).collect::<Vec<_>>(), &wanted.iter().map(|r| r.1).collect::<Vec<_>>());
+}
+
+#[test]
+fn overlapping_shapes_go_to_the_topmost_or_fall_into_fragments() {
+    let boxes = svg(r#"<rect id="a" width="6" height="4"/><rect id="b" x="4" y="2" width="6" height="4"/>
+        <rect id="c" x="5" width="6" height="10"/>"#);
+    regions_are(&boxes, false, &[("a", 18.0), ("b", 4.0), ("c", 60.0)]);
+    let fragments = [("a", 18.0), ("b", 2.0), ("c", 38.0), ("c+a", 2.0), ("c+b", 18.0), ("b+a", 2.0), ("c+b+a", 2.0)];
+    regions_are(&boxes, true, &fragments);
+    // Two unit circles, each through the center of the other, and a hole by the even-odd rule in the upper one.
+    let discs = svg(r#"<circle id="low" cx="10" cy="10" r="1"/>
+        <path id="top" fill-rule="evenodd" d="M10 10a1 1 0 1 1 2 0a1 1 0 1 1-2 0zm1.5 0a.25.25 0 1 0 .5 0a.25.25 0 1 0-.5 0"/>"#);
+    let (lens, hole) = (2.0 * PI / 3.0 - 0.75_f64.sqrt(), PI / 16.0);
+    regions_are(&discs, false, &[("low", PI - lens), ("top", PI - hole)]);
+    regions_are(&discs, true, &[("low", PI - lens), ("top", PI - lens - hole), ("top+low", lens)]);
+}
+
+#[test]
+fn names_of_fragments_are_distinct_and_bounded() {
+    // A layer may be called as a fragment would be, and several shapes may have one name.
+    let named = svg(r#"<rect id="a" width="3" height="1"/><rect id="b" x="2" width="3" height="1"/>
+        <rect id="b+a" x="9" width="1" height="1"/><g id="a"><rect x="20" width="2" height="1"/><rect x="21" width="2" height="1"/></g>"#);
+    regions_are(&named, true, &[("a", 5.0), ("b", 2.0), ("b+a", 1.0), ("b+a#2", 1.0)]);
+    let nested = |id: &dyn Fn(u32) -> String| {
+        let rect = |k: u32| format!(r#"<rect id="{}" x="{k}" width="{}" height="1"/>"#, id(k), 90 - 2 * k);
+        svg(&(0..12).map(rect).collect::<String>())
+    };
+    let innermost = |drawing: &Drawing| {
+        let innermost = |r: &(String, f64)| (r.1 - 68.0).abs() < 1e-9;
+        regions(drawing, true).into_iter().find(innermost).expect("the innermost").0
+    };
+    assert_eq!(innermost(&nested(&|k| format!("r{k}"))), "r11+r10+r9+r8+r7+r6+r5+r4+4 more");
+    let long = innermost(&nested(&|k| format!("{k:050}")));
+    assert_eq!(long, format!("{:050}+{:050}+10 more", 11, 10));
 }
 
 // ---- files ----

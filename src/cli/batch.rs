@@ -64,14 +64,41 @@ fn shard(text: &str) -> Result<Shard, String> {
 struct Job {
     input: PathBuf,
     name: PathBuf,
+    /// Of a solid whose faces are all meshed: the number of this one.
+    face: Option<u64>,
 }
 
 impl Job {
     /// The input as it is shown and recorded.
     fn shown(&self) -> String {
-        self.input.display().to_string()
+        let face = self.face.map_or_else(String::new, |face| format!("#{face}"));
+        format!("{}{face}", self.input.display())
+    }
+
+    /// What is asked of it.
+    fn request(&self, request: &Request) -> Request {
+        let given = request.face.clone().filter(|face| face != EVERY_FACE);
+        Request { face: self.face.map(|face| face.to_string()).or(given), ..request.clone() }
+    }
+
+    /// A job for each planar face of a solid; itself where there are none, or the file cannot be read.
+    fn by_faces(self, request: &Request, format: Option<import::Format>) -> Vec<Self> {
+        let read = || {
+            let drawing = pipeline::read(&open(&self, format).ok()?.source(), &self.request(request)).ok()?;
+            Some(drawing.faces)
+        };
+        // What is wrong with the file is told when its job is done.
+        let faces = case::caught(read).ok().flatten().unwrap_or_default();
+        if faces.is_empty() {
+            return vec![self];
+        }
+        let named = |id: u64| PathBuf::from(format!("{}-face{id}", self.name.display()));
+        faces.iter().map(|f| Job { input: self.input.clone(), name: named(f.id), face: Some(f.id) }).collect()
     }
 }
+
+/// `--face` where every planar face of a solid is to have a mesh of its own.
+const EVERY_FACE: &str = "all";
 
 /// As much stack as the main thread has on most systems.
 const STACK: usize = 8 << 20;
@@ -81,6 +108,9 @@ impl Batch {
         let start = Instant::now();
         let Resolved { request, input_format } = self.options.resolve()?;
         let mut jobs = jobs(&self.inputs)?;
+        if request.face.as_deref() == Some(EVERY_FACE) {
+            jobs = jobs.into_iter().flat_map(|job| job.by_faces(&request, input_format)).collect();
+        }
         let file = match self.shard {
             None => "batch.jsonl".to_owned(),
             Some(Shard { part, of }) => {
@@ -99,7 +129,7 @@ impl Batch {
             while let Some((k, job)) = Some(next.fetch_add(1, Ordering::Relaxed)).and_then(|k| Some((k, jobs.get(k)?)))
             {
                 let line = match desk.begin(&job.shown()) {
-                    Ok(()) => self.one(job, &request, input_format),
+                    Ok(()) => self.one(job, &job.request(&request), input_format),
                     Err(failure) => Line::failed(job.shown(), failure),
                 };
                 desk.end(k, &line);
@@ -222,7 +252,7 @@ fn jobs(inputs: &[PathBuf]) -> Result<Vec<Job>, Halt> {
         let count = taken.entry(name.clone()).or_default();
         *count += 1;
         let name = if *count == 1 { name } else { PathBuf::from(format!("{}-{count}", name.display())) };
-        Job { input, name }
+        Job { input, name, face: None }
     });
     Ok(named.collect())
 }

@@ -35,9 +35,7 @@ impl Convert {
         staged.commit().map_err(unwritable)?;
         if volume > Volume::Quiet {
             file.notes.iter().for_each(|note| say::line(&format!("  {}: {note}", input.path)));
-            for loss in format.losses(&file.mesh) {
-                say::line(&format!("  not kept by {}: {loss}", format.name()));
-            }
+            say::losses(format, &file.mesh, volume);
         }
         Ok(Exit::Done)
     }

@@ -41,9 +41,9 @@ pub struct Draw {
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Stage {
-    /// The curves as found, and where the first flaw is
+    /// The curves as found, what is mended in them or, with --tolerance 0, is not, and where the first flaw is
     Drawing,
-    /// Welded, split and named: regions, points, sharp corners
+    /// Welded, split and named: regions, points, sharp corners, and every repair by its kind
     Domain,
     /// The domain's curves cut to the largest turning
     Subcurves,
@@ -101,7 +101,12 @@ impl Draw {
         let watch: &mut Watch = &mut pipeline::timer(request);
         let drawing = pipeline::read(&input.source(), request)?;
         let arranged = pipeline::arrange(&drawing, request, watch);
-        let picture = self.picture(drawing.title.clone(), self.stage != Stage::Mesh);
+        let mut picture = self.picture(drawing.title.clone(), self.stage != Stage::Mesh);
+        if matches!(self.stage, Stage::Drawing | Stage::Domain) {
+            picture.repairs = arranged.as_ref().map(|domain| domain.repairs().to_vec()).unwrap_or_default();
+            // A picture shows no notes.
+            picture.unhealed = pipeline::unhealed(&drawing, request, &mut Vec::new(), watch);
+        }
         if self.stage == Stage::Drawing {
             let marks = arranged.err().and_then(mark).into_iter().collect();
             return Ok(picture_of_drawing(&drawing, &PictureOptions { marks, ..picture }));

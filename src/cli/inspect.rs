@@ -34,9 +34,11 @@ impl Inspect {
             Ok(drawing) => drawing,
             Err(failure) => return Err(Halt::Failure(Box::new(failure), Some(Box::new(input)))),
         };
-        let arranged = pipeline::arrange(&drawing, &request, &mut pipeline::timer(&request));
+        let watch = &mut pipeline::timer(&request);
+        let arranged = pipeline::arrange(&drawing, &request, watch);
         let unarranged = arranged.as_ref().err().map(|failure| failure.kind.exit());
-        let findings = Findings::new(&input.path, &drawing, arranged);
+        let mut findings = Findings::new(&input.path, &drawing, arranged);
+        findings.unhealed = pipeline::unhealed(&drawing, &request, &mut findings.notes, watch);
         let text = if self.json {
             serde_json::to_string_pretty(&findings).expect("findings are strings, numbers and lists of them") + "\n"
         } else {
@@ -70,6 +72,8 @@ struct Findings {
     skipped: Vec<Skipped>,
     notes: Vec<String>,
     repairs: Vec<Repair>,
+    /// With `--tolerance 0`: what the default would have mended.
+    unhealed: Vec<Repair>,
     flaws: Vec<Flaw>,
 }
 
@@ -136,6 +140,7 @@ impl Findings {
             skipped: drawing.skipped.clone(),
             notes: drawing.notes.clone(),
             repairs: arranged.as_ref().map(|d| d.repairs().to_vec()).unwrap_or_default(),
+            unhealed: Vec::new(),
             flaws,
         }
     }
@@ -187,11 +192,7 @@ impl Findings {
             row("left out", &format!("{} {}: {}", skipped.count, skipped.entity, skipped.why));
         }
         self.notes.iter().for_each(|note| row("note", note));
-        if volume == Volume::Verbose {
-            self.repairs.iter().for_each(|repair| row("repair", &say::repair_line(repair)));
-        } else if !self.repairs.is_empty() {
-            row("repairs", &format!("{} (-v lists them)", say::repair_kinds(&self.repairs)));
-        }
+        say::repair_rows(&self.repairs, &self.unhealed, volume, &mut row);
         for flaw in &self.flaws {
             let place = flaw.at.map_or_else(String::new, |at| format!(" at {}", say::place(at)));
             row("flaw", &format!("{}{place}", ink.red(&flaw.what)));

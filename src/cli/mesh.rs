@@ -50,9 +50,15 @@ impl Mesh {
         let written = self.write(&outputs, &input, &request, &mut outcome);
         if let Some(failure) = &outcome.report.failure {
             say::failure(failure, Some(&input));
+            say::remarks(&outcome.report.input, volume);
         }
         let wrote = written?;
         say::summary(&outcome, &wrote, volume);
+        if let (Some(mesh), false) = (&outcome.mesh, wrote.is_empty()) {
+            // That a picture holds no mesh goes without saying.
+            let files = outputs.iter().filter(|(_, format)| !matches!(format, Format::Svg | Format::Png));
+            files.for_each(|(_, format)| say::losses(*format, mesh, volume));
+        }
         if outcome.exit == Exit::Bug {
             write_case(&pipeline::ending(&outcome), "broken");
         }

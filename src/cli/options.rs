@@ -7,8 +7,8 @@ use serde::{Deserialize, Serialize};
 use squinch::import::Format;
 use squinch::pipeline::Exit;
 use squinch::request::{
-    BallShrinking, ChordError, EdgeTurning, Engine, FillChoice, Keep, MaxTurning, Midpoint, Order, Request, SizeOf,
-    Steiner, Strokes, Switch, TrailingEdge,
+    BallShrinking, ChordError, EdgeTurning, Engine, FillChoice, Keep, MaxTurning, Midpoint, Order, Overlap, Request,
+    SizeOf, Steiner, Strokes, Switch, TrailingEdge,
 };
 use squinch::size::Given;
 use std::path::{Path, PathBuf};
@@ -60,7 +60,7 @@ pub struct Options {
     #[arg(long, value_name = "1|2", allow_hyphen_values = true, help_heading = "Bounds")]
     order: Option<Order>,
 
-    /// Welding distance; 0 heals nothing [default: 1e-9 of the diagonal, or up to 1e-4 (SVG) or 1e-6 where slivers would take too many vertices; ends that meet nothing else: 1e-6]
+    /// Welding distance; 0 heals nothing, and lists what it leaves as `unhealed` [default: 1e-9 of the diagonal, or up to 1e-4 (SVG) or 1e-6 where slivers would take too many vertices; ends that meet nothing else: 1e-6]
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, help_heading = "Input")]
     tolerance: Option<f64>,
     /// Which faces are inside [default: auto, the file's own rule]
@@ -69,6 +69,9 @@ pub struct Options {
     /// What becomes of strokes: auto makes centre lines where nothing is filled [default: auto]
     #[arg(long, value_enum, value_name = "HOW", help_heading = "Input")]
     strokes: Option<Strokes>,
+    /// Filled shapes that overlap: the topmost has it all, or each overlap is a region named by all of its shapes [default: paint]
+    #[arg(long, value_enum, value_name = "HOW", help_heading = "Input")]
+    overlap: Option<Overlap>,
     /// all: adds a box named `box` and keeps every bounded face [default: inside]
     #[arg(long, value_enum, value_name = "WHAT", help_heading = "Input")]
     keep: Option<Keep>,
@@ -92,8 +95,8 @@ pub struct Options {
     #[arg(long, value_name = "DEG", allow_hyphen_values = true, help_heading = "Airfoils")]
     incidence: Option<f64>,
 
-    /// The planar face to mesh, by its entity number or name, or largest [default: largest]
-    #[arg(long, value_name = "ID|NAME|largest", help_heading = "Solids")]
+    /// The planar face to mesh, by its entity number or name, or largest; with batch, all gives each a mesh of its own [default: largest]
+    #[arg(long, value_name = "ID|NAME|largest|all", help_heading = "Solids")]
     face: Option<String>,
 
     /// Vertices after which refinement stops [default: 5000000]

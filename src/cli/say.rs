@@ -5,10 +5,12 @@ use super::{Halt, Volume};
 use indicatif::{ProgressBar, ProgressStyle};
 use miette::{LabeledSpan, MietteDiagnostic, NamedSource};
 use squinch::domain::{Repair, RepairKind};
+use squinch::export::Format;
+use squinch::mesh::Mesh;
 use squinch::mesh::verify::{Check, Excuse, Status, Verdict};
 use squinch::pipeline::{Exit, Outcome};
 use squinch::refine::StopReason;
-use squinch::report::{FailureReport, Report};
+use squinch::report::{FailureReport, InputReport, Report};
 use squinch::watch::Progress;
 use std::collections::BTreeMap;
 use std::io::{self, IsTerminal, Write};
@@ -93,6 +95,28 @@ pub fn failure(report: &FailureReport, input: Option<&Input>) {
     error(&format!("{path}{}{place}", report.what));
     if !report.help.is_empty() {
         help(&report.help);
+    }
+}
+
+/// What was noticed of an input that failed, as far as a few lines tell it: it may be why.
+pub fn remarks(input: &InputReport, volume: Volume) {
+    const FEW: usize = 4;
+    // Otherwise nothing is said of it, or all.
+    if volume != Volume::Normal {
+        return;
+    }
+    let row = |name: &str, text: &str| line(&format!("  {}  {text}", Ink::stderr().dim(&format!("{name:<8}"))));
+    input.notes.iter().take(FEW).for_each(|note| row("note", note));
+    if input.notes.len() > FEW {
+        row("", &format!("and {} (-v lists them)", plural(input.notes.len() - FEW, "note more", "notes more")));
+    }
+    repair_rows(&[], &input.unhealed, volume, &mut |name, text| row(name, text));
+}
+
+/// What of a mesh a format does not hold.
+pub fn losses(format: Format, mesh: &Mesh, volume: Volume) {
+    if volume > Volume::Quiet {
+        format.losses(mesh).iter().for_each(|loss| line(&format!("  not kept by {}: {loss}", format.name())));
     }
 }
 
@@ -234,30 +258,18 @@ fn many(kind: &str) -> String {
 }
 
 /// "3 welds, 1 split" of repairs.
-pub fn repair_kinds(repairs: &[Repair]) -> String {
+fn repair_kinds(repairs: &[Repair]) -> String {
     let mut kinds: BTreeMap<RepairKind, usize> = BTreeMap::new();
     for repair in repairs {
         *kinds.entry(repair.kind).or_default() += 1;
     }
-    let word = |kind: RepairKind| match kind {
-        RepairKind::ToleranceRaised => ["tolerance raised", "tolerances raised"],
-        RepairKind::Weld => ["weld", "welds"],
-        RepairKind::GapClosed => ["gap closed", "gaps closed"],
-        RepairKind::Split => ["split", "splits"],
-        RepairKind::SelfSplit => ["split of a curve with itself", "splits of curves with themselves"],
-        RepairKind::Corner => ["corner found", "corners found"],
-        RepairKind::Duplicate => ["duplicate dropped", "duplicates dropped"],
-        RepairKind::Overlap => ["overlap merged", "overlaps merged"],
-        RepairKind::Collapsed => ["feature within the tolerance lost", "features within the tolerance lost"],
-        RepairKind::ZeroLength => ["curve of no length dropped", "curves of no length dropped"],
-        RepairKind::Seed => ["seed without a face", "seeds without a face"],
-    };
-    let parts: Vec<_> = kinds.into_iter().map(|(kind, n)| plural(n, word(kind)[0], word(kind)[1])).collect();
+    let counted = |(kind, n): (RepairKind, usize)| plural(n, kind.words()[0], kind.words()[1]);
+    let parts: Vec<_> = kinds.into_iter().map(counted).collect();
     parts.join(", ")
 }
 
 /// One line a repair.
-pub fn repair_line(repair: &Repair) -> String {
+fn repair_line(repair: &Repair) -> String {
     format!("{} {}, moved by {}", place(repair.at), repair.what, number(repair.size, 3))
 }
 
@@ -331,10 +343,21 @@ fn input_rows(report: &Report, volume: Volume, row: &dyn Fn(&str, &str)) {
     // What is said of an option (it begins with its dashes) is an answer to the command line, not a remark on the file.
     let told = |note: &&String| volume == Volume::Verbose || note.starts_with("--");
     input.notes.iter().filter(told).for_each(|note| row("note", note));
+    repair_rows(&input.repairs, &input.unhealed, volume, &mut |name, text| row(name, text));
+}
+
+/// What was mended, and what by `--tolerance 0` was not: counted by kinds or, where asked for, one by one.
+pub fn repair_rows(repairs: &[Repair], unhealed: &[Repair], volume: Volume, row: &mut dyn FnMut(&str, &str)) {
     if volume == Volume::Verbose {
-        input.repairs.iter().for_each(|repair| row("repair", &repair_line(repair)));
-    } else if !input.repairs.is_empty() {
-        row("repairs", &format!("{} (-v lists them)", repair_kinds(&input.repairs)));
+        repairs.iter().for_each(|repair| row("repair", &repair_line(repair)));
+        unhealed.iter().for_each(|repair| row("unhealed", &repair_line(repair)));
+        return;
+    }
+    if !repairs.is_empty() {
+        row("repairs", &format!("{} (-v lists them)", repair_kinds(repairs)));
+    }
+    if !unhealed.is_empty() {
+        row("unhealed", &format!("by default there would be {} (-v lists them)", repair_kinds(unhealed)));
     }
 }
 

@@ -26,8 +26,10 @@ pub struct Groups<'m> {
     mesh: &'m Mesh,
     pub regions: Vec<&'m str>,
     pub boundaries: Vec<&'m str>,
+    pub points: Vec<&'m str>,
     region_of: Vec<usize>,
     boundary_of: BTreeMap<NameId, usize>,
+    point_of: BTreeMap<NameId, usize>,
 }
 
 impl<'m> Groups<'m> {
@@ -42,7 +44,11 @@ impl<'m> Groups<'m> {
         for edge in &mesh.edges {
             number(&mut boundary_of, &mut boundaries, mesh, edge.name);
         }
-        Ok(Self { mesh, regions, boundaries, region_of, boundary_of })
+        let (mut point_of, mut points) = (BTreeMap::new(), Vec::new());
+        for &(_, name) in &mesh.named_nodes {
+            number(&mut point_of, &mut points, mesh, name);
+        }
+        Ok(Self { mesh, regions, boundaries, points, region_of, boundary_of, point_of })
     }
 
     /// The group of a region.
@@ -53,6 +59,11 @@ impl<'m> Groups<'m> {
     /// The group of an edge.
     pub fn boundary(&self, edge: &CurveEdge) -> usize {
         self.boundary_of[&edge.name]
+    }
+
+    /// The group of a named node.
+    pub fn point(&self, name: NameId) -> usize {
+        self.point_of[&name]
     }
 
     /// The triangles of every group of regions, in the mesh's order.
@@ -93,7 +104,8 @@ pub fn check(mesh: &Mesh) -> io::Result<()> {
         && mesh.triangles.iter().chain(mesh.triangle_mids.iter()).flatten().all(node)
         && mids(mesh.triangle_mids.len(), mesh.triangles.len())
         && mids(mesh.edge_mids.len(), mesh.edges.len())
-        && mesh.edge_mids.iter().all(node);
+        && mesh.edge_mids.iter().all(node)
+        && mesh.named_nodes.iter().all(|(v, name)| node(v) && name.index() < names);
     if right {
         return Ok(());
     }

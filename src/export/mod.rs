@@ -137,6 +137,7 @@ impl Format {
             mesh.frame.is_some() && matches!(self, Su2 | Triangle),
             "the plane in space: coordinates are the plane's own",
         );
+        lost(!mesh.named_nodes.is_empty() && !matches!(self, Msh | Msh22), "names of points");
         let straight = matches!(self, Glb | Gltf | Obj | Stl);
         lost(mesh.order() > 1 && straight, "order 2: each triangle is written as four straight ones");
         let unitless = matches!(self, Vtk | Msh | Msh22 | Su2 | Triangle | Stl);

@@ -1,14 +1,15 @@
 //! Gmsh's MSH: 4.1 in binary, and 2.2 as text for readers that know no other (MFEM, `gmshToFoam`, …).
 //!
-//! Every region is a physical group of dimension 2, every boundary one of dimension 1, and no cell is outside a group: once there
-//! is a group, Gmsh's readers take grouped cells only. Tags count regions from 1, then boundaries, so that no two groups share a
-//! tag even where a reader mixes the dimensions up. In 4.1 there is one surface a region and one curve a boundary.
+//! Every region is a physical group of dimension 2, every boundary one of dimension 1, every name of nodes one of dimension 0, and no
+//! cell is outside a group: once there is a group, Gmsh's readers take grouped cells only. Tags count regions from 1, then boundaries,
+//! then names of nodes, so that no two groups share a tag even where a reader mixes the dimensions up. In 4.1 there is one surface a
+//! region, one curve a boundary and one point a named node.
 //! Order 2 is held (types 8 and 9, in our own order of nodes).
 //!
 //! Not held: the unit, the plane of the mesh (its coordinates in space are), links to curves, balls. In names `"` becomes `'`.
 
 use super::groups::{Groups, legal_names, sides, undirected};
-use crate::ids::{Id, RegionId, VertexId};
+use crate::ids::{Id, NameId, RegionId, VertexId};
 use crate::mesh::Mesh;
 use std::io::{self, Write};
 
@@ -43,7 +44,8 @@ pub fn write_22(mesh: &Mesh, out: &mut impl Write) -> io::Result<()> {
     for (i, [x, y, z]) in mesh.places().enumerate() {
         writeln!(out, "{} {x:?} {y:?} {z:?}", i + 1)?;
     }
-    writeln!(out, "$EndNodes\n$Elements\n{}", mesh.edges.len() + mesh.triangles.len())?;
+    let cells = mesh.edges.len() + mesh.triangles.len() + mesh.named_nodes.len();
+    writeln!(out, "$EndNodes\n$Elements\n{cells}")?;
     let (line, triangle) = types(mesh);
     let mut tag = 0;
     let mut element = |kind: u32, group: usize, nodes: &mut dyn Iterator<Item = VertexId>, out: &mut dyn Write| {
@@ -63,7 +65,20 @@ pub fn write_22(mesh: &Mesh, out: &mut impl Write) -> io::Result<()> {
         let group = groups.region(mesh.triangle_regions[t]) + 1;
         element(triangle, group, &mut corners.iter().copied().chain(mids), out)?;
     }
+    for &(node, name) in &mesh.named_nodes {
+        element(POINT, groups.point_tag(name), &mut std::iter::once(node), out)?;
+    }
     writeln!(out, "$EndElements")
+}
+
+/// Gmsh's element type of a point.
+const POINT: u32 = 15;
+
+impl Groups<'_> {
+    /// The tag of the physical group of a named node.
+    fn point_tag(&self, name: NameId) -> usize {
+        self.regions.len() + self.boundaries.len() + self.point(name) + 1
+    }
 }
 
 /// Gmsh's element types of lines and triangles.
@@ -76,8 +91,9 @@ fn write_names(groups: &Groups, out: &mut impl Write) -> io::Result<()> {
         let legal: String = name.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
         legal.replace('"', "'")
     };
-    let names = [(1, groups.regions.len(), &groups.boundaries), (2, 0, &groups.regions)];
-    writeln!(out, "$PhysicalNames\n{}", groups.regions.len() + groups.boundaries.len())?;
+    let (regions, boundaries, points) = (&groups.regions, &groups.boundaries, &groups.points);
+    let names = [(0, regions.len() + boundaries.len(), points), (1, regions.len(), boundaries), (2, 0, regions)];
+    writeln!(out, "$PhysicalNames\n{}", regions.len() + boundaries.len() + points.len())?;
     for (dimension, before, names) in names {
         for (i, name) in legal_names(names, LONGEST_NAME, legal).iter().enumerate() {
             writeln!(out, "{dimension} {} \"{name}\"", before + i + 1)?;
@@ -111,10 +127,11 @@ impl Bytes {
     }
 }
 
-/// What MSH 4.1 hangs nodes and cells on: surface `r + 1` for region `r`, curve `b + 1` for boundary `b`.
+/// What MSH 4.1 hangs nodes and cells on: surface `r + 1` for region `r`, curve `b + 1` for boundary `b`, point `k + 1` for the named
+/// node `k`.
 struct Entities {
-    /// Nodes that each curve and each surface owns: a node belongs to the first curve that it lies on, else to the first
-    /// surface, else, of no cell, to surface 1.
+    /// Nodes that each curve and each surface owns: a named node is its point's; another belongs to the first curve that it lies on, else
+    /// to the first surface, else, of no cell, to surface 1.
     on_curves: Vec<Vec<usize>>,
     on_surfaces: Vec<Vec<usize>>,
     /// Curves that bound each surface.
@@ -141,7 +158,11 @@ impl Entities {
             on_surfaces: vec![Vec::new(); surfaces],
             bounds: bounding_curves(mesh, groups, surfaces),
         };
-        for (node, (curve, surface)) in curve_of.into_iter().zip(surface_of).enumerate() {
+        let mut named = vec![false; mesh.nodes.len()];
+        mesh.named_nodes.iter().for_each(|(node, _)| named[node.index()] = true);
+        for (node, (curve, surface)) in
+            curve_of.into_iter().zip(surface_of).enumerate().filter(|(node, _)| !named[*node])
+        {
             match curve {
                 Some(curve) => entities.on_curves[curve].push(node),
                 None => entities.on_surfaces[surface.unwrap_or(0)].push(node),
@@ -163,7 +184,13 @@ impl Entities {
                 .unwrap_or_default();
             bytes.doubles(low.into_iter().chain(high));
         };
-        bytes.sizes([0, self.on_curves.len(), self.on_surfaces.len(), 0]);
+        bytes.sizes([mesh.named_nodes.len(), self.on_curves.len(), self.on_surfaces.len(), 0]);
+        for (k, &(node, name)) in mesh.named_nodes.iter().enumerate() {
+            bytes.ints([k + 1]);
+            bytes.doubles(places[node.index()]);
+            bytes.sizes([1]);
+            bytes.ints([groups.point_tag(name)]);
+        }
         for (b, edges) in groups.edges().into_iter().enumerate() {
             bytes.ints([b + 1]);
             box_of(&mut edges.iter().flat_map(|&i| mesh.edges[i].nodes), &mut bytes);
@@ -195,9 +222,11 @@ impl Entities {
     fn nodes(&self, mesh: &Mesh) -> Bytes {
         let mut bytes = Bytes::default();
         let places: Vec<[f64; 3]> = mesh.places().collect();
+        let named: Vec<Vec<usize>> = mesh.named_nodes.iter().map(|(node, _)| vec![node.index()]).collect();
+        let points = named.iter().enumerate().map(|(k, nodes)| (0, k, nodes));
         let curves = self.on_curves.iter().enumerate().map(|(c, nodes)| (1, c, nodes));
         let surfaces = self.on_surfaces.iter().enumerate().map(|(s, nodes)| (2, s, nodes));
-        let blocks: Vec<_> = curves.chain(surfaces).filter(|(.., nodes)| !nodes.is_empty()).collect();
+        let blocks: Vec<_> = points.chain(curves).chain(surfaces).filter(|(.., nodes)| !nodes.is_empty()).collect();
         bytes.sizes([blocks.len(), places.len(), usize::from(!places.is_empty()), places.len()]);
         for (dimension, entity, nodes) in blocks {
             bytes.ints([dimension, entity + 1, 0]);
@@ -211,11 +240,16 @@ impl Entities {
     fn elements(&self, mesh: &Mesh, groups: &Groups) -> Bytes {
         let mut bytes = Bytes::default();
         let (line, triangle) = types(mesh);
-        let count = mesh.edges.len() + mesh.triangles.len();
+        let cells = mesh.edges.len() + mesh.triangles.len();
+        let count = cells + mesh.named_nodes.len();
         let lines = groups.edges();
         let triangles = self.triangles(mesh);
         let blocks = lines.iter().chain(&triangles).filter(|cells| !cells.is_empty()).count();
-        bytes.sizes([blocks, count, usize::from(count > 0), count]);
+        bytes.sizes([mesh.named_nodes.len() + blocks, count, usize::from(count > 0), count]);
+        for (k, (node, _)) in mesh.named_nodes.iter().enumerate() {
+            bytes.ints([0, k + 1, POINT as usize]);
+            bytes.sizes([1, cells + k + 1, node.index() + 1]);
+        }
         for (b, edges) in lines.iter().enumerate().filter(|(_, edges)| !edges.is_empty()) {
             bytes.ints([1, b + 1, line as usize]);
             bytes.sizes([edges.len()]);

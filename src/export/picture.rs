@@ -2,12 +2,15 @@
 //!
 //! Curves are flattened here for the eye only, to a tenth of a pixel; nothing else in the library flattens them.
 
+mod markers;
+
 use crate::canvas::{Anchor, Canvas, Colour, Frame, Label, Paint, Path, Pixel, Stroke, px, text_width};
 use crate::curve::{Curve, End};
-use crate::domain::{Domain, Drawing, SeedKind};
+use crate::domain::{Domain, Drawing, Repair, SeedKind};
 use crate::geometry::{Point, Rect, Vec2, bounds_of};
 use crate::ids::{CurveId, NameId, Names, PointId, RegionId, TriangleId};
 use crate::mesh::{BallReason, Mesh};
+use markers::Mended;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// What the triangles of a mesh are coloured by.
@@ -31,13 +34,25 @@ pub struct PictureOptions {
     pub balls: bool,
     /// Places to point at, each with a label: flaws.
     pub marks: Vec<(Point, String)>,
+    /// What was mended, marked by kind; where many crowd, one marker has their number beside it.
+    pub repairs: Vec<Repair>,
+    /// What was found and left as it is, marked likewise.
+    pub unhealed: Vec<Repair>,
     /// First words of the caption.
     pub title: String,
 }
 
 impl Default for PictureOptions {
     fn default() -> Self {
-        Self { width_px: 1200, view: None, balls: true, marks: Vec::new(), title: String::new() }
+        Self {
+            width_px: 1200,
+            view: None,
+            balls: true,
+            marks: Vec::new(),
+            repairs: Vec::new(),
+            unhealed: Vec::new(),
+            title: String::new(),
+        }
     }
 }
 
@@ -91,7 +106,7 @@ fn along(scale: &[(f64, u32)], value: f64) -> Colour {
 /// A drawing as found: curves by name, points, seeds.
 pub fn picture_of_drawing(drawing: &Drawing, options: &PictureOptions) -> Canvas {
     let used = distinct(drawing.curves.iter().map(|c| c.name));
-    let legend = Legend { lines: entries(&used, &drawing.names), ..Legend::default() };
+    let legend = Legend { lines: entries(&used, &drawing.names), ..Legend::default() }.with_markers(options);
     let caption = [counted(drawing.curves.len(), "curve"), counted(drawing.points.len(), "point")].join(", ");
     let bounds = drawing.bounds().unwrap_or(Rect::ZERO);
     let mut sheet = Sheet::new(bounds, options, &caption, &legend);
@@ -121,7 +136,8 @@ pub fn picture_of_domain(domain: &Domain, options: &PictureOptions) -> Canvas {
     let used = distinct(domain.curves().iter().map(|c| c.name));
     let areas = distinct(domain.regions().iter().map(|r| r.name));
     let legend =
-        Legend { lines: entries(&used, domain.names()), areas: entries(&areas, domain.names()), ..Legend::default() };
+        Legend { lines: entries(&used, domain.names()), areas: entries(&areas, domain.names()), ..Legend::default() }
+            .with_markers(options);
     let acute: Vec<PointId> = domain.points().ids().filter(|&p| domain.is_acute(p)).collect();
     let caption = [
         counted(domain.curves().len(), "curve"),
@@ -156,7 +172,7 @@ pub fn picture_of_domain(domain: &Domain, options: &PictureOptions) -> Canvas {
 pub fn picture_of_mesh(mesh: &Mesh, domain: Option<&Domain>, colour: MeshColour, options: &PictureOptions) -> Canvas {
     let used = distinct(mesh.edges.iter().map(|e| e.name));
     let regions = distinct(mesh.regions.iter().copied());
-    let mut legend = Legend { lines: entries(&used, &mesh.names), ..Legend::default() };
+    let mut legend = Legend { lines: entries(&used, &mesh.names), ..Legend::default() }.with_markers(options);
     let cells = CellColours::new(mesh, colour, &regions);
     match colour {
         MeshColour::Region => legend.areas = entries(&regions, &mesh.names),
@@ -275,6 +291,11 @@ fn entries(used: &[NameId], names: &Names) -> Vec<String> {
 
 /// "1 curve", "12 345 curves".
 fn counted(n: usize, what: &str) -> String {
+    let many = if what == "vertex" { "vertices".to_owned() } else { format!("{what}s") };
+    counted_words(n, [what, &many])
+}
+
+fn counted_words(n: usize, [one, many]: [&str; 2]) -> String {
     let digits = n.to_string();
     let mut number = String::new();
     for (i, c) in digits.chars().enumerate() {
@@ -283,12 +304,7 @@ fn counted(n: usize, what: &str) -> String {
         }
         number.push(c);
     }
-    let what = match (n, what) {
-        (1, _) => what.to_owned(),
-        (_, "vertex") => "vertices".to_owned(),
-        _ => format!("{what}s"),
-    };
-    format!("{number} {what}")
+    format!("{number} {}", if n == 1 { one } else { many })
 }
 
 /// Three significant digits, for people.
@@ -312,6 +328,9 @@ fn short(v: f64) -> String {
 struct Legend {
     lines: Vec<String>,
     areas: Vec<String>,
+    markers: Vec<(Mended, String)>,
+    /// Whether markers may stand for several.
+    crowded: bool,
     scale: Option<Scale>,
 }
 
@@ -335,6 +354,7 @@ struct Chip {
 }
 
 enum Swatch {
+    Marker(Mended),
     Line(usize),
     Area(Colour),
     None,
@@ -614,12 +634,16 @@ impl Sheet {
         chips.max(self.type_px * 1.4) + scale
     }
 
-    /// Caption, then areas, then lines, each row filled from the left.
+    /// Caption, then markers, areas and lines, each row filled from the left.
     fn chips(&self, legend: &Legend) -> Vec<Chip> {
         let swatches = (0..).zip(&legend.areas).map(|(i, name)| (Swatch::Area(area_colour(i)), name));
         let lines = (0..).zip(&legend.lines).map(|(i, name)| (Swatch::Line(i), name));
         let all = legend.areas.len() + legend.lines.len();
         let mut wanted: Vec<(Swatch, String)> = vec![(Swatch::None, self.caption.clone())];
+        wanted.extend(legend.markers.iter().map(|(mended, text)| (Swatch::Marker(*mended), text.clone())));
+        if legend.crowded {
+            wanted.push((Swatch::None, "×n: n beside each other, marked by the rarest".into()));
+        }
         wanted.extend(swatches.chain(lines).take(LEGEND_NAMES_MAX).map(|(s, name)| (s, clipped(name))));
         if all > LEGEND_NAMES_MAX {
             wanted.push((Swatch::None, format!("and {} more", all - LEGEND_NAMES_MAX)));
@@ -639,6 +663,7 @@ impl Sheet {
     }
 
     fn finish(mut self, options: &PictureOptions, legend: &Legend) -> Canvas {
+        self.repairs(options);
         self.marks(&options.marks);
         self.canvas.layer("legend", false);
         let chips = self.chips(legend);
@@ -647,6 +672,10 @@ impl Sheet {
             let (w, mid) = (self.type_px * 1.5, at.y - self.type_px * 0.36);
             let room = match swatch {
                 Swatch::None => 0.0,
+                Swatch::Marker(mended) => {
+                    self.marker(mended, px(at.x + 0.5 * w, mid), self.type_px * 0.5);
+                    self.type_px * 2.0
+                }
                 Swatch::Line(class) => {
                     let mut path = Path::default();
                     path.add([px(at.x, mid), px(at.x + w, mid)], false);

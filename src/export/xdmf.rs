@@ -24,7 +24,7 @@ pub fn write(mesh: &Mesh, out: &mut impl Write) -> io::Result<()> {
         }
     }
     let (triangle, line) =
-        if mesh.order() == 1 { (("Triangle", 3), ("PolyLine", 2)) } else { (("Triangle_6", 6), ("Edge_3", 3)) };
+        if mesh.order() == 1 { (("Triangle", 3), ("Polyline", 2)) } else { (("Triangle_6", 6), ("Edge_3", 3)) };
     let mut triangles = mesh.triangles.enumerate().map(|(t, corners)| {
         corners.iter().chain(mesh.triangle_mids.get(t).into_iter().flatten()).map(|v| v.0).collect::<Vec<_>>()
     });
@@ -50,7 +50,7 @@ fn write_grid(
     out: &mut impl Write,
 ) -> io::Result<()> {
     let count = cells.len();
-    let per_element = if topology == "PolyLine" { " NodesPerElement=\"2\"" } else { "" };
+    let per_element = if topology == "Polyline" { " NodesPerElement=\"2\"" } else { "" };
     writeln!(out, "<Grid Name=\"{grid}\" GridType=\"Uniform\">")?;
     writeln!(out, "<Topology TopologyType=\"{topology}\" NumberOfElements=\"{count}\"{per_element}>")?;
     writeln!(out, "<DataItem Dimensions=\"{count} {nodes}\" NumberType=\"UInt\" Precision=\"8\" Format=\"XML\">")?;

@@ -247,10 +247,10 @@ fn beside(nodes: &[u8], notes: &mut Vec<String>) -> Result<Vertices, ImportError
 }
 
 fn read_segments(rows: &mut Rows, vertices: &Vertices, drawing: &mut Drawing) -> Result<Vec<bool>, ImportError> {
-    let Some(header) = rows.next() else {
-        drawing.notes.push("The file ends before the segments.".into());
-        return Ok(add_hull(vertices, drawing));
-    };
+    let header = rows.next().ok_or_else(|| {
+        let help = "the file may be cut off; a line '0 0' there says that there are none, and a .node file holds vertices alone";
+        ImportError::at(rows.line, "the file ends before the count of the segments", help)
+    })?;
     let ([count], mut rest) = header.take("the segment header (count, markers)")?;
     let marked = rest.next().and_then(number).unwrap_or(0.0);
     if marked != 0.0 && marked != 1.0 {

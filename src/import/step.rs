@@ -413,7 +413,9 @@ impl<'a> File<'a> {
         match found.as_slice() {
             [one] => Ok(*one),
             [] => {
-                let help = format!("inspect lists the {} planar faces of the file", faces.planar.len());
+                let count = faces.planar.len();
+                let help =
+                    format!("inspect lists the {count} planar faces of the file; batch meshes each by --face all");
                 Err(ImportError::new(format!("--face {wanted}: there is no planar face of this number or name"), help))
             }
             many => {

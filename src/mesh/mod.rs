@@ -25,6 +25,8 @@ pub struct Mesh {
     pub names: Names,
     /// For each node that is a point of P: which (sorted by point).
     pub points: Vec<(PointId, VertexId)>,
+    /// Nodes that have a name of their own, by node.
+    pub named_nodes: Vec<(VertexId, NameId)>,
     /// Protecting balls that were set around acute corners.
     pub balls: Vec<Ball>,
     /// Of order 2: the node within each side of each triangle: between its corners 0 and 1, 1 and 2, 2 and 0. Empty of order 1.

@@ -21,7 +21,7 @@ use crate::geometry::Point;
 use crate::ids::NameId;
 use crate::plane::lopping::demand::{Sliver, costly_slivers};
 use crate::report::{FailureKind, FailureReport};
-use crate::request::{Keep, Request};
+use crate::request::{Keep, Overlap, Request};
 use crate::watch::{Stopped, Watch};
 use std::collections::BTreeMap;
 
@@ -197,8 +197,12 @@ impl<'a> Healing<'a> {
     }
 
     fn arrange_within(&self, tolerance: Option<f64>, watch: &mut Watch) -> Result<Domain, Unarranged> {
-        let options =
-            ArrangeOptions { tolerance, fill: self.request.fill_rule.rule(), keep_all: self.request.keep == Keep::All };
+        let options = ArrangeOptions {
+            tolerance,
+            fill: self.request.fill_rule.rule(),
+            keep_all: self.request.keep == Keep::All,
+            fragments: self.request.overlap == Overlap::Fragment,
+        };
         self.drawing.arrange_watched(&options, watch)
     }
 }

@@ -2,13 +2,14 @@
 """Writes meshes in every format and reads them as other people's programs do: meshio, gmsh and the Khronos glTF validator.
 
 `check_formats.py SQUINCH VALIDATOR WORK DRAWING...` with the program, the folder of the npm package gltf-validator (`-`: none),
-a folder to write in, and drawings to mesh (pip install meshio gmsh). Exits 1 where a program refuses a file, or finds other names,
+a folder to write in, and drawings to mesh (pip install meshio h5py gmsh). Exits 1 where a program refuses a file, or finds other names,
 other numbers of cells under a name or other coordinates than the report and the VTU file have.
 """
 
 import json
 import subprocess
 import sys
+import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
 import meshio
@@ -79,6 +80,24 @@ def by_gmsh(path):
     return groups, places
 
 
+def xdmf_grids(path):
+    """Every grid of an XDMF file by its name, as meshio reads it: it takes files of one grid, so each is put in one of its own."""
+    grids = {}
+    for grid in ElementTree.parse(path).getroot().iter("Grid"):
+        root = ElementTree.Element("Xdmf", Version="3.0")
+        ElementTree.SubElement(root, "Domain").append(grid)
+        alone = path.with_suffix(f".{grid.get('Name')}.xdmf")
+        ElementTree.ElementTree(root).write(alone)
+        grids[grid.get("Name")] = meshio.read(alone)
+    return grids
+
+
+def xdmf_names(path, kind):
+    """Names by their numbers in an XDMF file."""
+    found = (i for i in ElementTree.parse(path).getroot().iter("Information") if i.get("Name").startswith(kind + ":"))
+    return {int(i.get("Value")): i.get("Name").partition(":")[2] for i in found}
+
+
 def in_order(points):
     return points[np.lexsort(points.T)]
 
@@ -106,6 +125,12 @@ def check(files, regions, boundaries, expect):
     cells = {name: sum(map(len, sets)) for name, sets in mesh.cell_sets.items() if name in legal(regions)}
     expect("meshio inp regions", cells, legal(regions))
     expect("meshio inp boundaries", sorted(mesh.point_sets), sorted(legal(boundaries)))
+    grids = xdmf_grids(files["xdmf"])
+    for grid, array, kind, groups in (("mesh", "region", "triangle", regions), ("boundaries", "boundary", "line", boundaries)):
+        names = xdmf_names(files["xdmf"], array)
+        found = {names[number]: count for number, count in by_number(grids[grid], array, kind).items()}
+        expect(f"meshio xdmf {array}", found, groups)
+        expect(f"meshio xdmf {grid} points", np.array_equal(grids[grid].points, points[:, :2]), True)
     # Its tags are numbers: the names are not kept by it, their number and cells are; interfaces are in none.
     mesh = meshio.read(files["su2"])
     expect("meshio su2 points", np.array_equal(mesh.points, points[:, :2]), True)

@@ -33,6 +33,8 @@ pub struct Line {
     /// Triangles below the angle asked for that a corner excuses.
     pub excused: usize,
     pub repairs: usize,
+    /// What was left as it is by `--tolerance 0`.
+    pub unhealed: usize,
     pub skipped: usize,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub failure: Option<FailureReport>,
@@ -53,6 +55,7 @@ impl Line {
             min_angle_deg: report.quality.as_ref().map(|q| q.min_angle_deg),
             excused: report.promise.as_ref().map_or(0, |p| p.excused.count),
             repairs: report.input.repairs.len(),
+            unhealed: report.input.unhealed.len(),
             skipped: report.input.skipped.iter().map(|s| s.count).sum(),
             failure: report.failure.clone(),
             seconds: 0.0,
@@ -72,6 +75,7 @@ impl Line {
             min_angle_deg: None,
             excused: 0,
             repairs: 0,
+            unhealed: 0,
             skipped: 0,
             failure: Some(failure),
             seconds: 0.0,

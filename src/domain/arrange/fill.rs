@@ -5,30 +5,30 @@ use super::cut::Network;
 use super::trace::{Face, Faces, Half};
 use crate::domain::locate::Side;
 use crate::domain::{Domain, Shape};
-use crate::ids::{CurveId, Id, IdVec, PointId, ShapeId};
+use crate::ids::{CurveId, Id, IdVec, NameId, Names, PointId, ShapeId};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// What the fill rule says of every face, by the cycle that bounds it.
 pub(super) struct Fill {
     pub inside: Vec<bool>,
-    /// The topmost shape that paints the face.
-    pub painter: Vec<Option<ShapeId>>,
+    /// The name by the shapes that fill the face: that of the topmost one or, of `fragments`, those of all.
+    pub painted: Vec<Option<NameId>>,
 }
 
 impl Fill {
-    pub fn new(network: &Network, domain: &Domain, faces: &Faces, rule: FillRule) -> Self {
+    pub fn new(network: &Network, domain: &mut Domain, faces: &Faces, rule: FillRule, fragments: bool) -> Self {
         let is_bounded = |cycle: usize| faces.outer[faces.cycles[cycle].component] != cycle;
-        let painter = painters(network, faces);
+        let painted = painted(network, faces, &mut domain.names, fragments);
         let inside: Vec<bool> = match rule {
             FillRule::Regions => vec![true; faces.cycles.len()],
-            FillRule::Shapes => painter.iter().map(Option::is_some).collect(),
+            FillRule::Shapes => painted.iter().map(Option::is_some).collect(),
             FillRule::NonZero | FillRule::EvenOdd => {
                 let winding = windings(network, domain, faces, rule);
                 winding.into_iter().map(|w| is_inside(rule, w)).collect()
             }
         };
         let inside = inside.into_iter().enumerate().map(|(cycle, inside)| inside && is_bounded(cycle)).collect();
-        Self { inside, painter }
+        Self { inside, painted }
     }
 }
 
@@ -209,23 +209,75 @@ impl Paint<'_> {
     }
 }
 
-/// The topmost shape that fills each face.
-fn painters(network: &Network, faces: &Faces) -> Vec<Option<ShapeId>> {
+/// Names of fragments list so many names of shapes, and as many as come to so many bytes: the topmost ones.
+const LISTED_MAX: usize = 8;
+const LISTED_BYTES: usize = 120;
+/// Shapes looked at for them: many may have one name.
+const LOOKED_AT: usize = 64;
+
+/// Names of the sets of shapes that fill faces.
+struct FragmentNames<'a> {
+    names: &'a mut Names,
+    /// By the names listed and the number of the shapes below that are not.
+    known: BTreeMap<(Vec<NameId>, usize), NameId>,
+}
+
+impl FragmentNames<'_> {
+    /// The names of the shapes, each once, the topmost first, joined by `+`; `+9 more` where further shapes lie below.
+    fn of(&mut self, paint: &Paint) -> Option<NameId> {
+        let (mut listed, mut passed, mut bytes): (Vec<NameId>, usize, usize) = (Vec::new(), 0, 0);
+        for &shape in paint.filled.iter().rev().take(LOOKED_AT) {
+            let name = paint.shapes[shape].name;
+            if !listed.contains(&name) {
+                bytes += self.names.text(name).len() + 1;
+                if listed.len() == LISTED_MAX || !listed.is_empty() && bytes > LISTED_BYTES {
+                    break;
+                }
+                listed.push(name);
+            }
+            passed += 1;
+        }
+        let key = (listed, paint.filled.len() - passed);
+        if let (&[alone], 0) = (&key.0[..], key.1) {
+            return Some(alone);
+        }
+        if key.0.is_empty() {
+            return None;
+        }
+        if let Some(&known) = self.known.get(&key) {
+            return Some(known);
+        }
+        let texts: Vec<&str> = key.0.iter().map(|&name| self.names.text(name)).collect();
+        let more = if key.1 > 0 { format!("+{} more", key.1) } else { String::new() };
+        let text = texts.join("+") + &more;
+        // A shape may itself be called so.
+        let others = (2..).map(|k| format!("{text}#{k}"));
+        let free = std::iter::once(text.clone()).chain(others).find(|text| self.names.find(text).is_none());
+        let name = self.names.intern(&free.unwrap_or(text));
+        self.known.insert(key, name);
+        Some(name)
+    }
+}
+
+/// The name of each face by the shapes that fill it.
+fn painted(network: &Network, faces: &Faces, names: &mut Names, fragments: bool) -> Vec<Option<NameId>> {
     enum Step {
         Cross(Half),
         Return(Half),
     }
-    let mut painter = vec![None; faces.cycles.len()];
-    if network.drawing.shapes.is_empty() {
-        return painter;
+    let mut painted = vec![None; faces.cycles.len()];
+    let shapes = &network.drawing.shapes;
+    if shapes.is_empty() {
+        return painted;
     }
+    let mut fragment_names = FragmentNames { names, known: BTreeMap::new() };
     let holds = faces.components_by_face();
     let sides = |face: Face| {
         let around = holds[face.unwrap_or(faces.cycles.len())].iter().map(|&component| faces.outer[component]);
         face.into_iter().chain(around).flat_map(|cycle| faces.cycles[cycle].halves.iter().copied())
     };
     let mut seen = vec![false; faces.cycles.len()];
-    let mut paint = Paint { shapes: &network.drawing.shapes, winding: BTreeMap::new(), filled: BTreeSet::new() };
+    let mut paint = Paint { shapes, winding: BTreeMap::new(), filled: BTreeSet::new() };
     let mut steps: Vec<Step> = sides(None).map(Step::Cross).collect();
     while let Some(step) = steps.pop() {
         match step {
@@ -234,11 +286,14 @@ fn painters(network: &Network, faces: &Faces) -> Vec<Option<ShapeId>> {
                 let Some(face) = faces.face(half.twin()).filter(|&face| !seen[face]) else { continue };
                 seen[face] = true;
                 paint.cross(half, network);
-                painter[face] = paint.filled.last().copied();
+                painted[face] = match fragments {
+                    true => fragment_names.of(&paint),
+                    false => paint.filled.last().map(|&topmost| shapes[topmost].name),
+                };
                 steps.push(Step::Return(half));
                 steps.extend(sides(Some(face)).map(Step::Cross));
             }
         }
     }
-    painter
+    painted
 }

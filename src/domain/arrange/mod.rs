@@ -48,6 +48,9 @@ pub struct ArrangeOptions {
     /// `keep all`: an axis-parallel box named `box` is added, one diagonal of the drawing away from it on every side, and every
     /// bounded face kept, whatever the fill rule and the hole seeds say.
     pub keep_all: bool,
+    /// Where filled shapes of a picture overlap, each set of them has a region of its own, named by all of them, the topmost first:
+    /// `leaf+stem`. Else the topmost shape has it all.
+    pub fragments: bool,
 }
 
 /// Something that was mended on the way in, with its place and size (a length, in units of the drawing): how far ends moved, how wide the gap
@@ -88,6 +91,25 @@ pub enum RepairKind {
     Seed,
 }
 
+impl RepairKind {
+    /// What it is called, of one and of several.
+    pub fn words(self) -> [&'static str; 2] {
+        match self {
+            Self::ToleranceRaised => ["tolerance raised", "tolerances raised"],
+            Self::Weld => ["weld", "welds"],
+            Self::GapClosed => ["gap closed", "gaps closed"],
+            Self::Split => ["split", "splits"],
+            Self::SelfSplit => ["split of a curve with itself", "splits of curves with themselves"],
+            Self::Corner => ["corner found", "corners found"],
+            Self::Duplicate => ["duplicate dropped", "duplicates dropped"],
+            Self::Overlap => ["overlap merged", "overlaps merged"],
+            Self::Collapsed => ["feature within the tolerance lost", "features within the tolerance lost"],
+            Self::ZeroLength => ["curve of no length dropped", "curves of no length dropped"],
+            Self::Seed => ["seed without a face", "seeds without a face"],
+        }
+    }
+}
+
 /// What cannot be repaired, where, and the way out.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{what} at ({}, {})", at.x, at.y)]
@@ -108,6 +130,49 @@ pub enum Unarranged {
     Invalid(#[from] ArrangeError),
     #[error(transparent)]
     Stopped(#[from] Stopped),
+}
+
+/// How many repairs of a kind were made about each place: by square cells.
+struct Places {
+    cell: f64,
+    counts: BTreeMap<(RepairKind, [i64; 2]), usize>,
+}
+
+impl Places {
+    fn of(repairs: &[Repair], cell: f64) -> Self {
+        let mut places = Self { cell, counts: BTreeMap::new() };
+        for repair in repairs {
+            *places.counts.entry((repair.kind, places.cell_of(repair))).or_default() += 1;
+        }
+        places
+    }
+
+    fn cell_of(&self, repair: &Repair) -> [i64; 2] {
+        repair.at.map(|x| (x / self.cell).floor() as i64)
+    }
+
+    /// Whether there is a repair of the same kind in the same cell or the ones around it, which then is there no longer.
+    fn take(&mut self, repair: &Repair) -> bool {
+        let [i, j] = self.cell_of(repair);
+        let cells = (-1..=1).flat_map(|di| (-1..=1).map(move |dj| [i + di, j + dj]));
+        for cell in cells {
+            if let Some(count) = self.counts.get_mut(&(repair.kind, cell)).filter(|count| **count > 0) {
+                *count -= 1;
+                return true;
+            }
+        }
+        false
+    }
+}
+
+impl Unarranged {
+    /// Its place times a factor.
+    fn scaled(self, factor: f64) -> Self {
+        match self {
+            Self::Invalid(error) => ArrangeError { at: scaled(error.at, factor), ..error }.into(),
+            Self::Stopped(_) => self,
+        }
+    }
 }
 
 impl ArrangeError {
@@ -169,9 +234,35 @@ impl Drawing {
         let (unit, tolerances) = self.in_unit_frame(factor, options)?;
         match arrange_in_unit_frame(&unit, tolerances, options, watch) {
             Ok(domain) => Ok(domain.scaled(1.0 / factor)),
-            Err(Unarranged::Invalid(error)) => Err(ArrangeError { at: scaled(error.at, 1.0 / factor), ..error }.into()),
-            Err(stopped) => Err(stopped),
+            Err(why) => Err(why.scaled(1.0 / factor)),
         }
+    }
+
+    /// What [`Drawing::arrange`] mends by default and leaves alone within a tolerance of 0: every repair of the default that is wider than
+    /// the rounding of coordinates, or is not made within that.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Drawing::arrange_watched`], but for what the fill rule says: which faces are inside is not asked.
+    pub fn unhealed(&self, watch: &mut Watch) -> Result<Vec<Repair>, Unarranged> {
+        let factor = unit_scale(magnitude(self.check_extent()?));
+        let (unit, tolerances) = self.in_unit_frame(factor, &ArrangeOptions::default())?;
+        let settled = |tolerances, watch: &mut Watch| {
+            let network = settled(&unit, tolerances, watch).map_err(|why| why.scaled(1.0 / factor))?;
+            Ok(network.repairs)
+        };
+        let mut repairs: Vec<Repair> = settled(tolerances, watch)?;
+        let exact = Tolerances { weld: tolerances.rounding, gap: 0.0, ..tolerances };
+        let made = match settled(exact, watch) {
+            Ok(made) => made,
+            // What cannot be arranged so is healed of nothing.
+            Err(Unarranged::Invalid(_)) => Vec::new(),
+            Err(stopped) => return Err(stopped),
+        };
+        let mut made = Places::of(&made, 4.0 * tolerances.weld);
+        repairs.retain(|repair| repair.size > tolerances.rounding || !made.take(repair));
+        repairs.iter_mut().for_each(|repair| repair.scale(1.0 / factor));
+        Ok(repairs)
     }
 
     /// Refuses a drawing without curves, with places that are no numbers, or whose extent leaves no digits to work with.
@@ -290,18 +381,24 @@ fn arrange_in_unit_frame(
     options: &ArrangeOptions,
     watch: &mut Watch,
 ) -> Result<Domain, Unarranged> {
+    let mut network = settled(drawing, tolerances, watch)?;
+    let mut domain = bare_domain(&mut network, watch)?;
+    // Level lines keep twice the rounding away from ends of curves.
+    let faces = trace::Faces::trace(&domain, 2.0 * tolerances.rounding, watch)?;
+    let rule = if options.keep_all { FillRule::Regions } else { options.fill.unwrap_or(drawing.fill) };
+    trace::keep(&network, &mut domain, &faces, rule, options, watch)?;
+    Ok(domain)
+}
+
+/// A drawing's curves welded and split until they meet at common ends only.
+fn settled<'a>(drawing: &'a Drawing, tolerances: Tolerances, watch: &mut Watch) -> Result<Network<'a>, Unarranged> {
     let mut network = Network::new(drawing, tolerances, watch)?;
     network.settle(watch)?;
     if tolerances.gap > 0.0 && network.close_gaps() {
         network.settle(watch)?;
     }
     network.itemise_collapsed();
-    let mut domain = bare_domain(&mut network, watch)?;
-    // Level lines keep twice the rounding away from ends of curves.
-    let faces = trace::Faces::trace(&domain, 2.0 * tolerances.rounding, watch)?;
-    let rule = if options.keep_all { FillRule::Regions } else { options.fill.unwrap_or(drawing.fill) };
-    trace::keep(&network, &mut domain, &faces, rule, !options.keep_all, watch)?;
-    Ok(domain)
+    Ok(network)
 }
 
 /// Points, curves and stars, without regions.

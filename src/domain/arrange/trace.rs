@@ -2,7 +2,7 @@
 
 use super::cut::{Network, extent};
 use super::fill::Fill;
-use super::{ArrangeError, FillRule, Repair, RepairKind, Unarranged};
+use super::{ArrangeError, ArrangeOptions, FillRule, Repair, RepairKind, Unarranged};
 use crate::curve::End;
 use crate::domain::locate::{Axis, Hit, Locator, Side, Sight, left_of};
 use crate::domain::{Domain, Incident, Region, SeedKind};
@@ -339,13 +339,13 @@ pub(super) fn keep(
     domain: &mut Domain,
     faces: &Faces,
     rule: FillRule,
-    holes: bool,
+    options: &ArrangeOptions,
     watch: &mut Watch,
 ) -> Result<(), Unarranged> {
-    let Fill { inside: mut kept, painter } = Fill::new(network, domain, faces, rule);
+    let Fill { inside: mut kept, painted } = Fill::new(network, domain, faces, rule, options.fragments);
     let said = read_seeds(network, domain, faces, watch)?;
     for (face, said) in said.iter().enumerate() {
-        kept[face] &= !(holes && *said == Some(Said::Hole));
+        kept[face] &= options.keep_all || *said != Some(Said::Hole);
     }
     if !kept.contains(&true) {
         return Err(nothing_to_mesh(network, domain, faces, rule).into());
@@ -353,7 +353,7 @@ pub(super) fn keep(
     let areas = face_areas(faces);
     let named = |face: usize| match said[face] {
         Some(Said::Region(name, max_area)) => Some((name, max_area)),
-        _ => painter[face].map(|shape| (network.drawing.shapes[shape].name, None)),
+        _ => painted[face].map(|name| (name, None)),
     };
     let region_of = name_regions(domain, faces, &kept, named, &areas);
     let region = |half: Half| faces.face(half).and_then(|face| region_of[face]);

@@ -65,7 +65,8 @@ impl Default for SvgOptions {
 /// Reads an SVG file, or a compressed one (`.svgz`).
 ///
 /// # Errors
-/// Where the text is no XML or no SVG, a number is too large for any drawing, or the file unfolds beyond its bounds.
+/// Where the text is no XML or no SVG, a number is too large for any drawing, or the file unfolds beyond its bounds; where nothing is left
+/// of it and the data of an element are in error: the first such place.
 pub fn read(bytes: &[u8], stem: &str, options: &SvgOptions) -> Result<Drawing, ImportError> {
     let (text, encoding) = xml::text(bytes)?;
     let document = xml::parse(&text)?;
@@ -85,7 +86,11 @@ pub fn read(bytes: &[u8], stem: &str, options: &SvgOptions) -> Result<Drawing, I
     }
     reader.index(root);
     reader.walk(root, Context::of(page.viewport, page.upward))?;
+    let broken = reader.broken.take();
     let mut drawing = reader.drawn(options.strokes);
+    if let Some(error) = broken.filter(|_| drawing.curves.is_empty()) {
+        return Err(error);
+    }
     let title = root.children().find(|n| local_name(*n) == Some("title")).and_then(|n| n.text());
     drawing.title = title.map(str::trim).filter(|t| !t.is_empty()).unwrap_or(stem).to_owned();
     drawing.format = "svg".into();
@@ -168,6 +173,8 @@ struct Reader<'a> {
     expanded: usize,
     /// Commands of no length.
     empty_commands: usize,
+    /// The first element whose data are in error.
+    broken: Option<ImportError>,
     stack: Vec<(Node<'a, 'a>, Rc<Context<'a>>)>,
 }
 
@@ -220,6 +227,7 @@ impl<'a> Reader<'a> {
             drawing: Drawing::default(),
             expanded: 0,
             empty_commands: 0,
+            broken: None,
             stack: Vec::new(),
         }
     }
@@ -465,12 +473,13 @@ impl<'a> Reader<'a> {
         let shown = context.shown_by.as_ref().map_or(String::new(), |s| format!(", shown by use (line {})", s.line));
         let entity = format!("{what} (line {}{shown})", self.line(node));
         if let Some((at, why)) = &outline.broken {
-            let place = self.data_place(node, tag, *at);
-            self.drawing.notes.push(format!("{entity}: drawn up to the error in its data{place}: {why}."));
+            self.note_broken(node, known, &entity, *at, why);
         }
         self.empty_commands += outline.empty;
         if outline.subpaths.is_empty() {
-            self.skip(known, "it has no extent");
+            if outline.broken.is_none() {
+                self.skip(known, "it has no extent");
+            }
             return Ok(());
         }
         if context.shown_by.is_some() {
@@ -492,6 +501,20 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
+    /// Notes an error in the data of a path, polyline or polygon, and counts what follows it as left out.
+    fn note_broken(&mut self, node: Node, tag: &'static str, entity: &str, at: Option<usize>, why: &str) {
+        let place = self.data_place(node, tag, at);
+        let shown = place.map_or(String::new(), |(line, column)| format!(" at line {line}, column {column}"));
+        self.drawing.notes.push(format!("{entity}: drawn up to the error in its data{shown}: {why}."));
+        self.skip(tag, "in part: what follows an error in its data");
+        if self.broken.is_none() {
+            let (line, column) = place.unwrap_or_else(|| self.lines.place(node.range().start));
+            let what = format!("{entity} has an error in its data, and nothing before it can be drawn: {why}");
+            let help = "correct the data, or save the drawing again with the program that made it";
+            self.broken = Some(ImportError { column: Some(column), ..ImportError::at(line, what, help) });
+        }
+    }
+
     /// The name of a paint, where it shows anything.
     fn paint_name(&mut self, tag: &'static str, painted: Painted<'a>) -> Option<String> {
         match painted {
@@ -510,9 +533,9 @@ impl<'a> Reader<'a> {
     }
 
     /// Line and column of an error in the data of a path, as far as they can be told.
-    fn data_place(&self, node: Node, tag: &str, at: Option<usize>) -> String {
+    fn data_place(&self, node: Node, tag: &str, at: Option<usize>) -> Option<(usize, usize)> {
         let name = if tag == "path" { "d" } else { "points" };
-        let Some(attribute) = node.attribute_node(name) else { return String::new() };
+        let attribute = node.attribute_node(name)?;
         let raw = &self.text[attribute.range_value()];
         // Where characters were written as entities, the beginning of the data must do.
         let plain = raw.chars().count() == attribute.value().chars().count();
@@ -521,8 +544,7 @@ impl<'a> Reader<'a> {
             None if plain => raw.len(),
             _ => 0,
         };
-        let (line, column) = self.lines.place(attribute.range_value().start + offset);
-        format!(" at line {line}, column {column}")
+        Some(self.lines.place(attribute.range_value().start + offset))
     }
 
     /// The outline of an element in its own coordinates; `None` of an element that is no shape.

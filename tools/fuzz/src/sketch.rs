@@ -38,7 +38,12 @@ impl std::fmt::Debug for Sketch {
 
 impl Sketch {
     pub fn arrange_options(&self) -> ArrangeOptions {
-        ArrangeOptions { tolerance: self.tolerance, fill: self.fill, keep_all: self.keep_all }
+        ArrangeOptions {
+            tolerance: self.tolerance,
+            fill: self.fill,
+            keep_all: self.keep_all,
+            ..ArrangeOptions::default()
+        }
     }
 
     pub fn request(&self, max_vertices: usize) -> Request {
