@@ -963,6 +963,64 @@ fn every_bounded_face_of_a_picture_is_a_region_on_request() {
     assert_eq!(areas_by_name(&regions(&ring)), [("region", 12.0), ("region1", 4.0)]);
 }
 
+fn hidden(domain: &Domain) -> usize {
+    domain.repairs().iter().filter(|r| r.kind == RepairKind::Hidden).count()
+}
+
+#[test]
+fn what_later_shapes_cover_leaves_no_trace() {
+    // A square half beneath a disc, and another wholly.
+    let disc = || vec![circle(4.0, 2.0, 1.0)];
+    let low = || square(0.0, 0.0, 4.0);
+    let shapes = [("low", false, low()), ("lost", false, square(3.75, 1.75, 0.5)), ("disc", false, disc())];
+    let domain = painted(shapes).arrange(&Default::default()).unwrap();
+    let [(low_name, low_area), (disc_name, disc_area)] = areas_by_name(&domain)[..] else { panic!("two regions") };
+    assert_eq!([low_name, disc_name], ["low", "disc"]);
+    assert!((low_area - (16.0 - PI / 2.0)).abs() < 1e-12 && (disc_area - PI).abs() < 1e-12);
+    assert!(domain.curves().iter().all(|c| c.sides[0] != c.sides[1]), "a curve with one region on both sides");
+    // Four corners, two places where the disc begins to cover a side, and the place where the disc begins.
+    assert_eq!((domain.points().len(), domain.curves().len(), hidden(&domain)), (7, 8, 5));
+    assert_eq!(domain.flaws(), [""; 0]);
+    // As fragments they all stay.
+    let fragments = ArrangeOptions { fragments: true, ..Default::default() };
+    let shapes = [("low", false, low()), ("disc", false, disc())];
+    let domain = painted(shapes).arrange(&fragments).unwrap();
+    assert_eq!((domain.regions().len(), hidden(&domain)), (3, 0));
+}
+
+#[test]
+fn what_hidden_curves_split_is_whole_again() {
+    // A fan of triangles, the tips of which a disc covers: the disc is split where the ten sides meet it, one of them where it begins.
+    let triangle = |k: i32| {
+        let at = |angle: f64| (3.0 * libm::cos(angle), 3.0 * libm::sin(angle));
+        let (from, to) = (at(f64::from(k)), at(f64::from(k) + 0.5));
+        ("fan", false, vec![line((0.0, 0.0), from), line(from, to), line(to, (0.0, 0.0))])
+    };
+    let disc = ("disc", false, vec![circle(0.0, 0.0, 1.0)]);
+    let [a, b, c, d, e] = [0, 1, 2, 3, 4].map(triangle);
+    let domain = painted([a, b, c, d, e, disc]).arrange(&Default::default()).unwrap();
+    assert_eq!(domain.curves().iter().filter(|c| matches!(c.curve, Curve::Arc(_))).count(), 10);
+    assert_eq!(domain.flaws(), [""; 0]);
+    // A bar beneath a square, and a lid on both: nothing splits its sides.
+    let bar = |x: f64, y: f64, w: f64, h: f64| {
+        let [a, b, c, d] = [(x, y), (x + w, y), (x + w, y + h), (x, y + h)];
+        vec![line(a, b), line(b, c), line(c, d), line(d, a)]
+    };
+    let below = ("below", false, bar(-4.0, -0.5, 8.0, 1.0));
+    let lid = ("lid", false, bar(-5.0, -2.0, 10.0, 4.0));
+    let domain =
+        painted([below, ("square", false, square(-1.0, -1.0, 2.0)), lid]).arrange(&Default::default()).unwrap();
+    assert_eq!((domain.points().len(), domain.curves().len(), domain.regions().len()), (4, 4, 1));
+}
+
+#[test]
+fn strokes_over_shapes_are_seen() {
+    let mut drawing = painted([("low", false, square(0.0, 0.0, 4.0))]);
+    drawing.add(line((1.0, 1.0), (3.0, 3.0)), "stroke", "line");
+    let domain = drawing.arrange(&Default::default()).unwrap();
+    assert_eq!((domain.curves().len(), hidden(&domain)), (5, 0));
+}
+
 #[test]
 fn shapes_nested_deep_are_painted_in_turn() {
     let rings = 500;

@@ -1136,6 +1136,14 @@ fn hair_gaps_of_a_sketch_are_welded_and_those_of_exact_work_are_not() {
     assert!(said(&output).contains("1 tolerance raised"), "{}", said(&output));
     assert!(bench.report("r.json")["mesh"]["triangles"].as_u64() < Some(200));
     bench.ends(0, &["check", "a.vtu", "--against", "sketch.svg"]);
+    // Fragments of slivers are gone in the coarser domain, and those that stay are the same by their names.
+    let corner = r#"<rect id="c" x="-5" y="-5" width="50" height="50"/></svg>"#;
+    fs::write(bench.0.join("overlap.svg"), traced_twice(6).replace("</svg>", corner)).unwrap();
+    bench.ends(0, &["mesh", "overlap.svg", "-o", "o.vtu", "--overlap", "fragment", "--report", "r.json"]);
+    let report = bench.report("r.json");
+    assert_eq!(report["input"]["repairs"][0]["kind"], "tolerance_raised");
+    let regions = report["mesh"]["regions"].as_array().unwrap().iter();
+    assert_eq!(regions.map(|r| r["name"].as_str().unwrap()).collect::<Vec<_>>(), ["c", "c+b+a", "b+a"]);
     fs::write(bench.0.join("exact.svg"), traced_twice(15)).unwrap();
     let output = bench.ends(5, &["mesh", "exact.svg", "-o", "b.vtu", "--max-vertices", "100000"]);
     assert!(!said(&output).contains("raised"), "{}", said(&output));

@@ -18,7 +18,6 @@
 
 use crate::domain::{ArrangeOptions, Domain, Drawing, Repair, RepairKind, Unarranged};
 use crate::geometry::Point;
-use crate::ids::NameId;
 use crate::plane::lopping::demand::{Sliver, costly_slivers};
 use crate::report::{FailureKind, FailureReport};
 use crate::request::{Keep, Overlap, Request};
@@ -61,7 +60,8 @@ pub struct Healing<'a> {
     areas: Option<Areas>,
 }
 
-type Areas = BTreeMap<NameId, f64>;
+/// By the name itself: those of fragments are numbered as each domain comes upon them.
+type Areas = BTreeMap<String, f64>;
 
 /// What asks for a coarser tolerance.
 struct Why {
@@ -192,7 +192,7 @@ impl<'a> Healing<'a> {
         let Some(finest) = &self.areas else { return !domain.regions().is_empty() };
         let part = if self.is_sketch() { SKETCH_AREA } else { EXACT_AREA };
         let mut moved = areas(domain);
-        finest.iter().for_each(|(&name, area)| *moved.entry(name).or_default() -= area);
+        finest.iter().for_each(|(name, area)| *moved.entry(name.clone()).or_default() -= area);
         moved.values().map(|change| change.abs()).sum::<f64>() <= part * finest.values().sum::<f64>()
     }
 
@@ -213,7 +213,14 @@ fn sum(slivers: &[(f64, Sliver)]) -> f64 {
 
 fn areas(domain: &Domain) -> Areas {
     let mut areas = Areas::new();
-    domain.regions().iter().for_each(|region| *areas.entry(region.name).or_default() += region.area);
+    for region in domain.regions().iter() {
+        // Of regions without a name the only one is `region`, the largest of several `region1`.
+        let name = match domain.name(region.name) {
+            "region" => "region1",
+            name => name,
+        };
+        *areas.entry(name.to_owned()).or_default() += region.area;
+    }
     areas
 }
 

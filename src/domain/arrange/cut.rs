@@ -5,7 +5,7 @@ use crate::curve::{BreakKind, Curve, Meeting, MeetingKind, Meetings, Overlap, me
 use crate::geometry::boxes::{BoxHierarchy, Labels};
 use crate::geometry::exact::{Orientation, orient};
 use crate::geometry::{Point, Rect};
-use crate::ids::{CurveId, Id, IdVec, PointId};
+use crate::ids::{CurveId, Id, IdVec, PointId, ShapeId};
 use crate::watch::{Progress, Watch};
 use std::f64::consts::TAU;
 
@@ -67,7 +67,35 @@ pub(super) struct Node {
     pub fresh: bool,
 }
 
-/// A part of a drawn curve.
+/// A curve, and between which parameters of a drawn one it runs.
+#[derive(Clone, Debug)]
+pub(super) struct Part {
+    pub curve: Curve,
+    pub range: [f64; 2],
+}
+
+impl Part {
+    fn whole(curve: &Curve) -> Self {
+        Self { curve: curve.clone(), range: [0.0, 1.0] }
+    }
+
+    fn between(&self, t0: f64, t1: f64) -> Self {
+        let [r0, r1] = self.range;
+        let along = |t: f64| if t == 1.0 { r1 } else { r0 + t * (r1 - r0) };
+        Self { curve: self.curve.part(t0, t1), range: [along(t0), along(t1)] }
+    }
+
+    /// The parts between ascending parameters inside it.
+    fn split(self, cuts: &[f64]) -> Vec<Self> {
+        if cuts.is_empty() {
+            return vec![self];
+        }
+        let starts = [0.0].into_iter().chain(cuts.iter().copied());
+        starts.zip(cuts.iter().copied().chain([1.0])).map(|(t0, t1)| self.between(t0, t1)).collect()
+    }
+}
+
+/// A part of a drawn curve, on its way between two nodes.
 #[derive(Clone, Debug)]
 pub(super) struct Piece {
     pub curve: Curve,
@@ -75,17 +103,30 @@ pub(super) struct Piece {
     pub bounds: Rect,
     /// The drawn curve.
     pub source: u32,
+    /// Between which of its parameters.
+    pub range: [f64; 2],
     /// Further drawn curves that run along the whole piece, and whether they run against it.
     pub merged: Vec<(u32, bool)>,
-    /// The whole of the drawn curve.
-    pub whole: bool,
+    /// The shapes seen on its left and right, once hidden stretches are left out.
+    pub paint: Option<[Option<ShapeId>; 2]>,
     /// Not yet looked at for meetings.
     pub fresh: bool,
 }
 
 impl Piece {
-    pub fn new(curve: Curve, ends: [PointId; 2], source: u32, whole: bool) -> Self {
-        Self { bounds: curve.bounds(), curve, ends, source, merged: Vec::new(), whole, fresh: true }
+    pub fn new(Part { curve, range }: Part, ends: [PointId; 2], source: u32) -> Self {
+        Self { bounds: curve.bounds(), curve, ends, source, range, merged: Vec::new(), paint: None, fresh: true }
+    }
+
+    /// The part between two parameters, from node to node.
+    pub fn between(&self, t0: f64, t1: f64, ends: [PointId; 2]) -> Self {
+        let part = Part { curve: self.curve.clone(), range: self.range }.between(t0, t1);
+        Self { merged: self.merged.clone(), paint: self.paint, ..Self::new(part, ends, self.source) }
+    }
+
+    /// Whether it is the whole of the drawn curve.
+    pub fn is_whole(&self) -> bool {
+        self.range == [0.0, 1.0]
     }
 
     fn is_line(&self) -> bool {
@@ -256,17 +297,17 @@ impl<'a> Network<'a> {
         if size <= weld {
             // Too small for a shape of its own. Whether it is lost is told by its ends: a chain of short curves may be a long one.
             let [from, to] = [curve.start(), curve.end()].map(|at| self.add_node(at, Origin::Curve(source)));
-            self.pieces.push(Piece::new(curve.clone(), [from, to], source, true));
+            self.pieces.push(Piece::new(Part::whole(curve), [from, to], source));
             return Ok(Some([from, to]));
         }
         let first = self.add_node(curve.start(), Origin::Curve(source));
         let last = if curve.start() == curve.end() { first } else { self.add_node(curve.end(), Origin::Curve(source)) };
         let parts = self.own_parts(source, curve)?;
-        let (whole, count) = (parts.len() == 1, parts.len());
+        let count = parts.len();
         let mut from = first;
         for (k, (part, origin)) in parts.into_iter().enumerate() {
-            let to = if k + 1 == count { last } else { self.add_node(part.end(), origin) };
-            self.pieces.push(Piece::new(part, [from, to], source, whole));
+            let to = if k + 1 == count { last } else { self.add_node(part.curve.end(), origin) };
+            self.pieces.push(Piece::new(part, [from, to], source));
             from = to;
         }
         Ok(Some([first, last]))
@@ -274,17 +315,17 @@ impl<'a> Network<'a> {
 
     /// The parts of a drawn curve when cut on its own account: at breaks, at self-meetings, and once more where a part would be closed.
     /// Each with what its end is there for.
-    fn own_parts(&mut self, source: u32, curve: &Curve) -> Result<Vec<(Curve, Origin)>, ArrangeError> {
+    fn own_parts(&mut self, source: u32, curve: &Curve) -> Result<Vec<(Part, Origin)>, ArrangeError> {
         if matches!(curve, Curve::Line(_)) {
-            return Ok(vec![(curve.clone(), Origin::Curve(source))]);
+            return Ok(vec![(Part::whole(curve), Origin::Curve(source))]);
         }
         let mut parts = Vec::new();
         for regular in self.parts_between_breaks(source, curve) {
-            let mut cuts = self.self_cuts(source, &regular)?;
+            let mut cuts = self.self_cuts(source, &regular.curve)?;
             cuts.retain(|&t| 0.0 < t && t < 1.0);
             cuts.sort_by(f64::total_cmp);
             cuts.dedup();
-            let regular = split(&regular, &cuts);
+            let regular = regular.split(&cuts);
             let last = regular.len() - 1;
             for (k, part) in regular.into_iter().enumerate() {
                 let origin = if k < last { Origin::Meeting(source) } else { Origin::Curve(source) };
@@ -294,7 +335,7 @@ impl<'a> Network<'a> {
         Ok(parts)
     }
 
-    fn parts_between_breaks(&mut self, source: u32, curve: &Curve) -> Vec<Curve> {
+    fn parts_between_breaks(&mut self, source: u32, curve: &Curve) -> Vec<Part> {
         let breaks = curve.breaks();
         for at_break in &breaks {
             let kind = match at_break.kind {
@@ -306,14 +347,16 @@ impl<'a> Network<'a> {
             self.repair(RepairKind::Corner, curve.point(at_break.t), 0.0, what);
         }
         let cuts: Vec<f64> = breaks.iter().map(|b| b.t).filter(|&t| 0.0 < t && t < 1.0).collect();
-        split(curve, &cuts).into_iter().flat_map(|part| self.parts_between_hooks(source, part)).collect()
+        let parts = Part::whole(curve).split(&cuts);
+        parts.into_iter().flat_map(|part| self.parts_between_hooks(source, part)).collect()
     }
 
     /// A regular part, cut around the hooks in it: bends far narrower than the tolerance, as handles a last digit away from their ends make
     /// them. What is between the cuts is too short to stay: the hook becomes a corner, or the end that it is at.
-    fn parts_between_hooks(&mut self, source: u32, part: Curve) -> Vec<Curve> {
-        if is_evenly_paced(&part) {
-            return vec![part];
+    fn parts_between_hooks(&mut self, source: u32, regular: Part) -> Vec<Part> {
+        let part = &regular.curve;
+        if is_evenly_paced(part) {
+            return vec![regular];
         }
         let mut steps = vec![0.0];
         steps.extend(part.cuts_of_turning(HOOK_RAD));
@@ -339,7 +382,7 @@ impl<'a> Network<'a> {
         }
         let mut cuts = hooks.concat();
         cuts.retain(|&t| 0.0 < t && t < 1.0);
-        split(&part, &cuts)
+        regular.split(&cuts)
     }
 
     /// The parameters at which a regular part meets itself.
@@ -356,24 +399,15 @@ impl<'a> Network<'a> {
     }
 
     /// Adds a part, halved where its ends are one point.
-    fn open_up(&self, part: Curve, origin: Origin, source: u32, parts: &mut Vec<(Curve, Origin)>) {
+    fn open_up(&self, part: Part, origin: Origin, source: u32, parts: &mut Vec<(Part, Origin)>) {
         let weld = self.tolerances.weld;
-        if part.start().distance(part.end()) <= weld && extent(part.bounds()) > weld {
-            parts.push((part.part(0.0, 0.5), Origin::Curve(source)));
-            parts.push((part.part(0.5, 1.0), origin));
+        if part.curve.start().distance(part.curve.end()) <= weld && extent(part.curve.bounds()) > weld {
+            parts.push((part.between(0.0, 0.5), Origin::Curve(source)));
+            parts.push((part.between(0.5, 1.0), origin));
         } else {
             parts.push((part, origin));
         }
     }
-}
-
-/// The parts of a curve between ascending parameters inside it.
-fn split(curve: &Curve, cuts: &[f64]) -> Vec<Curve> {
-    if cuts.is_empty() {
-        return vec![curve.clone()];
-    }
-    let starts = [0.0].into_iter().chain(cuts.iter().copied());
-    starts.zip(cuts.iter().copied().chain([1.0])).map(|(t0, t1)| curve.part(t0, t1)).collect()
 }
 
 // ---- where pieces meet ----

@@ -1,7 +1,7 @@
 //! Which faces are inside: by how often the drawn curves go around them, or by the shapes of a picture that paint them.
 
 use super::FillRule;
-use super::cut::Network;
+use super::cut::{Network, extent};
 use super::trace::{Face, Faces, Half};
 use crate::domain::locate::Side;
 use crate::domain::{Domain, Shape};
@@ -167,7 +167,7 @@ fn windings(network: &Network, domain: &Domain, faces: &Faces, rule: FillRule) -
 }
 
 /// The drawn curves that run along a piece of the domain, and whether each runs against it.
-fn drawn_along(network: &Network, id: CurveId) -> impl Iterator<Item = (u32, bool)> {
+pub(super) fn drawn_along(network: &Network, id: CurveId) -> impl Iterator<Item = (u32, bool)> {
     let piece = &network.pieces[id];
     [(piece.source, false)].into_iter().chain(piece.merged.iter().copied())
 }
@@ -261,16 +261,51 @@ impl FragmentNames<'_> {
 
 /// The name of each face by the shapes that fill it.
 fn painted(network: &Network, faces: &Faces, names: &mut Names, fragments: bool) -> Vec<Option<NameId>> {
+    if fragments {
+        let mut fragment_names = FragmentNames { names, known: BTreeMap::new() };
+        return by_paint(network, faces, |paint| fragment_names.of(paint));
+    }
+    let name = |shape: ShapeId| network.drawing.shapes[shape].name;
+    let painters = if network.pieces.iter().any(|piece| piece.paint.is_some()) {
+        painters_beside(network, faces)
+    } else {
+        topmost(network, faces)
+    };
+    painters.into_iter().map(|painter| painter.map(name)).collect()
+}
+
+/// The topmost shape that fills each face. All outlines must be there.
+pub(super) fn topmost(network: &Network, faces: &Faces) -> Vec<Option<ShapeId>> {
+    by_paint(network, faces, |paint| paint.filled.last().copied())
+}
+
+/// The shape that is seen in each face, as noted on the curves around it. They agree, but where a tolerance moved one over another: then
+/// most of the border says.
+fn painters_beside(network: &Network, faces: &Faces) -> Vec<Option<ShapeId>> {
+    let mut votes: Vec<BTreeMap<Option<ShapeId>, f64>> = vec![BTreeMap::new(); faces.cycles.len()];
+    for (id, piece) in network.pieces.enumerate() {
+        let Some(paint) = piece.paint else { continue };
+        for (side, shape) in [Side::Left, Side::Right].into_iter().zip(paint) {
+            if let Some(face) = faces.face(Half { curve: id, side }) {
+                *votes[face].entry(shape).or_default() += extent(piece.bounds);
+            }
+        }
+    }
+    let most = |votes: BTreeMap<Option<ShapeId>, f64>| votes.into_iter().max_by(|a, b| a.1.total_cmp(&b.1));
+    votes.into_iter().map(|votes| most(votes).and_then(|(shape, _)| shape)).collect()
+}
+
+/// What is said of every face by the shapes that fill it.
+fn by_paint<T>(network: &Network, faces: &Faces, mut of: impl FnMut(&Paint) -> Option<T>) -> Vec<Option<T>> {
     enum Step {
         Cross(Half),
         Return(Half),
     }
-    let mut painted = vec![None; faces.cycles.len()];
+    let mut said: Vec<Option<T>> = faces.cycles.iter().map(|_| None).collect();
     let shapes = &network.drawing.shapes;
     if shapes.is_empty() {
-        return painted;
+        return said;
     }
-    let mut fragment_names = FragmentNames { names, known: BTreeMap::new() };
     let holds = faces.components_by_face();
     let sides = |face: Face| {
         let around = holds[face.unwrap_or(faces.cycles.len())].iter().map(|&component| faces.outer[component]);
@@ -286,14 +321,11 @@ fn painted(network: &Network, faces: &Faces, names: &mut Names, fragments: bool)
                 let Some(face) = faces.face(half.twin()).filter(|&face| !seen[face]) else { continue };
                 seen[face] = true;
                 paint.cross(half, network);
-                painted[face] = match fragments {
-                    true => fragment_names.of(&paint),
-                    false => paint.filled.last().map(|&topmost| shapes[topmost].name),
-                };
+                said[face] = of(&paint);
                 steps.push(Step::Return(half));
                 steps.extend(sides(Some(face)).map(Step::Cross));
             }
         }
     }
-    painted
+    said
 }

@@ -6,6 +6,7 @@
 //!    is one, rather than a computed crossing. Pieces that coincide become one.
 //! 3. `star`: the curves around every point, in order.
 //! 4. `trace`, `fill`: faces, winding numbers, painted shapes, hole and region seeds, names.
+//! 5. `hidden`: stretches of outlines that later shapes of a picture cover are left out, and 2 to 4 repeated without them.
 //!
 //! A tolerance acts feature by feature: what is wider than it keeps its shape and its side of the border, whatever its length; only what
 //! fits within it becomes a point or a line, and is itemised ([`RepairKind::Collapsed`]). A chain of shorter curves is thinned to steps
@@ -22,6 +23,7 @@
 
 mod cut;
 mod fill;
+mod hidden;
 mod star;
 mod trace;
 mod weld;
@@ -87,6 +89,8 @@ pub enum RepairKind {
     ZeroLength,
     /// A closed curve, or a loop of a curve, no wider than the tolerance became a point or a line.
     Collapsed,
+    /// A stretch of an outline that a later shape of the picture covers was left out.
+    Hidden,
     /// A hole or region point that lies in no bounded face, or a second one in the same face.
     Seed,
 }
@@ -105,6 +109,7 @@ impl RepairKind {
             Self::Overlap => ["overlap merged", "overlaps merged"],
             Self::Collapsed => ["feature within the tolerance lost", "features within the tolerance lost"],
             Self::ZeroLength => ["curve of no length dropped", "curves of no length dropped"],
+            Self::Hidden => ["outline hidden in part", "outlines hidden in part"],
             Self::Seed => ["seed without a face", "seeds without a face"],
         }
     }
@@ -382,12 +387,23 @@ fn arrange_in_unit_frame(
     watch: &mut Watch,
 ) -> Result<Domain, Unarranged> {
     let mut network = settled(drawing, tolerances, watch)?;
-    let mut domain = bare_domain(&mut network, watch)?;
-    // Level lines keep twice the rounding away from ends of curves.
-    let faces = trace::Faces::trace(&domain, 2.0 * tolerances.rounding, watch)?;
+    let (mut domain, mut faces) = traced(&network, watch)?;
     let rule = if options.keep_all { FillRule::Regions } else { options.fill.unwrap_or(drawing.fill) };
+    if rule == FillRule::Shapes && !options.fragments && network.drop_hidden(&faces) {
+        network.settle(watch)?;
+        (domain, faces) = traced(&network, watch)?;
+    }
+    domain.repairs.append(&mut network.repairs);
     trace::keep(&network, &mut domain, &faces, rule, options, watch)?;
     Ok(domain)
+}
+
+/// The settled network as a domain without regions, and its faces.
+fn traced(network: &Network, watch: &mut Watch) -> Result<(Domain, trace::Faces), Unarranged> {
+    let domain = bare_domain(network, watch)?;
+    // Level lines keep twice the rounding away from ends of curves.
+    let faces = trace::Faces::trace(&domain, 2.0 * network.tolerances.rounding, watch)?;
+    Ok((domain, faces))
 }
 
 /// A drawing's curves welded and split until they meet at common ends only.
@@ -402,7 +418,7 @@ fn settled<'a>(drawing: &'a Drawing, tolerances: Tolerances, watch: &mut Watch) 
 }
 
 /// Points, curves and stars, without regions.
-fn bare_domain(network: &mut Network, watch: &mut Watch) -> Result<Domain, Unarranged> {
+fn bare_domain(network: &Network, watch: &mut Watch) -> Result<Domain, Unarranged> {
     let drawing = network.drawing;
     let (points, point_of) = used_points(network);
     let curve = |piece: &cut::Piece| DomainCurve {
@@ -426,7 +442,7 @@ fn bare_domain(network: &mut Network, watch: &mut Watch) -> Result<Domain, Unarr
         regions: IdVec::new(),
         names: drawing.names.clone(),
         point_names,
-        repairs: std::mem::take(&mut network.repairs),
+        repairs: Vec::new(),
         tolerance: network.tolerances.weld,
         stars,
     })

@@ -181,9 +181,7 @@ impl Network<'_> {
         let (mut t0, mut from) = (0.0, piece.ends[0]);
         for (t1, to) in inner.iter().map(|(cut, node)| (cut.t, *node)).chain([(1.0, piece.ends[1])]) {
             if t0 < t1 {
-                let mut part = Piece::new(piece.curve.part(t0, t1), [from, to], piece.source, false);
-                part.merged.clone_from(&piece.merged);
-                self.place_part(part);
+                self.place_part(piece.between(t0, t1, [from, to]));
             }
             (t0, from) = (t1, to);
         }
@@ -207,12 +205,12 @@ impl Network<'_> {
     }
 
     /// Moves the ends of a part to its nodes; drops it where nothing is left, and halves it first where that would bend it out of shape.
-    fn place_part(&mut self, part: Piece) {
+    pub fn place_part(&mut self, part: Piece) {
         let weld = self.tolerances.weld;
         let [from, to] = part.ends.map(|end| self.nodes[end].at);
         let size = extent(part.bounds);
         if part.ends[0] == part.ends[1] && size <= weld {
-            if part.whole {
+            if part.is_whole() {
                 self.itemise_lost(&part, from, size);
             }
             return;
@@ -229,9 +227,7 @@ impl Network<'_> {
         if part.ends[0] == part.ends[1] || bends {
             let middle = self.add_node(part.curve.point(0.5), Origin::Meeting(part.source));
             for (t0, t1, ends) in [(0.0, 0.5, [part.ends[0], middle]), (0.5, 1.0, [middle, part.ends[1]])] {
-                let mut half = Piece::new(part.curve.part(t0, t1), ends, part.source, false);
-                half.merged.clone_from(&part.merged);
-                self.move_ends(half);
+                self.move_ends(part.between(t0, t1, ends));
             }
         } else {
             self.move_ends(part);
@@ -261,7 +257,7 @@ impl Network<'_> {
     }
 
     /// Drops nodes that nothing ends at; the order stays.
-    fn renumber(&mut self) {
+    pub fn renumber(&mut self) {
         let mut used: IdVec<PointId, bool> = vec![false; self.nodes.len()].into();
         let ends = self.pieces.iter().flat_map(|p| p.ends);
         let drawn = self.drawn_ends.iter().flatten().flatten().copied().chain(self.drawn_points.iter().copied());
@@ -329,7 +325,7 @@ impl Network<'_> {
         let at = gone.curve.point(0.5);
         if gone.source == self.pieces[kept].source {
             self.loops.push((gone.source, at, gap));
-        } else if gone.whole && self.pieces[kept].whole {
+        } else if gone.is_whole() && self.pieces[kept].is_whole() {
             self.repair(RepairKind::Duplicate, at, gap, format!("{second} repeats {first} and was dropped"));
         } else {
             let what = format!("{second} overlaps {first}; the common stretch became one");

@@ -55,6 +55,7 @@ impl Mended {
             RepairKind::Overlap => (boxed(&[[-1.2, 0.5], [-0.4, -0.5], [1.2, -0.5], [0.4, 0.5]]), true),
             RepairKind::ZeroLength => (boxed(&[[-0.8, -1.0], [0.8, 1.0], [0.8, -1.0], [-0.8, 1.0]]), true),
             RepairKind::Collapsed => (regular(6, 0.0, &[1.0]), true),
+            RepairKind::Hidden => (boxed(&[[-1.2, 0.0], [1.2, 0.0]]), false),
             RepairKind::Seed => (boxed(&[[0.0, -1.1], [0.0, 1.1], [0.0, 0.0], [-1.1, 0.0], [1.1, 0.0]]), false),
         }
     }

@@ -1,0 +1,130 @@
+//! What nobody sees: stretches of the outlines of a picture's shapes that later shapes cover. Where overlapping shapes are painted one over
+//! another, such a stretch bounds nothing, and the face that it runs through is one.
+//!
+//! What was split only where such stretches met it is made whole again: the same part of the drawn curve, not its fragments. The network is
+//! settled once more after that, as what was split had been moved by up to a tolerance.
+
+use super::RepairKind;
+use super::cut::{Network, Part, Piece, extent};
+use super::fill::{drawn_along, topmost};
+use super::trace::{Faces, Half};
+use crate::curve::End;
+use crate::domain::locate::Side;
+use crate::geometry::Point;
+use crate::ids::{CurveId, IdVec, PointId, ShapeId};
+use std::collections::BTreeSet;
+
+/// Where the parts of a drawn curve before and after a node differ by more in direction (a sine), there is a corner.
+const STRAIGHT_ON: f64 = 0.01;
+
+impl Network<'_> {
+    /// Leaves out the hidden stretches and notes on the others which shapes are seen beside them; whether there were any. `faces` are those
+    /// of the settled network.
+    pub fn drop_hidden(&mut self, faces: &Faces) -> bool {
+        let topmost = topmost(self, faces);
+        let seen = |id: CurveId, side| faces.face(Half { curve: id, side }).and_then(|face| topmost[face]);
+        let sides = |id: CurveId| [Side::Left, Side::Right].map(|side| seen(id, side));
+        let is_outline =
+            |id: CurveId| drawn_along(self, id).all(|(source, _)| self.drawing.curves[source as usize].shape.is_some());
+        let is_hidden = |id: CurveId| {
+            let [left, right] = sides(id);
+            left.is_some() && left == right && is_outline(id)
+        };
+        let (hidden, left): (Vec<CurveId>, Vec<CurveId>) = self.pieces.ids().partition(|&id| is_hidden(id));
+        if hidden.is_empty() {
+            return false;
+        }
+        let paint: Vec<_> = left.iter().map(|&id| sides(id)).collect();
+        self.itemise_hidden(&hidden, &topmost, faces);
+        let painted = |(&id, paint)| Piece { paint: Some(paint), ..self.pieces[id].clone() };
+        let pieces: Vec<Piece> = left.iter().zip(paint).map(painted).collect();
+        // Ends of outlines that are hidden are no nodes any more.
+        self.drawn_ends.iter_mut().for_each(|ends| *ends = None);
+        self.rejoin(pieces.into());
+        self.renumber();
+        self.forget_splits();
+        true
+    }
+
+    /// Once for every drawn curve of which something is hidden.
+    fn itemise_hidden(&mut self, hidden: &[CurveId], topmost: &[Option<ShapeId>], faces: &Faces) {
+        let mut known = BTreeSet::new();
+        for &id in hidden {
+            let piece = &self.pieces[id];
+            if !known.insert(piece.source) {
+                continue;
+            }
+            let over = faces.face(Half { curve: id, side: Side::Left }).and_then(|face| topmost[face]);
+            let over = over.map_or("another shape", |shape| &self.drawing.shapes[shape].entity);
+            let what = format!("{} runs beneath {over} and was left out there", self.entity(piece.source));
+            let at = piece.curve.point(0.5);
+            self.repair(RepairKind::Hidden, at, 0.0, what);
+        }
+    }
+
+    /// Takes the pieces that are left, those in one where nothing but a hidden stretch had parted them.
+    fn rejoin(&mut self, left: IdVec<CurveId, Piece>) {
+        let mut at_node: IdVec<PointId, Vec<CurveId>> = vec![Vec::new(); self.nodes.len()].into();
+        left.enumerate().for_each(|(id, piece)| piece.ends.into_iter().for_each(|end| at_node[end].push(id)));
+        // A drawn point stays.
+        self.drawn_points.iter().for_each(|&node| at_node[node].clear());
+        let next = |id: CurveId| match at_node[left[id].ends[1]][..] {
+            [a, b] if a != b => Some(if a == id { b } else { a }).filter(|&next| self.goes_on(&left[id], &left[next])),
+            _ => None,
+        };
+        let follows: IdVec<CurveId, Option<CurveId>> = left.ids().map(next).collect();
+        let mut is_first: IdVec<CurveId, bool> = vec![true; left.len()].into();
+        follows.iter().flatten().for_each(|&id| is_first[id] = false);
+        self.pieces = IdVec::new();
+        for first in left.ids().filter(|&id| is_first[id]) {
+            let mut run = vec![first];
+            while let Some(next) = follows[run[run.len() - 1]] {
+                // What closes up would have no ends.
+                if left[next].ends[1] == left[run[0]].ends[0] {
+                    self.place_run(&run, &left);
+                    run.clear();
+                }
+                run.push(next);
+            }
+            self.place_run(&run, &left);
+        }
+    }
+
+    /// Whether one piece goes on as another: along the same drawn curve, without a corner, between the same shapes.
+    fn goes_on(&self, piece: &Piece, next: &Piece) -> bool {
+        let [from, to] = [piece.range[1], next.range[0]];
+        if piece.source != next.source || piece.paint != next.paint || piece.ends[1] != next.ends[0] || from > to {
+            return false;
+        }
+        let source = &self.drawing.curves[piece.source as usize].curve;
+        let (before, after) = (source.tangent(from, End::Finish), source.tangent(to, End::Start));
+        let turns =
+            before.cross(after).abs() > STRAIGHT_ON * before.hypot() * after.hypot() || before.dot(after) <= 0.0;
+        !turns && (from == to || extent(source.bounds_of(from, to)) <= 2.0 * self.tolerances.weld)
+    }
+
+    fn place_run(&mut self, run: &[CurveId], left: &IdVec<CurveId, Piece>) {
+        let (first, last) = (&left[run[0]], &left[run[run.len() - 1]]);
+        if run.len() == 1 {
+            self.pieces.push(first.clone());
+            return;
+        }
+        let range = [first.range[0], last.range[1]];
+        let curve = self.drawing.curves[first.source as usize].curve.part(range[0], range[1]);
+        let mut whole = Piece::new(Part { curve, range }, [first.ends[0], last.ends[1]], first.source);
+        let merged: BTreeSet<(u32, bool)> = run.iter().flat_map(|&id| left[id].merged.iter().copied()).collect();
+        whole.merged.extend(merged);
+        whole.paint = first.paint;
+        self.place_part(whole);
+    }
+
+    /// Drops splits from the list of repairs at places where nothing is split any more.
+    fn forget_splits(&mut self) {
+        let cell = 4.0 * self.tolerances.weld;
+        let cell_of = |[x, y]: [f64; 2]| [x, y].map(|x| (x / cell).floor() as i64);
+        let place = |at: Point| cell_of([at.x, at.y]);
+        let nodes: BTreeSet<[i64; 2]> = self.nodes.iter().map(|node| place(node.at)).collect();
+        let is_node = |[i, j]: [i64; 2]| (i - 1..=i + 1).any(|i| nodes.range([i, j - 1]..=[i, j + 1]).next().is_some());
+        self.repairs.retain(|repair| repair.kind != RepairKind::Split || is_node(cell_of(repair.at)));
+    }
+}
