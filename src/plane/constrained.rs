@@ -373,7 +373,27 @@ impl Constrained {
             }
         }
         let left = |v: &VertexId| orient(x, y, self.point(*v)) == Orientation::CounterClockwise;
-        seen.extend(found.into_iter().filter(|v| left(v) && self.sees(*v, side)));
+        let below = |v: VertexId| x + (y - x) * share_along(self.point(v), [x, y]).clamp(0.01, 0.99);
+        seen.extend(
+            found.into_iter().filter(|v| left(v) && (self.glimpses(*v, below(*v), side) || self.sees(*v, side))),
+        );
+    }
+
+    /// Whether the ray from a vertex towards a place leaves through a side before any piece, and meets no vertex on the way: then the
+    /// vertex sees the side. One line where [`Constrained::sees`] looks through all that lies between.
+    fn glimpses(&self, v: VertexId, toward: Point, side: Side) -> bool {
+        let topology = self.topology();
+        let from = self.point(v);
+        let is = |w: VertexId, wanted: Orientation| w != GHOST && orient(from, toward, self.point(w)) == wanted;
+        let leaves = |s: &Side| {
+            is(topology.origin(*s), Orientation::Clockwise) && is(topology.target(*s), Orientation::CounterClockwise)
+        };
+        let mut exit = topology.sides_from(v).map(Side::next).find(leaves);
+        while let Some(s) = exit.filter(|&s| s != side && !self.is_piece(s)) {
+            let beyond = topology.twin(s);
+            exit = [beyond.next(), beyond.prev()].into_iter().find(leaves);
+        }
+        exit == Some(side)
     }
 
     // ---- checks ----
@@ -410,10 +430,14 @@ impl Constrained {
     }
 }
 
-fn distance_to_segment(p: Point, [a, b]: [Point; 2]) -> f64 {
+fn distance_to_segment(p: Point, ends: [Point; 2]) -> f64 {
+    p.distance(ends[0].lerp(ends[1], share_along(p, ends).clamp(0.0, 1.0)))
+}
+
+/// The share of the way along a segment at which a place lies beside it.
+fn share_along(p: Point, [a, b]: [Point; 2]) -> f64 {
     let (ab, ap) = (b - a, p - a);
-    let share = if ab.hypot2() > 0.0 { (ap.dot(ab) / ab.hypot2()).clamp(0.0, 1.0) } else { 0.0 };
-    (ap - share * ab).hypot()
+    if ab.hypot2() > 0.0 { ap.dot(ab) / ab.hypot2() } else { 0.0 }
 }
 
 #[cfg(test)]

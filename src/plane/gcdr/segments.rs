@@ -45,12 +45,14 @@ impl Gcdr<'_> {
         if let Standing::Spoke(fan) = piece.standing {
             return self.cut_fan(fan, why);
         }
-        let type_c = self.encroachers(id).into_iter().any(|v| self.origins[v] != Origin::Free);
+        let encroachers = self.encroachers(id);
+        let type_c = encroachers.iter().any(|&v| self.origins[v] != Origin::Free);
         let t = match self.distance_to_sharp_end(&piece) {
             Some((end, radius)) => shape_of(&self.domain, &piece).leaves_ball(end, radius, 0.0, 1.0),
             None => self.choose(&piece, type_c),
         };
-        let Some(parts) = self.split_together(&[(id, vec![t.unwrap_or(f64::NAN)])], why) else { return false };
+        let cuts = [(id, vec![t.unwrap_or(f64::NAN)])];
+        let Some(parts) = self.split_together(&cuts, encroachers, why) else { return false };
         let v = self.subcurves.get(parts[0][0]).ends[1];
         self.record(v, if type_c { Kind::C } else { Kind::B });
         true
@@ -100,15 +102,14 @@ impl Gcdr<'_> {
         self.side_of(id).map_or(Vec::new(), |side| self.mesh.visible_in_diametral_circle(side))
     }
 
-    /// Deletes the free vertices among them.
-    fn clear_diametral_circle(&mut self, id: PieceId) {
-        for v in self.encroachers(id) {
-            if self.origins[v] == Origin::Free {
-                self.mesh.remove(v);
-                self.counters.add("vertices_deleted", 1);
-                self.alive -= 1;
-            }
-        }
+    /// Deletes the free vertices among some.
+    fn delete_free(&mut self, mut vertices: Vec<VertexId>) {
+        vertices.retain(|&v| self.origins[v] == Origin::Free);
+        vertices.sort_unstable();
+        vertices.dedup();
+        self.alive -= vertices.len();
+        self.counters.add("vertices_deleted", vertices.len() as u64);
+        vertices.into_iter().for_each(|v| self.mesh.remove(v));
     }
 
     fn side_of(&self, id: PieceId) -> Option<Side> {
@@ -127,7 +128,8 @@ impl Gcdr<'_> {
         let fan = &self.fans[id];
         let (corner, radius) = (VertexId(fan.corner.0), 0.5 * fan.radius);
         let cuts = self.shells(corner, radius, &fan.spokes);
-        let Some(parts) = self.split_together(&cuts, why) else { return false };
+        let encroachers = fan.spokes.iter().flat_map(|&spoke| self.encroachers(spoke)).collect();
+        let Some(parts) = self.split_together(&cuts, encroachers, why) else { return false };
         self.fans[id].radius = radius;
         self.fans[id].spokes.clear();
         for parts in parts {
@@ -187,9 +189,14 @@ impl Gcdr<'_> {
         bounds.windows(2).map(|t| Hull::of(&self.domain, piece, [t[0], t[1]])).collect()
     }
 
-    /// Splits pieces at ascending parameters, all at once: between two of a fan chords may cross. `None` where coordinates cannot hold it:
-    /// the place is owed; if that shows only half-way, the run is over.
-    fn split_together(&mut self, cuts: &[(PieceId, Vec<f64>)], why: &'static str) -> Option<Vec<Vec<PieceId>>> {
+    /// Splits pieces at ascending parameters, all at once: between two of a fan chords may cross. Free vertices among those that encroach
+    /// are deleted first. `None` where coordinates cannot hold it: the place is owed; if that shows only half-way, the run is over.
+    fn split_together(
+        &mut self,
+        cuts: &[(PieceId, Vec<f64>)],
+        encroachers: Vec<VertexId>,
+        why: &'static str,
+    ) -> Option<Vec<Vec<PieceId>>> {
         for (id, ts) in cuts {
             let piece = *self.subcurves.get(*id);
             if !self.has_room(&piece, ts) {
@@ -197,7 +204,7 @@ impl Gcdr<'_> {
                 return None;
             }
         }
-        cuts.iter().for_each(|(id, _)| self.clear_diametral_circle(*id));
+        self.delete_free(encroachers);
         for (id, _) in cuts {
             let side = self.side_of(*id).expect("a piece is a side");
             self.mesh.release(side);
