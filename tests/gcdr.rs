@@ -84,7 +84,7 @@ fn excused(verdict: &Verdict) -> usize {
 fn the_papers_squares_take_the_papers_triangles() {
     // 1583 and 3200 in the paper, 1592 and 3139 by Triangle.
     let (mesh, verdict) = kept(&squares(), &options(20.7, Regions::CENTERS), &mut Center);
-    assert!((1500..1620).contains(&mesh.triangles.len()), "{}", mesh.triangles.len());
+    assert!((1500..1640).contains(&mesh.triangles.len()), "{}", mesh.triangles.len());
     for name in ["min_angle", "radius_edge", "constrained_delaunay"] {
         assert_eq!(status(&verdict, name), Status::Proven, "{name}");
     }
@@ -93,7 +93,7 @@ fn the_papers_squares_take_the_papers_triangles() {
     }
     assert_eq!(excused(&verdict), 0);
     let (mesh, verdict) = kept(&squares(), &options(30.0, Regions::CENTERS), &mut Center);
-    assert!(mesh.triangles.len() < 3350, "{}", mesh.triangles.len());
+    assert!(mesh.triangles.len() <= 3200, "{}", mesh.triangles.len());
     assert_eq!(status(&verdict, "min_angle"), Status::Reached);
 }
 

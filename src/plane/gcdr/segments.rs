@@ -45,14 +45,13 @@ impl Gcdr<'_> {
         if let Standing::Spoke(fan) = piece.standing {
             return self.cut_fan(fan, why);
         }
-        let encroachers = self.encroachers(id);
-        let type_c = encroachers.iter().any(|&v| self.origins[v] != Origin::Free);
+        let (free, type_c) = self.encroachers(id);
         let t = match self.distance_to_sharp_end(&piece) {
             Some((end, radius)) => shape_of(&self.domain, &piece).leaves_ball(end, radius, 0.0, 1.0),
             None => self.choose(&piece, type_c),
         };
         let cuts = [(id, vec![t.unwrap_or(f64::NAN)])];
-        let Some(parts) = self.split_together(&cuts, encroachers, why) else { return false };
+        let Some(parts) = self.split_together(&cuts, free, why) else { return false };
         let v = self.subcurves.get(parts[0][0]).ends[1];
         self.record(v, if type_c { Kind::C } else { Kind::B });
         true
@@ -97,14 +96,22 @@ impl Gcdr<'_> {
         (far - near > 0.5 * chord).then(|| (end, roundest_between(near + third, far - third)))
     }
 
-    /// The vertices in the diametral circle of a piece that see it.
-    fn encroachers(&self, id: PieceId) -> Vec<VertexId> {
-        self.side_of(id).map_or(Vec::new(), |side| self.mesh.visible_in_diametral_circle(side))
+    /// The free vertices in the diametral circle of a piece that see it, and whether others do.
+    fn encroachers(&self, id: PieceId) -> (Vec<VertexId>, bool) {
+        let (mut free, mut others) = (Vec::new(), false);
+        for side in self.side_of(id).into_iter().flat_map(|s| [s, self.mesh.topology().twin(s)]) {
+            let (of_side, rest): (Vec<VertexId>, Vec<VertexId>) =
+                self.mesh.in_half_circle(side).into_iter().partition(|&v| self.origins[v] == Origin::Free);
+            free.extend(of_side.into_iter().filter(|&v| self.mesh.sees(v, side)));
+            others = others
+                || rest.contains(&self.mesh.topology().apex(side))
+                || rest.into_iter().any(|v| self.mesh.sees(v, side));
+        }
+        (free, others)
     }
 
-    /// Deletes the free vertices among some.
-    fn delete_free(&mut self, mut vertices: Vec<VertexId>) {
-        vertices.retain(|&v| self.origins[v] == Origin::Free);
+    /// Deletes free vertices, some of which may be given twice.
+    fn delete(&mut self, mut vertices: Vec<VertexId>) {
         vertices.sort_unstable();
         vertices.dedup();
         self.alive -= vertices.len();
@@ -128,8 +135,8 @@ impl Gcdr<'_> {
         let fan = &self.fans[id];
         let (corner, radius) = (VertexId(fan.corner.0), 0.5 * fan.radius);
         let cuts = self.shells(corner, radius, &fan.spokes);
-        let encroachers = fan.spokes.iter().flat_map(|&spoke| self.encroachers(spoke)).collect();
-        let Some(parts) = self.split_together(&cuts, encroachers, why) else { return false };
+        let free = fan.spokes.iter().flat_map(|&spoke| self.encroachers(spoke).0).collect();
+        let Some(parts) = self.split_together(&cuts, free, why) else { return false };
         self.fans[id].radius = radius;
         self.fans[id].spokes.clear();
         for parts in parts {
@@ -189,12 +196,12 @@ impl Gcdr<'_> {
         bounds.windows(2).map(|t| Hull::of(&self.domain, piece, [t[0], t[1]])).collect()
     }
 
-    /// Splits pieces at ascending parameters, all at once: between two of a fan chords may cross. Free vertices among those that encroach
+    /// Splits pieces at ascending parameters, all at once: between two of a fan chords may cross. `free` vertices, those that encroach,
     /// are deleted first. `None` where coordinates cannot hold it: the place is owed; if that shows only half-way, the run is over.
     fn split_together(
         &mut self,
         cuts: &[(PieceId, Vec<f64>)],
-        encroachers: Vec<VertexId>,
+        free: Vec<VertexId>,
         why: &'static str,
     ) -> Option<Vec<Vec<PieceId>>> {
         for (id, ts) in cuts {
@@ -204,7 +211,7 @@ impl Gcdr<'_> {
                 return None;
             }
         }
-        self.delete_free(encroachers);
+        self.delete(free);
         for (id, _) in cuts {
             let side = self.side_of(*id).expect("a piece is a side");
             self.mesh.release(side);

@@ -96,7 +96,7 @@ impl SteinerStrategy for OffCenter {
     }
 
     fn order(&self) -> Order {
-        Order::ShortestEdge
+        if self.free { Order::ShortestEdge } else { Order::SmallestAngle }
     }
 
     fn is_free(&self) -> bool {
@@ -147,7 +147,7 @@ impl SteinerStrategy for Optimal {
     }
 
     fn order(&self) -> Order {
-        Order::SmallestCircle
+        if self.off_center.free { Order::SmallestCircle } else { Order::SmallestAngle }
     }
 
     fn is_free(&self) -> bool {

@@ -3,7 +3,7 @@
 use super::steiner::{Order, Skinny};
 use super::{Gcdr, Kind, Origin, Suspect};
 use crate::geometry::{Point, scaled};
-use crate::ids::{CurveId, TriangleId, VertexId};
+use crate::ids::{CurveId, PieceId, TriangleId, VertexId};
 use crate::plane::constrained::Look;
 use crate::plane::insert::{self, Location};
 use crate::plane::lopping::splittri::{circumcircle, sin2_smallest};
@@ -52,7 +52,9 @@ impl Gcdr<'_> {
         // Lengths by octaves below the unit to which the domain is scaled: 2^-40 is as short as it gets.
         let octaves = |length: f64| -libm::log2(length) / 40.0;
         let badness = match self.strategy.order() {
-            Order::SmallestAngle => 1.0 - sin2_smallest(corners) / self.sin2_min,
+            _ if self.doomed(suspect.0).is_some() => 1.0,
+            // By the sine: its square would crowd what is nearly good enough.
+            Order::SmallestAngle => 1.0 - (sin2_smallest(corners) / self.sin2_min).sqrt(),
             Order::ShortestEdge => octaves((0..3).map(|i| edge2(corners, i)).fold(f64::INFINITY, f64::min).sqrt()),
             Order::SmallestCircle => octaves(circumcircle(corners).1),
         };
@@ -82,8 +84,27 @@ impl Gcdr<'_> {
             self.reason = StopReason::VertexBudget;
             return self.skinny.push(suspect, 1.0);
         }
+        if skinny && let Some(piece) = self.doomed(t) {
+            return self.encroach(suspect, piece);
+        }
         let p = if skinny { self.choose_in_disk(t, center, radius) } else { center };
         self.kill(suspect, p);
+    }
+
+    /// The segment of a triangle that must be split whatever else is: a vertex that will stay sees it at an angle so wide that the
+    /// triangle on it will be skinny as long as it stands. Split at once, it spares free vertices that would be deleted later. Its point
+    /// is of type C, which needs no rejected point to be proven.
+    fn doomed(&self, t: TriangleId) -> Option<PieceId> {
+        let topology = self.mesh.topology();
+        let widest = libm::cos(2.0 * self.options.angle_min_rad);
+        let is_wide = |s: &Side| {
+            let [u, v] = [topology.origin(*s), topology.target(*s)]
+                .map(|end| self.mesh.point(end) - self.mesh.point(topology.apex(*s)));
+            -u.dot(v) > widest * u.hypot() * v.hypot()
+        };
+        let stays = |s: &Side| self.origins[topology.apex(*s)] != Origin::Free;
+        let widest = [0, 1, 2].map(|i| t.side_of(i)).into_iter().find(|s| stays(s) && is_wide(s))?;
+        topology.piece(widest)
     }
 
     /// Whether the shortest edge of a triangle lies across a sharp corner, with its ends equally far from it: an angle that the input has.
@@ -144,9 +165,9 @@ impl Gcdr<'_> {
             return self.too_near.push(place);
         }
         let location = match self.mesh.look_from(t, p) {
-            Some(Look::Blocked(side)) => return self.encroach(suspect, side),
+            Some(Look::Blocked(side)) => return self.reject(suspect, side),
             Some(Look::Seen(Location::Side(side))) if self.mesh.topology().piece(side).is_some() => {
-                return self.encroach(suspect, side);
+                return self.reject(suspect, side);
             }
             Some(Look::Seen(location)) => location,
             None => return self.too_near.push(place),
@@ -165,11 +186,15 @@ impl Gcdr<'_> {
     }
 
     /// The chosen point is rejected: Definition 2.1.
-    fn encroach(&mut self, suspect: Suspect, side: Side) {
+    fn reject(&mut self, suspect: Suspect, side: Side) {
         let Some(piece) = self.mesh.topology().piece(side) else { return };
         self.counters.add("rejected", 1);
-        let split = self.split_segment(piece, "vertices_segment");
-        if split && !self.is_stale(&suspect) {
+        self.encroach(suspect, piece);
+    }
+
+    /// Splits a segment that a triangle encroaches, and comes back to the triangle if it still stands.
+    fn encroach(&mut self, suspect: Suspect, piece: PieceId) {
+        if self.split_segment(piece, "vertices_segment") && !self.is_stale(&suspect) {
             self.push_skinny(suspect);
         }
     }
