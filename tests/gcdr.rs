@@ -4,10 +4,12 @@ use squinch::curve::Curve;
 use squinch::domain::{ArrangeOptions, Domain, Drawing, FillRule};
 use squinch::generate::curved_complex;
 use squinch::geometry::Point;
-use squinch::mesh::Mesh;
-use squinch::mesh::verify::{Status, Verdict, verify};
-use squinch::plane::gcdr::steiner::{Center, Encroached, Extreme, Grid, OffCenter, Optimal, Random, Skinny};
-use squinch::plane::gcdr::{self, Gcdr, Kind, Options, Regions, Start, SteinerStrategy};
+use squinch::mesh::verify::{Status, Verdict, densities, verify};
+use squinch::mesh::{InsertionKind, Mesh};
+use squinch::plane::gcdr::steiner::{
+    BySize, Center, Encroached, Extreme, Grid, OffCenter, Optimal, Places, Random, Skinny,
+};
+use squinch::plane::gcdr::{self, Options, Regions, SteinerStrategy};
 use squinch::refine::StopReason;
 use squinch::size::Sizing;
 use std::f64::consts::SQRT_2;
@@ -56,7 +58,13 @@ fn touching_circles() -> Drawing {
 }
 
 fn options(angle_min_deg: f64, regions: Regions) -> Options {
-    Options { angle_min_rad: angle_min_deg.to_radians(), regions, sizing: Sizing::default(), max_vertices: 100_000 }
+    Options {
+        angle_min_rad: angle_min_deg.to_radians(),
+        regions,
+        sizing: Sizing::default(),
+        max_vertices: 100_000,
+        record: false,
+    }
 }
 
 /// Refines and judges; the verdict must be kept.
@@ -138,42 +146,97 @@ fn any_strategy_keeps_the_promises() {
         Box::new(Extreme),
         Box::new(Random::new(3)),
         Box::new(Grid { pitch: 0.01 }),
+        Box::new(Places::new(
+            (0..400).map(|k| Point::new(0.05 * f64::from(k % 20) - 0.5, 0.05 * f64::from(k / 20) - 0.5)),
+        )),
+        Box::new(BySize),
         Box::new(Stubborn(0)),
     ];
     for mut strategy in strategies {
         for drawing in [squares(), touching_circles(), wedge(25.0, [1.0, 0.7])] {
-            kept(&drawing, &options(20.7, regions), &mut *strategy);
+            let options = options(20.7, regions);
+            kept(&drawing, &options, &mut *strategy);
+            let sizing = Sizing { max_edge: Some(0.2), ..Sizing::default() };
+            kept(&drawing, &Options { sizing, ..options }, &mut *strategy);
         }
     }
 }
 
 #[test]
-fn points_lie_in_their_regions_and_densities_below_the_bounds() {
+fn densities_lie_below_the_bounds_and_the_judge_believes_no_radius() {
     let domain = domain_of(&squares());
     let regions = Regions { delta2: 0.9, delta1: 0.9, mu: 0.6 };
     for seed in 0..4 {
-        let mut strategy = Random::new(seed);
-        let options = options((0.5 / SQRT_2).asin().to_degrees(), regions);
-        let Ok(Start::Ready(gcdr)) = Gcdr::start(&domain, &options, &mut strategy, &mut |_| true) else {
-            panic!("a small domain begins")
-        };
-        let mut gcdr = gcdr.recording();
-        while gcdr.step() {}
-        let insertions = gcdr.insertions();
-        let bounds = regions.printed_densities(SQRT_2, std::f64::consts::FRAC_PI_2);
-        for kind in [Kind::A, Kind::B, Kind::C] {
+        let angle = (0.5 / SQRT_2).asin().to_degrees();
+        let options = Options { record: true, ..options(angle, regions) };
+        let refined = gcdr::refine(&domain, &options, &mut Random::new(seed), None, &mut |_| true).unwrap();
+        let (mesh, mut insertions) = (refined.mesh.unwrap(), refined.insertions);
+        for kind in [InsertionKind::A, InsertionKind::B, InsertionKind::C] {
             assert!(insertions.iter().any(|i| i.kind == kind), "seed {seed}: no {kind:?}");
         }
+        // Lemma 2.6: parents are seen, so none is nearer than R(p), but those of type B, which may be deleted first.
         for i in &insertions {
-            let bound = match i.kind {
-                Kind::A => bounds.a,
-                Kind::B => bounds.b,
-                Kind::C => bounds.c,
-            };
-            let density = lfs_in_squares(i.at) / i.radius;
-            assert!(density > 0.0 && density <= bound, "seed {seed}: {i:?} has density {density}");
+            let parent = i.parent.expect("no size asked for any");
+            assert!(i.kind == InsertionKind::B || i.at.distance(parent) >= i.radius, "seed {seed}: {i:?}");
         }
+        let promise = options.density_promise(&domain);
+        assert_eq!(promise.map(|p| p.proven), Some(false), "C₁C₂ < 1");
+        let held = densities(&domain, &mesh, &insertions, promise);
+        assert!(held.iter().all(|c| c.status == Status::Reached && c.checked > 0), "seed {seed}: {held:?}");
+        // An engine that tells too large radii is not believed, one that crowds its vertices is found out.
+        insertions.iter_mut().for_each(|i| i.radius *= 2.0);
+        let retold = densities(&domain, &mesh, &insertions, promise);
+        assert!(retold.iter().zip(&held).all(|(r, h)| r.worst.unwrap().value > 0.6 * h.worst.unwrap().value));
+        insertions.iter_mut().for_each(|i| i.radius *= 0.02);
+        let crowded = densities(&domain, &mesh, &insertions, promise);
+        assert!(crowded.iter().all(|c| c.status == Status::Broken), "{crowded:?}");
     }
+    let proven = Options { record: true, ..options(20.7, Regions::CENTERS) };
+    assert_eq!(proven.density_promise(&domain).map(|p| p.proven), Some(true));
+    assert_eq!(proven.density_promise(&domain_of(&touching_circles())), None, "curves");
+    assert_eq!(proven.density_promise(&domain_of(&wedge(50.0, [1.0, 1.0]))), None, "a sharp corner");
+    let sizing = Sizing { max_edge: Some(0.1), ..Sizing::default() };
+    assert_eq!(Options { sizing, ..proven }.density_promise(&domain), None, "sizes crowd vertices, too");
+}
+
+#[test]
+fn feature_sizes_are_those_of_every_pair_asked() {
+    let domain = domain_of(&squares());
+    let features = domain.features();
+    for k in 0..2000u32 {
+        let p = Point::new(f64::from(k % 50) / 40.0 - 0.61, f64::from(k / 50) / 32.0 - 0.617);
+        let lfs = features.lfs(p);
+        assert!((lfs - lfs_in_squares(p)).abs() < 1e-12, "{p:?}: {lfs}");
+    }
+}
+
+#[test]
+fn strategies_with_a_wish_get_it_where_the_region_has_it() {
+    let sizing = Sizing { max_edge: Some(0.05), ..Sizing::default() };
+    let regions = Regions { delta2: 0.71, ..Regions::CENTERS };
+    let options = Options { sizing, ..options(20.7, regions) };
+    let (plain, _) = kept(&squares(), &options, &mut Center);
+    let on_grid = |mesh: &Mesh| {
+        let is_on = |x: f64| (x * 64.0).fract() == 0.0;
+        mesh.nodes.iter().filter(|p| is_on(p.x) && is_on(p.y)).count()
+    };
+    let (snapped, _) = kept(&squares(), &options, &mut Grid { pitch: 1.0 / 64.0 });
+    assert!(on_grid(&snapped) > 3 * on_grid(&plain), "{} {}", on_grid(&snapped), on_grid(&plain));
+    let places: Vec<Point> =
+        (0..64 * 64).map(|k| Point::new(f64::from(k % 64) / 64.0 - 0.5, f64::from(k / 64) / 64.0 - 0.5)).collect();
+    let (placed, _) = kept(&squares(), &options, &mut Places::new(places));
+    assert!(on_grid(&placed) > 3 * on_grid(&plain), "{}", on_grid(&placed));
+    let inner = |mesh: &Mesh| {
+        let is_inner = |p: Point| p.x.abs().max(p.y.abs()) < 0.4;
+        let lengths = mesh.triangles.ids().flat_map(|t| {
+            let [a, b, c] = mesh.corners(t);
+            [[a, b], [b, c], [c, a]].into_iter().filter(|e| e.iter().all(|&p| is_inner(p))).map(|[a, b]| a.distance(b))
+        });
+        lengths.fold((0, 0), |(near, all), d| (near + usize::from((0.04..=0.05).contains(&d)), all + 1))
+    };
+    let (by_size, _) = kept(&squares(), &options, &mut BySize);
+    let share = |(near, all): (usize, usize)| near as f64 / all as f64;
+    assert!(share(inner(&by_size)) > share(inner(&plain)), "{:?} {:?}", inner(&by_size), inner(&plain));
 }
 
 /// The second smallest distance to sides of the squares that have no common end: no less than lfs.

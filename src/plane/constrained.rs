@@ -286,6 +286,11 @@ impl Constrained {
         on.map_or(Location::Triangle(t), Location::Side)
     }
 
+    /// Whether neither a piece nor a vertex lies between two vertices.
+    pub fn see_each_other(&self, a: VertexId, b: VertexId) -> bool {
+        self.crossings(a, b).is_ok()
+    }
+
     /// Whether a vertex to the left of a side sees any place between its ends.
     pub fn sees(&self, v: VertexId, side: Side) -> bool {
         let [x, y] = [self.topology().origin(side), self.topology().target(side)].map(|v| self.point(v));

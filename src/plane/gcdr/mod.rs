@@ -34,13 +34,14 @@ use super::subcurves::Subcurves;
 use crate::domain::Domain;
 use crate::geometry::{self, Point};
 use crate::ids::{BallId, CurveId, Id, IdVec, PieceId, PointId, TriangleId, VertexId};
-use crate::mesh::RIM_ROUNDING;
-use crate::mesh::verify::{ConstrainedPromise, Promise};
+use crate::mesh::verify::{ConstrainedPromise, DensityPromise, Promise};
+use crate::mesh::{Insertion, InsertionKind, RIM_ROUNDING};
 use crate::refine::{Counters, Stop, StopReason, WorstFirst};
 use crate::size::{SizeField, Sizing};
 use crate::watch::{Progress, Watch};
 use chords::Beginning;
-pub use parameters::{Densities, Regions, Violation};
+use parameters::radius_edge_of;
+pub use parameters::{Regions, Violation};
 use std::f64::consts::FRAC_PI_3;
 pub use steiner::SteinerStrategy;
 
@@ -53,6 +54,8 @@ pub struct Options {
     pub sizing: Sizing,
     /// Vertices after which nothing is split any more.
     pub max_vertices: usize,
+    /// Keep what every insertion was, for densities.
+    pub record: bool,
 }
 
 /// Corners up to this angle are sharp: less than 60° by more than rounding explains.
@@ -77,21 +80,10 @@ impl Options {
     }
 }
 
-/// What type of point a vertex was inserted as.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Kind {
-    A,
-    B,
-    C,
-}
-
-/// A point as it was inserted.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub struct Insertion {
-    pub kind: Kind,
-    pub at: Point,
-    /// R(p): the distance to the nearest vertex that it saw (Definition 2.4).
-    pub radius: f64,
+/// The smallest angle of the domain at which curves are not cut on shells: 60° or more; π where there is none.
+pub fn least_angle(domain: &Domain) -> f64 {
+    let angles = domain.points().ids().filter_map(|p| domain.corner(p)).map(|corner| corner.angle_rad);
+    angles.filter(|&a| a > SHARP_RAD).fold(std::f64::consts::PI, f64::min)
 }
 
 /// Where a vertex came from.
@@ -142,7 +134,7 @@ pub struct Gcdr<'s> {
     sin2_min: f64,
     /// No edge shorter than this is made on purpose.
     resolution: f64,
-    insertions: Option<Vec<Insertion>>,
+    insertions: Vec<Insertion>,
 }
 
 /// Meshes a domain whose curves turn at most π/3 each, as long as `watch` says to go on, in `most` steps or as many as there are.
@@ -171,6 +163,21 @@ pub fn refine(
             return gcdr.finish();
         }
         steps += 1;
+    }
+}
+
+impl Options {
+    /// What the densities of a domain's mesh are held to by a strategy that is not free: `None` on curves, at angles below 60°, and where
+    /// sizes are asked for, which insert vertices of their own.
+    pub fn density_promise(&self, domain: &Domain) -> Option<DensityPromise> {
+        let straight = domain.curves().iter().all(|c| c.curve.is_straight());
+        let sharp = |p: PointId| domain.corner(p).is_some_and(|corner| corner.angle_rad <= SHARP_RAD);
+        // Along straight segments nothing turns.
+        let unsized_but_for_turning =
+            self.sizing == Sizing { edge_turning_rad: self.sizing.edge_turning_rad, ..Sizing::default() };
+        let bounded =
+            straight && unsized_but_for_turning && self.angle_min_rad > 0.0 && !domain.points().ids().any(sharp);
+        bounded.then(|| self.regions.density_promise(radius_edge_of(self.angle_min_rad), least_angle(domain)))
     }
 }
 
@@ -205,7 +212,12 @@ impl<'s> Gcdr<'s> {
         if stopped || beginning.points.len() > options.max_vertices {
             let reason = if stopped { StopReason::Cancelled } else { StopReason::VertexBudget };
             let stop = Stop { reason, owed: 1, places: Vec::new() };
-            return Ok(Start::Ended(Box::new(Refined { mesh: None, stop, counters: Counters::default() })));
+            return Ok(Start::Ended(Box::new(Refined {
+                mesh: None,
+                stop,
+                counters: Counters::default(),
+                insertions: Vec::new(),
+            })));
         }
         let mesh = triangulated(&beginning).map_err(|e| e.scaled(1.0 / scale))?;
         let Beginning { origins, subcurves, fans, .. } = beginning;
@@ -222,7 +234,7 @@ impl<'s> Gcdr<'s> {
             sin2_min: sin_min * sin_min,
             alive: origins.len(),
             options: options.clone(),
-            insertions: None,
+            insertions: Vec::new(),
             resolution,
             domain,
             scale,
@@ -245,27 +257,14 @@ impl<'s> Gcdr<'s> {
         Ok(Start::Ready(Box::new(gcdr)))
     }
 
-    /// Keeps what every insertion was, for densities.
-    pub fn recording(mut self) -> Self {
-        self.insertions = Some(Vec::new());
-        self
-    }
-
-    /// What was inserted since [`Gcdr::recording`], in the domain's own scale.
-    pub fn insertions(&self) -> Vec<Insertion> {
-        let down = 1.0 / self.scale;
-        let scaled = |i: &Insertion| Insertion { at: geometry::scaled(i.at, down), radius: i.radius * down, ..*i };
-        self.insertions.iter().flatten().map(scaled).collect()
-    }
-
-    /// The nearest vertex that a vertex sees is its neighbour in a constrained Delaunay triangulation.
-    fn record(&mut self, v: VertexId, kind: Kind) {
-        let Some(insertions) = &mut self.insertions else { return };
+    /// Notes an insertion. The nearest vertex that a vertex sees is its neighbour in a constrained Delaunay
+    /// triangulation.
+    fn record(&mut self, v: VertexId, kind: InsertionKind, parent: Option<VertexId>) {
         let topology = self.mesh.topology();
         let at = self.mesh.point(v);
         let away = topology.sides_from(v).map(|s| topology.target(s)).filter(|&w| w != super::triangulation::GHOST);
         let radius = away.map(|w| at.distance(self.mesh.point(w))).fold(f64::INFINITY, f64::min);
-        insertions.push(Insertion { kind, at, radius });
+        self.insertions.push(Insertion { kind, at, radius, parent: parent.map(|p| self.mesh.point(p)) });
     }
 
     /// Splits the first of: a piece that is too large, the worst skinny triangle, the largest triangle. `false`: there is none, or the run
@@ -318,11 +317,19 @@ impl<'s> Gcdr<'s> {
         places.iter_mut().for_each(|p| *p = geometry::scaled(*p, 1.0 / self.scale));
         let harvest = Harvest { domain: &self.domain, delaunay: self.mesh.kernel(), subcurves: &self.subcurves };
         let mesh = Some(harvest.mesh().scaled(1.0 / self.scale));
+        let down = |p: Point| geometry::scaled(p, 1.0 / self.scale);
+        let unscaled = |i: &Insertion| Insertion {
+            at: down(i.at),
+            radius: i.radius / self.scale,
+            parent: i.parent.map(down),
+            ..*i
+        };
+        let insertions = self.insertions.iter().map(unscaled).collect();
         let kernel = self.mesh.kernel().counters();
         self.counters.add("predicates", kernel.orient + kernel.in_circle);
         self.counters.add("exact_fallbacks", kernel.exact_fallbacks);
         self.counters.add("cavity_triangles", kernel.cavity_triangles);
-        Ok(Refined { mesh, stop: Stop { reason: self.reason, owed, places }, counters: self.counters })
+        Ok(Refined { mesh, stop: Stop { reason: self.reason, owed, places }, counters: self.counters, insertions })
     }
 
     fn is_side(&self, id: PieceId) -> bool {

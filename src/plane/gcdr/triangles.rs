@@ -1,9 +1,10 @@
 //! Points of type A: which triangles miss a bound, whom a corner excuses, and what mends the others.
 
 use super::steiner::{Order, Skinny};
-use super::{Gcdr, Kind, Origin, Suspect};
+use super::{Gcdr, Origin, Suspect};
 use crate::geometry::{Point, scaled};
-use crate::ids::{CurveId, PieceId, TriangleId, VertexId};
+use crate::ids::{CurveId, PieceId, RegionId, TriangleId, VertexId};
+use crate::mesh::InsertionKind;
 use crate::plane::constrained::Look;
 use crate::plane::insert::{self, Location};
 use crate::plane::lopping::splittri::{circumcircle, sin2_smallest};
@@ -84,11 +85,13 @@ impl Gcdr<'_> {
             self.reason = StopReason::VertexBudget;
             return self.skinny.push(suspect, 1.0);
         }
+        let parent = skinny.then(|| self.latest_of_shortest(vertices));
         if skinny && let Some(piece) = self.doomed(t) {
-            return self.encroach(suspect, piece);
+            return self.encroach(suspect, piece, parent);
         }
-        let p = if skinny { self.choose_in_disk(t, center, radius) } else { center };
-        self.kill(suspect, p);
+        let chosen = skinny || !self.strategy.is_free();
+        let p = if chosen { self.choose_in_disk(t, region, center, radius) } else { center };
+        self.kill(suspect, p, parent);
     }
 
     /// The segment of a triangle that must be split whatever else is: a vertex that will stay sees it at an angle so wide that the
@@ -107,11 +110,22 @@ impl Gcdr<'_> {
         topology.piece(widest)
     }
 
-    /// Whether the shortest edge of a triangle lies across a sharp corner, with its ends equally far from it: an angle that the input has.
-    fn is_excused(&self, [a, b, c]: [VertexId; 3]) -> bool {
+    /// The vertices of a triangle, the ends of its shortest edge first.
+    fn shortest_edge_first(&self, [a, b, c]: [VertexId; 3]) -> [VertexId; 3] {
         let length = |e: &[VertexId; 3]| self.mesh.point(e[0]).distance_squared(self.mesh.point(e[1]));
         let turns = [[a, b, c], [b, c, a], [c, a, b]];
-        let shortest = turns.into_iter().min_by(|e, f| length(e).total_cmp(&length(f))).expect("three edges");
+        turns.into_iter().min_by(|e, f| length(e).total_cmp(&length(f))).expect("three edges")
+    }
+
+    /// Rules 2 and 3 of Definition 2.5. Ids are given in the order of insertion.
+    fn latest_of_shortest(&self, vertices: [VertexId; 3]) -> VertexId {
+        let [a, b, _] = self.shortest_edge_first(vertices);
+        a.max(b)
+    }
+
+    /// Whether the shortest edge of a triangle lies across a sharp corner, with its ends equally far from it: an angle that the input has.
+    fn is_excused(&self, vertices: [VertexId; 3]) -> bool {
+        let shortest = self.shortest_edge_first(vertices);
         if shortest[..2].iter().any(|&v| self.origins[v] == Origin::Free) {
             return false;
         }
@@ -128,7 +142,7 @@ impl Gcdr<'_> {
     }
 
     /// F_A, moved into the disk unless the strategy is free.
-    fn choose_in_disk(&mut self, t: TriangleId, center: Point, radius: f64) -> Point {
+    fn choose_in_disk(&mut self, t: TriangleId, region: RegionId, center: Point, radius: f64) -> Point {
         let topology = self.mesh.topology();
         let down = |p: Point| scaled(p, 1.0 / self.scale);
         let corners = self.corners(t);
@@ -145,6 +159,7 @@ impl Gcdr<'_> {
             center: down(center),
             radius: radius / self.scale,
             reach: reach / self.scale,
+            size: self.field.length_in(region, center) / self.scale,
         };
         let p = scaled(self.strategy.in_disk(&skinny), self.scale);
         let away = p.distance(center);
@@ -158,16 +173,16 @@ impl Gcdr<'_> {
     }
 
     /// Inserts a point that removes a triangle, or splits the nearest segment that hides it from there.
-    fn kill(&mut self, suspect: Suspect, p: Point) {
+    fn kill(&mut self, suspect: Suspect, p: Point, parent: Option<VertexId>) {
         let (t, vertices) = suspect;
         let place = self.mesh.point(vertices[0]);
         if !insert::in_range(p) {
             return self.too_near.push(place);
         }
         let location = match self.mesh.look_from(t, p) {
-            Some(Look::Blocked(side)) => return self.reject(suspect, side),
+            Some(Look::Blocked(side)) => return self.reject(suspect, side, parent),
             Some(Look::Seen(Location::Side(side))) if self.mesh.topology().piece(side).is_some() => {
-                return self.reject(suspect, side);
+                return self.reject(suspect, side, parent);
             }
             Some(Look::Seen(location)) => location,
             None => return self.too_near.push(place),
@@ -181,21 +196,23 @@ impl Gcdr<'_> {
         self.origins.push(Origin::Free);
         self.alive += 1;
         self.counters.add("vertices_free", 1);
-        self.record(v, Kind::A);
+        if self.options.record {
+            self.record(v, InsertionKind::A, parent);
+        }
         self.settle(false);
     }
 
     /// The chosen point is rejected: Definition 2.1.
-    fn reject(&mut self, suspect: Suspect, side: Side) {
+    fn reject(&mut self, suspect: Suspect, side: Side, parent: Option<VertexId>) {
         let Some(piece) = self.mesh.topology().piece(side) else { return };
         self.counters.add("rejected", 1);
-        self.encroach(suspect, piece);
+        self.encroach(suspect, piece, parent);
     }
 
     /// Splits a segment that a triangle encroaches, and comes back to the triangle if it still stands.
-    fn encroach(&mut self, suspect: Suspect, piece: PieceId) {
-        if self.split_segment(piece, "vertices_segment") && !self.is_stale(&suspect) {
-            self.push_skinny(suspect);
+    fn encroach(&mut self, suspect: Suspect, piece: PieceId, parent: Option<VertexId>) {
+        if self.split_segment(piece, parent, "vertices_segment") && !self.is_stale(&suspect) {
+            self.judge(suspect.0);
         }
     }
 }

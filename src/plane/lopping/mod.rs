@@ -45,7 +45,7 @@ use crate::domain::Domain;
 use crate::geometry::{self, Point};
 use crate::ids::{BallId, CurveId, IdVec, PieceId, PointId, TriangleId, VertexId};
 use crate::mesh::verify::{Promise, guaranteed_angle};
-use crate::mesh::{Ball, Mesh, RIM_ROUNDING};
+use crate::mesh::{Ball, Insertion, Mesh, RIM_ROUNDING};
 use crate::refine::{Counters, Stop, StopReason, WorstFirst};
 use crate::size::{SizeField, Sizing};
 use crate::watch::{Progress, Watch};
@@ -117,6 +117,8 @@ pub struct Refined {
     pub mesh: Option<Mesh>,
     pub stop: Stop,
     pub counters: Counters,
+    /// What was inserted, in order, by an engine that was asked to record it.
+    pub insertions: Vec<Insertion>,
 }
 
 /// Why a domain cannot be meshed.
@@ -321,7 +323,7 @@ impl Lopping {
         };
         let mesh = self.is_conforming().then(|| self.mesh().scaled(1.0 / self.scale));
         self.count_kernel();
-        Ok(Refined { mesh, stop: Stop { reason, owed, places }, counters: self.counters })
+        Ok(Refined { mesh, stop: Stop { reason, owed, places }, counters: self.counters, insertions: Vec::new() })
     }
 
     fn mesh(&self) -> Mesh {

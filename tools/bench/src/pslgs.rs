@@ -47,7 +47,7 @@ fn refined(drawing: &Drawing, degrees: f64, strategy: &str, seed: u64) -> Result
         "extreme" => Box::new(Extreme),
         _ => Box::new(Optimal::new(angle_min_rad, true)),
     };
-    let options = Options { angle_min_rad, regions, sizing: Sizing::default(), max_vertices: 200_000 };
+    let options = Options { angle_min_rad, regions, sizing: Sizing::default(), max_vertices: 200_000, record: false };
     let refined = gcdr::refine(&domain, &options, &mut *strategy, None, &mut |_| true).map_err(|e| e.to_string())?;
     let mesh = refined.mesh.ok_or("no mesh")?;
     if refined.stop.reason != StopReason::Done || refined.stop.owed > 0 {
