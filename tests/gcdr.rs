@@ -1,7 +1,9 @@
 //! Generalized constrained Delaunay refinement, held to its promises by the judge.
 
-use squinch::curve::Curve;
-use squinch::domain::{ArrangeOptions, Domain, Drawing, FillRule};
+mod plane_drawings;
+
+use plane_drawings::{assert_kept, boxed, domain_of, drawing_of, status, wedge};
+use squinch::domain::Drawing;
 use squinch::generate::curved_complex;
 use squinch::geometry::Point;
 use squinch::mesh::verify::{Status, Verdict, densities, verify};
@@ -16,36 +18,9 @@ use std::f64::consts::SQRT_2;
 
 const TAU_RAD: f64 = 0.5;
 
-fn domain_of(drawing: &Drawing) -> Domain {
-    drawing.arrange(&ArrangeOptions::default()).expect("a sound drawing").split_to_turning(TAU_RAD)
-}
-
-/// A drawing of lines and bulged lines (x0, y0, x1, y1, bulge), every bounded face a region.
-fn drawing_of(curves: &[(f64, f64, f64, f64, f64)]) -> Drawing {
-    let mut drawing = Drawing { fill: FillRule::Regions, ..Drawing::default() };
-    for (i, &(x0, y0, x1, y1, bulge)) in curves.iter().enumerate() {
-        let curve = Curve::bulge(Point::new(x0, y0), Point::new(x1, y1), bulge).expect("a sound curve");
-        drawing.add(curve, "edge", format!("curve {i}"));
-    }
-    drawing
-}
-
-fn boxed(half: f64) -> Vec<(f64, f64, f64, f64, f64)> {
-    let h = half;
-    vec![(-h, -h, h, -h, 0.0), (h, -h, h, h, 0.0), (h, h, -h, h, 0.0), (-h, h, -h, -h, 0.0)]
-}
-
 /// Fig. 7.1: five concentric squares, the gap one hundredth of the side.
 fn squares() -> Drawing {
     drawing_of(&(0..5).flat_map(|i| boxed(0.5 - 0.01 * f64::from(i))).collect::<Vec<_>>())
-}
-
-/// Two segments at an angle in a box.
-fn wedge(angle_deg: f64, lengths: [f64; 2]) -> Drawing {
-    let (s, c) = angle_deg.to_radians().sin_cos();
-    let mut curves = boxed(2.0);
-    curves.extend([(0.0, 0.0, lengths[0], 0.0, 0.0), (0.0, 0.0, lengths[1] * c, lengths[1] * s, 0.0)]);
-    drawing_of(&curves)
 }
 
 /// Circles of radius 1, ½ and ⅓ that touch in the origin from within, in a box.
@@ -69,19 +44,14 @@ fn options(angle_min_deg: f64, regions: Regions) -> Options {
 
 /// Refines and judges; the verdict must be kept.
 fn kept(drawing: &Drawing, options: &Options, strategy: &mut dyn SteinerStrategy) -> (Mesh, Verdict) {
-    let domain = domain_of(drawing);
+    let domain = domain_of(drawing, TAU_RAD);
     let refined = gcdr::refine(&domain, options, strategy, None, &mut |_| true).expect("coordinates can hold it");
     assert_eq!(refined.stop.reason, StopReason::Done);
     assert_eq!(refined.stop.owed, 0);
     let mesh = refined.mesh.expect("a run that is done has a mesh");
     let verdict = verify(Some(&domain), &mesh, &options.promise(TAU_RAD, strategy.is_free(), false));
-    let broken: Vec<_> = verdict.checks.iter().filter(|c| c.status == Status::Broken).collect();
-    assert!(broken.is_empty(), "{broken:#?}");
+    assert_kept(&verdict);
     (mesh, verdict)
-}
-
-fn status(verdict: &Verdict, name: &str) -> Status {
-    verdict.checks.iter().find(|c| c.name == name).expect("a check of this name").status
 }
 
 fn excused(verdict: &Verdict) -> usize {
@@ -164,7 +134,7 @@ fn any_strategy_keeps_the_promises() {
 
 #[test]
 fn densities_lie_below_the_bounds_and_the_judge_believes_no_radius() {
-    let domain = domain_of(&squares());
+    let domain = domain_of(&squares(), TAU_RAD);
     let regions = Regions { delta2: 0.9, delta1: 0.9, mu: 0.6 };
     for seed in 0..4 {
         let angle = (0.5 / SQRT_2).asin().to_degrees();
@@ -193,15 +163,15 @@ fn densities_lie_below_the_bounds_and_the_judge_believes_no_radius() {
     }
     let proven = Options { record: true, ..options(20.7, Regions::CENTERS) };
     assert_eq!(proven.density_promise(&domain).map(|p| p.proven), Some(true));
-    assert_eq!(proven.density_promise(&domain_of(&touching_circles())), None, "curves");
-    assert_eq!(proven.density_promise(&domain_of(&wedge(50.0, [1.0, 1.0]))), None, "a sharp corner");
+    assert_eq!(proven.density_promise(&domain_of(&touching_circles(), TAU_RAD)), None, "curves");
+    assert_eq!(proven.density_promise(&domain_of(&wedge(50.0, [1.0, 1.0]), TAU_RAD)), None, "a sharp corner");
     let sizing = Sizing { max_edge: Some(0.1), ..Sizing::default() };
     assert_eq!(Options { sizing, ..proven }.density_promise(&domain), None, "sizes crowd vertices, too");
 }
 
 #[test]
 fn feature_sizes_are_those_of_every_pair_asked() {
-    let domain = domain_of(&squares());
+    let domain = domain_of(&squares(), TAU_RAD);
     let features = domain.features();
     for k in 0..2000u32 {
         let p = Point::new(f64::from(k % 50) / 40.0 - 0.61, f64::from(k / 50) / 32.0 - 0.617);
@@ -279,7 +249,7 @@ fn curves_that_touch_end_and_verify() {
 fn random_complexes_end_and_verify() {
     for seed in 0..24 {
         let drawing = curved_complex(seed);
-        let domain = domain_of(&drawing);
+        let domain = domain_of(&drawing, TAU_RAD);
         let options = options(20.7, Regions::CENTERS);
         let refined = gcdr::refine(&domain, &options, &mut Center, None, &mut |_| true)
             .unwrap_or_else(|e| panic!("seed {seed}: {e}"));
@@ -300,7 +270,7 @@ fn the_same_seed_gives_the_same_mesh() {
 
 #[test]
 fn a_budget_and_a_watch_end_a_run_with_a_valid_mesh() {
-    let domain = domain_of(&squares());
+    let domain = domain_of(&squares(), TAU_RAD);
     let few = Options { max_vertices: 300, ..options(30.0, Regions::CENTERS) };
     let refined = gcdr::refine(&domain, &few, &mut Center, None, &mut |_| true).unwrap();
     assert_eq!(refined.stop.reason, StopReason::VertexBudget);

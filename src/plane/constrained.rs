@@ -75,17 +75,7 @@ impl Constrained {
 
     /// Looks: the triangles that see `p` inside their circle, given where `p` lies. Empty where `p` is a vertex.
     pub fn cavity(&self, p: Point, at: Location, cavity: &mut Cavity) {
-        assert!(super::insert::in_range(p), "{p:?} is beyond exact signs");
-        let start = match at {
-            Location::Vertex(_) => {
-                cavity.triangles.clear();
-                cavity.border.clear();
-                return;
-            }
-            Location::Side(s) => s.triangle(),
-            Location::Triangle(t) => t,
-        };
-        self.delaunay.in_sight(|sight| sight.collect(p, start, |s| self.is_piece(s), cavity));
+        self.delaunay.cavity_within(|s| self.is_piece(s), p, at, cavity);
     }
 
     /// Acts: replaces the cavity of `p`, which must not lie on a piece, by the triangles that join `p` to its border.

@@ -28,15 +28,16 @@ mod triangles;
 use super::carve::{self, Carver};
 use super::constrained::Constrained;
 use super::harvest::Harvest;
-use super::insert::{Cavity, Degenerate};
-use super::lopping::{RefineError, Refined};
+use super::insert::Cavity;
+use super::refined::{RefineError, Refined};
 use super::subcurves::Subcurves;
+use super::suspects::{self, Suspect, Suspects};
 use crate::domain::Domain;
 use crate::geometry::{self, Point};
-use crate::ids::{BallId, CurveId, Id, IdVec, PieceId, PointId, TriangleId, VertexId};
+use crate::ids::{BallId, CurveId, Id, IdVec, PieceId, PointId, VertexId};
 use crate::mesh::verify::{ConstrainedPromise, DensityPromise, Promise};
 use crate::mesh::{Insertion, InsertionKind, RIM_ROUNDING};
-use crate::refine::{Counters, Stop, StopReason, WorstFirst};
+use crate::refine::{Counters, Stop, StopReason};
 use crate::size::{SizeField, Sizing};
 use crate::watch::{Progress, Watch};
 use chords::Beginning;
@@ -101,9 +102,6 @@ struct Fan {
     spokes: Vec<PieceId>,
 }
 
-/// A triangle as it was when it was queued: a triangle's id may be another's by now.
-type Suspect = (TriangleId, [VertexId; 3]);
-
 /// The engine, held at a step.
 pub struct Gcdr<'s> {
     domain: Domain,
@@ -122,8 +120,7 @@ pub struct Gcdr<'s> {
     strategy: &'s mut dyn SteinerStrategy,
     /// Pieces whose size is to be looked at.
     suspects: Vec<PieceId>,
-    skinny: WorstFirst<Suspect>,
-    oversized: WorstFirst<Suspect>,
+    bad: Suspects,
     carver: Carver,
     cavity: Cavity,
     counters: Counters,
@@ -224,8 +221,7 @@ impl<'s> Gcdr<'s> {
         let sin_min = libm::sin(options.angle_min_rad);
         let mut gcdr = Self {
             suspects: Vec::new(),
-            skinny: WorstFirst::default(),
-            oversized: WorstFirst::default(),
+            bad: Suspects::default(),
             carver: Carver::default(),
             cavity: Cavity::default(),
             counters: Counters::default(),
@@ -279,7 +275,7 @@ impl<'s> Gcdr<'s> {
         if self.reason != StopReason::Done {
             return false;
         }
-        match self.skinny.pop().or_else(|| self.oversized.pop()) {
+        match self.bad.pop() {
             Some(suspect) => self.split_triangle(suspect),
             None => return false,
         }
@@ -299,7 +295,7 @@ impl<'s> Gcdr<'s> {
     }
 
     pub fn progress(&self) -> Progress {
-        let queued = self.suspects.len() + self.skinny.len() + self.oversized.len();
+        let queued = self.suspects.len() + self.bad.len();
         Progress { phase: "refining", vertices: self.alive, queued }
     }
 
@@ -312,7 +308,9 @@ impl<'s> Gcdr<'s> {
             let at = self.too_near.first().copied().unwrap_or_default();
             return Err(RefineError::too_near(at).scaled(1.0 / self.scale));
         }
-        let (owed, mut places) = self.owed();
+        const PLACES: usize = 16;
+        let (owed, mut places) = self.bad.owed(self.mesh.kernel(), PLACES);
+        let owed = owed + self.too_near.len();
         places.extend(self.too_near.iter().copied());
         places.iter_mut().for_each(|p| *p = geometry::scaled(*p, 1.0 / self.scale));
         let harvest = Harvest { domain: &self.domain, delaunay: self.mesh.kernel(), subcurves: &self.subcurves };
@@ -337,40 +335,13 @@ impl<'s> Gcdr<'s> {
         let topology = self.mesh.topology();
         topology.side_between(y, x).is_some_and(|s| topology.piece(s) == Some(id))
     }
-
-    /// What still misses a bound, and some of the places.
-    fn owed(&mut self) -> (usize, Vec<Point>) {
-        const PLACES: usize = 16;
-        let (mut owed, mut places) = (self.too_near.len(), Vec::new());
-        while let Some(suspect) = self.skinny.pop().or_else(|| self.oversized.pop()) {
-            if self.is_stale(&suspect) {
-                continue;
-            }
-            owed += 1;
-            if places.len() < PLACES {
-                places.push(self.mesh.point(suspect.1[0]));
-            }
-        }
-        (owed, places)
-    }
 }
 
 /// The constrained Delaunay triangulation of all chords.
 fn triangulated(beginning: &Beginning) -> Result<Constrained, RefineError> {
     let at = |i: usize| beginning.points[i];
-    let mut mesh = Constrained::new(beginning.points.clone()).map_err(|e| match e {
-        Degenerate::Duplicate { first, .. } => RefineError::too_near(at(first)),
-        Degenerate::OutOfRange { index } => RefineError {
-            what: "a coordinate is so small beside the others that exact signs cannot hold it".to_owned(),
-            at: at(index),
-            help: "round it to 0".to_owned(),
-        },
-        Degenerate::TooFew | Degenerate::Collinear => RefineError {
-            what: "nothing to mesh: everything lies on one line".to_owned(),
-            at: beginning.points.first().copied().unwrap_or_default(),
-            help: "draw at least one closed outline".to_owned(),
-        },
-    })?;
+    let mut mesh =
+        Constrained::new(beginning.points.clone()).map_err(|why| RefineError::degenerate(&why, &beginning.points))?;
     for id in beginning.subcurves.ids() {
         let piece = beginning.subcurves.get(id);
         if piece.is_gone() {

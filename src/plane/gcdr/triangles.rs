@@ -1,7 +1,7 @@
 //! Points of type A: which triangles miss a bound, whom a corner excuses, and what mends the others.
 
 use super::steiner::{Order, Skinny};
-use super::{Gcdr, Origin, Suspect};
+use super::{Gcdr, Origin, Suspect, suspects};
 use crate::geometry::{Point, scaled};
 use crate::ids::{CurveId, PieceId, RegionId, TriangleId, VertexId};
 use crate::mesh::InsertionKind;
@@ -43,8 +43,7 @@ impl Gcdr<'_> {
         }
         let excess = self.field.excess(region, corners);
         if excess > 1.0 {
-            // Badness by octaves of excess: 2^32 is as bad as it gets.
-            self.oversized.push(suspect, libm::log2(excess) / 32.0);
+            self.bad.push_oversized(suspect, excess);
         }
     }
 
@@ -59,12 +58,11 @@ impl Gcdr<'_> {
             Order::ShortestEdge => octaves((0..3).map(|i| edge2(corners, i)).fold(f64::INFINITY, f64::min).sqrt()),
             Order::SmallestCircle => octaves(circumcircle(corners).1),
         };
-        self.skinny.push(suspect, badness);
+        self.bad.push_skinny(suspect, badness);
     }
 
-    pub(super) fn is_stale(&self, &(t, corners): &Suspect) -> bool {
-        let topology = self.mesh.topology();
-        !topology.is_alive(t) || topology.corners(t) != corners
+    fn is_stale(&self, suspect: &Suspect) -> bool {
+        suspects::is_stale(self.mesh.topology(), suspect)
     }
 
     pub(super) fn split_triangle(&mut self, suspect: Suspect) {
@@ -83,7 +81,7 @@ impl Gcdr<'_> {
         }
         if self.is_spent() {
             self.reason = StopReason::VertexBudget;
-            return self.skinny.push(suspect, 1.0);
+            return self.bad.push_skinny(suspect, 1.0);
         }
         let parent = skinny.then(|| self.latest_of_shortest(vertices));
         if skinny && let Some(piece) = self.doomed(t) {
