@@ -17,7 +17,15 @@
 //! - *Corners sharper than 60°.* Segments that end there are split on concentric shells (Ruppert 1995), at distances from the corner that
 //!   are round binary numbers; a triangle whose shortest edge lies across the corner, from one curve to the other, with ends equally far from the corner is
 //!   left as it is: its small angle is the input's. Curves that leave a sharp corner are cut together: [`chords`] says why.
+//! - *Order.* Algorithm 2 leaves open which triangle comes first. Segments that a vertex which will stay sees at more than 180° − 2κ come before
+//!   all else: they cannot stand, and split late they would undo what was refined beside them. Then comes what the strategy says.
 //! - *Rounding.* Decisions are made on the rounded point. A point that would not remove its triangle is not inserted, and owed.
+//!
+//! *Which engine.* Of 180 drawings at 20.7° with free optimal points (outlines, maps, DXF, SVG) all end that end with corner lopping, all but
+//! one with fewer triangles: a fourth to a half of them by folder, in the geometric mean. That holds of straight input and curved, with
+//! sharp corners and without. So the drawing does not tell which engine is the better one, and there is none called `auto`: what is asked of
+//! the mesh tells. Corner lopping proves its angle on more input, bounds the largest angle, and makes a whole Delaunay triangulation with empty
+//! diametral circles; this engine makes fewer triangles, and larger angles.
 
 mod chords;
 pub mod parameters;
