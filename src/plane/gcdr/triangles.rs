@@ -87,7 +87,8 @@ impl Gcdr<'_> {
         if skinny && let Some(piece) = self.doomed(t) {
             return self.encroach(suspect, piece, parent);
         }
-        let chosen = skinny || !self.strategy.is_free();
+        // A disk of no size leaves no choice.
+        let chosen = if self.strategy.is_free() { skinny } else { self.options.regions.delta2 < 1.0 };
         let p = if chosen { self.choose_in_disk(t, region, center, radius) } else { center };
         self.kill(suspect, p, parent);
     }
@@ -163,7 +164,7 @@ impl Gcdr<'_> {
         let away = p.distance(center);
         if self.strategy.is_free() && away.is_finite() || away <= reach {
             p
-        } else if reach > 0.0 && away.is_finite() {
+        } else if away.is_finite() {
             center + (p - center) * (reach / away)
         } else {
             center
