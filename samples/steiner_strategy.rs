@@ -39,7 +39,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let sizing = Sizing { max_edge: Some(0.02), ..Sizing::default() };
     // At 20° the disk has up to 0.31 of the circumradius.
     let regions = Regions { delta2: 0.69, delta1: 1.0, mu: 1.0 };
-    let options = Options { angle_min_rad: 20f64.to_radians(), regions, sizing, max_vertices: 100_000 };
+    let options = Options { angle_min_rad: 20f64.to_radians(), regions, sizing, max_vertices: 100_000, record: false };
     let refined = refine(&domain, &options, &mut NearSensors(sensors.clone()), None, &mut |_progress| true)?;
     let mesh = refined.mesh.ok_or("a budget ended before there was a mesh")?;
     let verdict = verify(Some(&domain), &mesh, &options.promise(0.5, false, false));

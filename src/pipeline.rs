@@ -6,10 +6,10 @@ use crate::domain::{ArrangeError, Domain, DomainCurve, Drawing, DrawnCurve, Repa
 use crate::geometry::{Point, metres};
 use crate::ids::{Id, PointId, VertexId};
 use crate::import::{self, AirfoilOptions, Format, ImportError, SvgOptions};
-use crate::mesh::Mesh;
 use crate::mesh::elevate::elevate;
 use crate::mesh::quality::Quality;
-use crate::mesh::verify::{Promise, Status, Verdict, verify};
+use crate::mesh::verify::{self, Check, Promise, Status, Verdict, verify};
+use crate::mesh::{Insertion, Mesh};
 use crate::plane;
 use crate::plane::gcdr;
 use crate::plane::gcdr::parameters::radius_edge_of;
@@ -18,7 +18,7 @@ use crate::plane::lopping::demand::Demand;
 use crate::plane::lopping::{self, Lopping, RefineError, Refined, Shrinking};
 use crate::refine::{Stop, StopReason};
 use crate::report::{FailureKind, FailureReport, MeshReport, PromiseReport, Report, StopReport};
-use crate::request::{BallShrinking, Engine, Midpoint, Order, Request, SizeOf, Steiner, Strokes, TrailingEdge};
+use crate::request::{BallShrinking, Engine, Midpoint, Order, Request, SizeOf, SnapTo, Steiner, Strokes, TrailingEdge};
 use crate::size::{ByPlace, Given, SAMPLE_GRADE, Sizing, Source as SizeSource};
 use crate::watch::{Progress, Stopped, Watch};
 use healing::Healing;
@@ -167,7 +167,7 @@ impl Outcome {
                 None => break (domain, plan, refined?),
             }
         };
-        let Refined { mesh, stop, counters } = refined;
+        let Refined { mesh, stop, counters, insertions } = refined;
         self.report.stop = Some(StopReport::new(&stop));
         self.report.counters = counters;
         let mut mesh = mesh.ok_or_else(|| no_mesh(&stop, more))?;
@@ -183,7 +183,8 @@ impl Outcome {
         self.report.seconds.mesh += clock.lap();
 
         // Whatever the time: a mesh that nobody judged is worth nothing, and the judge's work is bounded by its size.
-        let verdict = plan.judge(Some(&domain), &mesh);
+        let mut verdict = plan.judge(Some(&domain), &mesh);
+        verdict.checks.extend(plan.densities(&domain, &mesh, &insertions));
         self.report.mesh = Some(MeshReport::new(&mesh).with_straightened(&mesh, &straightened));
         self.report.quality = Some(Quality::of(Some(&domain), &mesh, &verdict));
         self.report.promise = Some(PromiseReport::new(&verdict));
@@ -234,7 +235,17 @@ fn flaws(verdict: &Verdict) -> usize {
 }
 
 /// Checks of bounds that were asked for; the rest holds of every mesh that we make.
-const REQUESTED: &[&str] = &["min_angle", "max_angle", "chord_error", "edge_turning", "size", "radius_edge"];
+const REQUESTED: &[&str] = &[
+    "min_angle",
+    "max_angle",
+    "chord_error",
+    "edge_turning",
+    "size",
+    "radius_edge",
+    "density_a",
+    "density_b",
+    "density_c",
+];
 /// What refinement brings about last: owed where a budget ended it.
 const REFINED: &[&str] = &["empty_diametral", "ball_radius", "lfs_ratio"];
 
@@ -451,6 +462,7 @@ pub struct Plan {
 struct Gcdr {
     options: gcdr::Options,
     steiner: Steiner,
+    snap: Option<SnapTo>,
     seed: u64,
 }
 
@@ -463,18 +475,18 @@ impl Gcdr {
                 regions: request.regions(),
                 sizing: options.sizing.clone(),
                 max_vertices: options.max_vertices,
+                record: request.densities.is_on(),
             },
             steiner: request.steiner,
+            snap: request.snap.clone(),
             seed: request.seed,
         })
     }
 
     /// Holds δ₂, δ₁ and μ to (3.1)–(3.3). Corners below 60° have no interval: their segments are split on shells.
     fn check(&self, domain: &Domain) -> Result<(), FailureReport> {
-        let angles = domain.points().ids().filter_map(|p| domain.corner(p)).map(|corner| corner.angle_rad);
-        let least = angles.filter(|&a| a > gcdr::SHARP_RAD).fold(std::f64::consts::PI, f64::min);
         let rho = radius_edge_of(self.options.angle_min_rad);
-        self.options.regions.check(rho, least).map_err(|violation| {
+        self.options.regions.check(rho, gcdr::least_angle(domain)).map_err(|violation| {
             let help = "give more by --delta2, --delta1 or --mu, or a smaller --min-angle";
             FailureReport::new(FailureKind::Request, violation.to_string(), help)
         })
@@ -488,14 +500,21 @@ impl Gcdr {
             Steiner::Optimal => Box::new(steiner::Optimal::new(angle, false)),
             Steiner::Extreme => Box::new(steiner::Extreme),
             Steiner::Random => Box::new(steiner::Random::new(self.seed)),
+            Steiner::Size => Box::new(steiner::BySize),
+            Steiner::Snap => match &self.snap {
+                Some(SnapTo::Pitch(pitch)) => Box::new(steiner::Grid { pitch: *pitch }),
+                Some(SnapTo::Places(places)) => {
+                    Box::new(steiner::Places::new(places.iter().map(|&[x, y]| Point::new(x, y))))
+                }
+                None => Box::new(steiner::Center),
+            },
             Steiner::OffcenterFree => Box::new(steiner::OffCenter::new(angle, true)),
             Steiner::OptimalFree => Box::new(steiner::Optimal::new(angle, true)),
         }
     }
 
     fn promise(&self, tau_rad: f64, foreign: bool) -> Promise {
-        let free = matches!(self.steiner, Steiner::OffcenterFree | Steiner::OptimalFree);
-        self.options.promise(tau_rad, free, foreign)
+        self.options.promise(tau_rad, self.steiner.is_free(), foreign)
     }
 
     /// As many steps as there are or are asked for, as long as the watch says to go on.
@@ -614,6 +633,13 @@ impl Plan {
             Some(gcdr) => gcdr.promise(self.tau_rad, foreign),
             None => self.options.promise(self.tau_rad, foreign),
         }
+    }
+
+    /// Holds the densities that a run recorded to their bounds; none where it did not.
+    pub fn densities(&self, domain: &Domain, mesh: &Mesh, insertions: &[Insertion]) -> Vec<Check> {
+        let Some(gcdr) = self.gcdr.as_ref().filter(|gcdr| gcdr.options.record) else { return Vec::new() };
+        let promise = gcdr.options.density_promise(domain).filter(|_| !gcdr.steiner.is_free());
+        verify::densities(domain, mesh, insertions, promise).into()
     }
 
     /// Holds a mesh of ours to what was asked, by its links to the domain's curves.

@@ -118,7 +118,10 @@ pub struct RequestReport {
     pub delta1: Option<f64>,
     pub mu: Option<f64>,
     pub steiner: Option<String>,
+    /// The pitch, or how many places.
+    pub snap: Option<String>,
     pub seed: Option<u64>,
+    pub densities: Option<bool>,
 }
 
 impl RequestReport {
@@ -162,7 +165,9 @@ impl RequestReport {
             delta1: regions.map(|r| r.delta1),
             mu: regions.map(|r| r.mu),
             steiner: gcdr.then(|| word(&request.steiner)),
+            snap: request.snap.as_ref().map(ToString::to_string),
             seed: gcdr.then_some(request.seed),
+            densities: gcdr.then(|| request.densities.is_on()),
         }
     }
 }

@@ -8,7 +8,7 @@ use crate::domain::FillRule;
 use crate::mesh::verify::guaranteed_angle;
 use crate::plane::gcdr::Regions;
 use crate::plane::gcdr::parameters::radius_edge_of;
-use crate::size::Given;
+use crate::size::{Given, rows_of};
 use clap::ValueEnum;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::FRAC_PI_3;
@@ -71,8 +71,13 @@ pub struct Request {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mu: Option<f64>,
     pub steiner: Steiner,
+    /// Of `steiner = "snap"`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub snap: Option<SnapTo>,
     /// Of `steiner = "random"`.
     pub seed: u64,
+    /// With gcdr: D(p) of every inserted vertex is measured and held to its bound.
+    pub densities: Switch,
     pub max_vertices: usize,
     /// Seconds.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -118,7 +123,9 @@ impl Default for Request {
             delta1: None,
             mu: None,
             steiner: Steiner::Center,
+            snap: None,
             seed: 0,
+            densities: Switch::Off,
             max_vertices: 5_000_000,
             timeout: None,
             trailing_edge: TrailingEdge::Keep,
@@ -197,6 +204,13 @@ impl Request {
                 return refuse(option, &value, "a share above 0 and at most 1 is needed");
             }
         }
+        if self.snap.is_some() != (self.steiner == Steiner::Snap) {
+            let given = self.snap.as_ref().map_or("none".into(), SnapTo::to_string);
+            return refuse("snap", &given, "--steiner snap and a pitch or a file of places are needed together");
+        }
+        if let Some((snap, flaw)) = self.snap.as_ref().and_then(|snap| Some((snap, snap.flaw()?))) {
+            return refuse("snap", snap, flaw);
+        }
         if self.max_vertices < 3 {
             return refuse("max-vertices", &self.max_vertices, "a mesh has 3 vertices or more");
         }
@@ -218,9 +232,12 @@ impl Request {
     pub fn regions(&self) -> Regions {
         let default = match self.steiner {
             Steiner::Center | Steiner::OffcenterFree | Steiner::OptimalFree => Regions::CENTERS,
-            Steiner::Offcenter | Steiner::Optimal | Steiner::Extreme | Steiner::Random => {
-                Regions::widest_disks(radius_edge_of(self.angle_min_rad()))
-            }
+            Steiner::Offcenter
+            | Steiner::Optimal
+            | Steiner::Extreme
+            | Steiner::Random
+            | Steiner::Snap
+            | Steiner::Size => Regions::widest_disks(radius_edge_of(self.angle_min_rad())),
         };
         Regions {
             delta2: self.delta2.unwrap_or(default.delta2),
@@ -297,10 +314,60 @@ pub enum Steiner {
     Extreme,
     /// Anywhere in the regions, by --seed.
     Random,
+    /// The points of a grid, or places of a file, by --snap, where the regions hold any.
+    Snap,
+    /// Where new edges are as long as the sizes ask for.
+    Size,
     /// Off-centres wherever they lie: nothing is proven.
     OffcenterFree,
     /// Locally optimal points wherever they lie: nothing is proven.
     OptimalFree,
+}
+
+impl Steiner {
+    /// Whether its points are taken wherever they lie.
+    pub fn is_free(self) -> bool {
+        matches!(self, Self::OffcenterFree | Self::OptimalFree)
+    }
+}
+
+/// What points are snapped to.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum SnapTo {
+    /// The points of a square grid through the origin, so far apart.
+    Pitch(f64),
+    Places(Vec<[f64; 2]>),
+}
+
+impl SnapTo {
+    /// Reads a file of places: `x y` on every line, as sizes by place are read.
+    ///
+    /// # Errors
+    /// A sentence with the line that is not so.
+    pub fn read_places(text: &str) -> Result<Self, String> {
+        rows_of(text, "x y").map(Self::Places)
+    }
+
+    fn flaw(&self) -> Option<&'static str> {
+        match self {
+            Self::Pitch(pitch) if !(pitch.is_finite() && *pitch > 0.0) => Some("a positive pitch is needed"),
+            Self::Places(places) if places.is_empty() => Some("a place is needed"),
+            Self::Places(places) if !places.iter().flatten().all(|x| x.is_finite()) => {
+                Some("finite coordinates are needed")
+            }
+            Self::Pitch(_) | Self::Places(_) => None,
+        }
+    }
+}
+
+impl fmt::Display for SnapTo {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Pitch(pitch) => write!(f, "{pitch}"),
+            Self::Places(places) => write!(f, "{} places", places.len()),
+        }
+    }
 }
 
 /// Polynomial order of the cells.

@@ -152,6 +152,15 @@ fn ends_on_curves_split_them_and_open_curves_stay_as_constraints() {
 }
 
 #[test]
+fn loose_lines_that_see_each_other_lie_in_the_face_around_them() {
+    // At some level each of the two lies to the left of the other.
+    let (bend, low, left) = ((0.521, 0.124), (0.757, -0.831), (-0.378, -0.066));
+    let mut curves = square(-1.0, -1.0, 2.0);
+    curves.extend([line((0.513, -0.242), (0.401, 0.081)), line(bend, left), line(low, bend)]);
+    close(&areas(&regions(&drawing(curves))), &[4.0]);
+}
+
+#[test]
 fn a_chord_divides_whatever_the_fill_rule() {
     let mut curves = square(0.0, 0.0, 2.0);
     curves.push(line((0.0, 0.0), (2.0, 2.0)));

@@ -1,49 +1,26 @@
 //! Generalized constrained Delaunay refinement, held to its promises by the judge.
 
-use squinch::curve::Curve;
-use squinch::domain::{ArrangeOptions, Domain, Drawing, FillRule};
+mod plane_drawings;
+
+use plane_drawings::{assert_kept, boxed, domain_of, drawing_of, status, wedge};
+use squinch::domain::Drawing;
 use squinch::generate::curved_complex;
 use squinch::geometry::Point;
-use squinch::mesh::Mesh;
-use squinch::mesh::verify::{Status, Verdict, verify};
-use squinch::plane::gcdr::steiner::{Center, Encroached, Extreme, Grid, OffCenter, Optimal, Random, Skinny};
-use squinch::plane::gcdr::{self, Gcdr, Kind, Options, Regions, Start, SteinerStrategy};
+use squinch::mesh::verify::{Status, Verdict, densities, verify};
+use squinch::mesh::{InsertionKind, Mesh};
+use squinch::plane::gcdr::steiner::{
+    BySize, Center, Encroached, Extreme, Grid, OffCenter, Optimal, Places, Random, Skinny,
+};
+use squinch::plane::gcdr::{self, Options, Regions, SteinerStrategy};
 use squinch::refine::StopReason;
 use squinch::size::Sizing;
 use std::f64::consts::SQRT_2;
 
 const TAU_RAD: f64 = 0.5;
 
-fn domain_of(drawing: &Drawing) -> Domain {
-    drawing.arrange(&ArrangeOptions::default()).expect("a sound drawing").split_to_turning(TAU_RAD)
-}
-
-/// A drawing of lines and bulged lines (x0, y0, x1, y1, bulge), every bounded face a region.
-fn drawing_of(curves: &[(f64, f64, f64, f64, f64)]) -> Drawing {
-    let mut drawing = Drawing { fill: FillRule::Regions, ..Drawing::default() };
-    for (i, &(x0, y0, x1, y1, bulge)) in curves.iter().enumerate() {
-        let curve = Curve::bulge(Point::new(x0, y0), Point::new(x1, y1), bulge).expect("a sound curve");
-        drawing.add(curve, "edge", format!("curve {i}"));
-    }
-    drawing
-}
-
-fn boxed(half: f64) -> Vec<(f64, f64, f64, f64, f64)> {
-    let h = half;
-    vec![(-h, -h, h, -h, 0.0), (h, -h, h, h, 0.0), (h, h, -h, h, 0.0), (-h, h, -h, -h, 0.0)]
-}
-
 /// Fig. 7.1: five concentric squares, the gap one hundredth of the side.
 fn squares() -> Drawing {
     drawing_of(&(0..5).flat_map(|i| boxed(0.5 - 0.01 * f64::from(i))).collect::<Vec<_>>())
-}
-
-/// Two segments at an angle in a box.
-fn wedge(angle_deg: f64, lengths: [f64; 2]) -> Drawing {
-    let (s, c) = angle_deg.to_radians().sin_cos();
-    let mut curves = boxed(2.0);
-    curves.extend([(0.0, 0.0, lengths[0], 0.0, 0.0), (0.0, 0.0, lengths[1] * c, lengths[1] * s, 0.0)]);
-    drawing_of(&curves)
 }
 
 /// Circles of radius 1, ½ and ⅓ that touch in the origin from within, in a box.
@@ -56,24 +33,25 @@ fn touching_circles() -> Drawing {
 }
 
 fn options(angle_min_deg: f64, regions: Regions) -> Options {
-    Options { angle_min_rad: angle_min_deg.to_radians(), regions, sizing: Sizing::default(), max_vertices: 100_000 }
+    Options {
+        angle_min_rad: angle_min_deg.to_radians(),
+        regions,
+        sizing: Sizing::default(),
+        max_vertices: 100_000,
+        record: false,
+    }
 }
 
 /// Refines and judges; the verdict must be kept.
 fn kept(drawing: &Drawing, options: &Options, strategy: &mut dyn SteinerStrategy) -> (Mesh, Verdict) {
-    let domain = domain_of(drawing);
+    let domain = domain_of(drawing, TAU_RAD);
     let refined = gcdr::refine(&domain, options, strategy, None, &mut |_| true).expect("coordinates can hold it");
     assert_eq!(refined.stop.reason, StopReason::Done);
     assert_eq!(refined.stop.owed, 0);
     let mesh = refined.mesh.expect("a run that is done has a mesh");
     let verdict = verify(Some(&domain), &mesh, &options.promise(TAU_RAD, strategy.is_free(), false));
-    let broken: Vec<_> = verdict.checks.iter().filter(|c| c.status == Status::Broken).collect();
-    assert!(broken.is_empty(), "{broken:#?}");
+    assert_kept(&verdict);
     (mesh, verdict)
-}
-
-fn status(verdict: &Verdict, name: &str) -> Status {
-    verdict.checks.iter().find(|c| c.name == name).expect("a check of this name").status
 }
 
 fn excused(verdict: &Verdict) -> usize {
@@ -84,7 +62,7 @@ fn excused(verdict: &Verdict) -> usize {
 fn the_papers_squares_take_the_papers_triangles() {
     // 1583 and 3200 in the paper, 1592 and 3139 by Triangle.
     let (mesh, verdict) = kept(&squares(), &options(20.7, Regions::CENTERS), &mut Center);
-    assert!((1500..1620).contains(&mesh.triangles.len()), "{}", mesh.triangles.len());
+    assert!((1500..1640).contains(&mesh.triangles.len()), "{}", mesh.triangles.len());
     for name in ["min_angle", "radius_edge", "constrained_delaunay"] {
         assert_eq!(status(&verdict, name), Status::Proven, "{name}");
     }
@@ -93,7 +71,7 @@ fn the_papers_squares_take_the_papers_triangles() {
     }
     assert_eq!(excused(&verdict), 0);
     let (mesh, verdict) = kept(&squares(), &options(30.0, Regions::CENTERS), &mut Center);
-    assert!(mesh.triangles.len() < 3350, "{}", mesh.triangles.len());
+    assert!(mesh.triangles.len() <= 3200, "{}", mesh.triangles.len());
     assert_eq!(status(&verdict, "min_angle"), Status::Reached);
 }
 
@@ -138,42 +116,97 @@ fn any_strategy_keeps_the_promises() {
         Box::new(Extreme),
         Box::new(Random::new(3)),
         Box::new(Grid { pitch: 0.01 }),
+        Box::new(Places::new(
+            (0..400).map(|k| Point::new(0.05 * f64::from(k % 20) - 0.5, 0.05 * f64::from(k / 20) - 0.5)),
+        )),
+        Box::new(BySize),
         Box::new(Stubborn(0)),
     ];
     for mut strategy in strategies {
         for drawing in [squares(), touching_circles(), wedge(25.0, [1.0, 0.7])] {
-            kept(&drawing, &options(20.7, regions), &mut *strategy);
+            let options = options(20.7, regions);
+            kept(&drawing, &options, &mut *strategy);
+            let sizing = Sizing { max_edge: Some(0.2), ..Sizing::default() };
+            kept(&drawing, &Options { sizing, ..options }, &mut *strategy);
         }
     }
 }
 
 #[test]
-fn points_lie_in_their_regions_and_densities_below_the_bounds() {
-    let domain = domain_of(&squares());
+fn densities_lie_below_the_bounds_and_the_judge_believes_no_radius() {
+    let domain = domain_of(&squares(), TAU_RAD);
     let regions = Regions { delta2: 0.9, delta1: 0.9, mu: 0.6 };
     for seed in 0..4 {
-        let mut strategy = Random::new(seed);
-        let options = options((0.5 / SQRT_2).asin().to_degrees(), regions);
-        let Ok(Start::Ready(gcdr)) = Gcdr::start(&domain, &options, &mut strategy, &mut |_| true) else {
-            panic!("a small domain begins")
-        };
-        let mut gcdr = gcdr.recording();
-        while gcdr.step() {}
-        let insertions = gcdr.insertions();
-        let bounds = regions.printed_densities(SQRT_2, std::f64::consts::FRAC_PI_2);
-        for kind in [Kind::A, Kind::B, Kind::C] {
+        let angle = (0.5 / SQRT_2).asin().to_degrees();
+        let options = Options { record: true, ..options(angle, regions) };
+        let refined = gcdr::refine(&domain, &options, &mut Random::new(seed), None, &mut |_| true).unwrap();
+        let (mesh, mut insertions) = (refined.mesh.unwrap(), refined.insertions);
+        for kind in [InsertionKind::A, InsertionKind::B, InsertionKind::C] {
             assert!(insertions.iter().any(|i| i.kind == kind), "seed {seed}: no {kind:?}");
         }
+        // Lemma 2.6: parents are seen, so none is nearer than R(p), but those of type B, which may be deleted first.
         for i in &insertions {
-            let bound = match i.kind {
-                Kind::A => bounds.a,
-                Kind::B => bounds.b,
-                Kind::C => bounds.c,
-            };
-            let density = lfs_in_squares(i.at) / i.radius;
-            assert!(density > 0.0 && density <= bound, "seed {seed}: {i:?} has density {density}");
+            let parent = i.parent.expect("no size asked for any");
+            assert!(i.kind == InsertionKind::B || i.at.distance(parent) >= i.radius, "seed {seed}: {i:?}");
         }
+        let promise = options.density_promise(&domain);
+        assert_eq!(promise.map(|p| p.proven), Some(false), "C₁C₂ < 1");
+        let held = densities(&domain, &mesh, &insertions, promise);
+        assert!(held.iter().all(|c| c.status == Status::Reached && c.checked > 0), "seed {seed}: {held:?}");
+        // An engine that tells too large radii is not believed, one that crowds its vertices is found out.
+        insertions.iter_mut().for_each(|i| i.radius *= 2.0);
+        let retold = densities(&domain, &mesh, &insertions, promise);
+        assert!(retold.iter().zip(&held).all(|(r, h)| r.worst.unwrap().value > 0.6 * h.worst.unwrap().value));
+        insertions.iter_mut().for_each(|i| i.radius *= 0.02);
+        let crowded = densities(&domain, &mesh, &insertions, promise);
+        assert!(crowded.iter().all(|c| c.status == Status::Broken), "{crowded:?}");
     }
+    let proven = Options { record: true, ..options(20.7, Regions::CENTERS) };
+    assert_eq!(proven.density_promise(&domain).map(|p| p.proven), Some(true));
+    assert_eq!(proven.density_promise(&domain_of(&touching_circles(), TAU_RAD)), None, "curves");
+    assert_eq!(proven.density_promise(&domain_of(&wedge(50.0, [1.0, 1.0]), TAU_RAD)), None, "a sharp corner");
+    let sizing = Sizing { max_edge: Some(0.1), ..Sizing::default() };
+    assert_eq!(Options { sizing, ..proven }.density_promise(&domain), None, "sizes crowd vertices, too");
+}
+
+#[test]
+fn feature_sizes_are_those_of_every_pair_asked() {
+    let domain = domain_of(&squares(), TAU_RAD);
+    let features = domain.features();
+    for k in 0..2000u32 {
+        let p = Point::new(f64::from(k % 50) / 40.0 - 0.61, f64::from(k / 50) / 32.0 - 0.617);
+        let lfs = features.lfs(p);
+        assert!((lfs - lfs_in_squares(p)).abs() < 1e-12, "{p:?}: {lfs}");
+    }
+}
+
+#[test]
+fn strategies_with_a_wish_get_it_where_the_region_has_it() {
+    let sizing = Sizing { max_edge: Some(0.05), ..Sizing::default() };
+    let regions = Regions { delta2: 0.71, ..Regions::CENTERS };
+    let options = Options { sizing, ..options(20.7, regions) };
+    let (plain, _) = kept(&squares(), &options, &mut Center);
+    let on_grid = |mesh: &Mesh| {
+        let is_on = |x: f64| (x * 64.0).fract() == 0.0;
+        mesh.nodes.iter().filter(|p| is_on(p.x) && is_on(p.y)).count()
+    };
+    let (snapped, _) = kept(&squares(), &options, &mut Grid { pitch: 1.0 / 64.0 });
+    assert!(on_grid(&snapped) > 3 * on_grid(&plain), "{} {}", on_grid(&snapped), on_grid(&plain));
+    let places: Vec<Point> =
+        (0..64 * 64).map(|k| Point::new(f64::from(k % 64) / 64.0 - 0.5, f64::from(k / 64) / 64.0 - 0.5)).collect();
+    let (placed, _) = kept(&squares(), &options, &mut Places::new(places));
+    assert!(on_grid(&placed) > 3 * on_grid(&plain), "{}", on_grid(&placed));
+    let inner = |mesh: &Mesh| {
+        let is_inner = |p: Point| p.x.abs().max(p.y.abs()) < 0.4;
+        let lengths = mesh.triangles.ids().flat_map(|t| {
+            let [a, b, c] = mesh.corners(t);
+            [[a, b], [b, c], [c, a]].into_iter().filter(|e| e.iter().all(|&p| is_inner(p))).map(|[a, b]| a.distance(b))
+        });
+        lengths.fold((0, 0), |(near, all), d| (near + usize::from((0.04..=0.05).contains(&d)), all + 1))
+    };
+    let (by_size, _) = kept(&squares(), &options, &mut BySize);
+    let share = |(near, all): (usize, usize)| near as f64 / all as f64;
+    assert!(share(inner(&by_size)) > share(inner(&plain)), "{:?} {:?}", inner(&by_size), inner(&plain));
 }
 
 /// The second smallest distance to sides of the squares that have no common end: no less than lfs.
@@ -216,7 +249,7 @@ fn curves_that_touch_end_and_verify() {
 fn random_complexes_end_and_verify() {
     for seed in 0..24 {
         let drawing = curved_complex(seed);
-        let domain = domain_of(&drawing);
+        let domain = domain_of(&drawing, TAU_RAD);
         let options = options(20.7, Regions::CENTERS);
         let refined = gcdr::refine(&domain, &options, &mut Center, None, &mut |_| true)
             .unwrap_or_else(|e| panic!("seed {seed}: {e}"));
@@ -237,7 +270,7 @@ fn the_same_seed_gives_the_same_mesh() {
 
 #[test]
 fn a_budget_and_a_watch_end_a_run_with_a_valid_mesh() {
-    let domain = domain_of(&squares());
+    let domain = domain_of(&squares(), TAU_RAD);
     let few = Options { max_vertices: 300, ..options(30.0, Regions::CENTERS) };
     let refined = gcdr::refine(&domain, &few, &mut Center, None, &mut |_| true).unwrap();
     assert_eq!(refined.stop.reason, StopReason::VertexBudget);

@@ -1,5 +1,8 @@
 //! The corner-lopping engine, held to its promises by the judge.
 
+mod plane_drawings;
+
+use plane_drawings::{assert_kept, boxed, domain_of, drawing_of, status, wedge};
 use squinch::curve::Curve;
 use squinch::domain::{ArrangeOptions, Domain, Drawing, FillRule};
 use squinch::generate::curved_complex;
@@ -15,33 +18,6 @@ use squinch::size::Sizing;
 use squinch::watch::Progress;
 use std::f64::consts::FRAC_PI_3;
 
-fn domain_of(drawing: &Drawing, tau_rad: f64) -> Domain {
-    drawing.arrange(&ArrangeOptions::default()).expect("a sound drawing").split_to_turning(tau_rad)
-}
-
-/// A drawing of lines and bulged lines (x0, y0, x1, y1, bulge), every bounded face a region.
-fn drawing_of(curves: &[(f64, f64, f64, f64, f64)]) -> Drawing {
-    let mut drawing = Drawing { fill: FillRule::Regions, ..Drawing::default() };
-    for (i, &(x0, y0, x1, y1, bulge)) in curves.iter().enumerate() {
-        let curve = Curve::bulge(Point::new(x0, y0), Point::new(x1, y1), bulge).expect("a sound curve");
-        drawing.add(curve, "edge", format!("curve {i}"));
-    }
-    drawing
-}
-
-fn boxed(half: f64) -> Vec<(f64, f64, f64, f64, f64)> {
-    let h = half;
-    vec![(-h, -h, h, -h, 0.0), (h, -h, h, h, 0.0), (h, h, -h, h, 0.0), (-h, h, -h, -h, 0.0)]
-}
-
-/// Two unit segments at an angle in a box.
-fn wedge(angle_deg: f64) -> Drawing {
-    let (s, c) = angle_deg.to_radians().sin_cos();
-    let mut curves = boxed(2.0);
-    curves.extend([(0.0, 0.0, 1.0, 0.0, 0.0), (0.0, 0.0, c, s, 0.0)]);
-    drawing_of(&curves)
-}
-
 fn refine(domain: &Domain, options: &Options) -> Refined {
     lopping::refine(domain, options, &mut |_| true).expect("a domain that coordinates can hold")
 }
@@ -53,13 +29,8 @@ fn kept(drawing: &Drawing, tau_rad: f64, options: &Options) -> (Mesh, Verdict) {
     assert_eq!(refined.stop.reason, StopReason::Done);
     let mesh = refined.mesh.expect("a run that is done has a mesh");
     let verdict = verify(Some(&domain), &mesh, &options.promise(tau_rad, false));
-    let broken: Vec<_> = verdict.checks.iter().filter(|c| c.status == Status::Broken).collect();
-    assert!(broken.is_empty(), "{broken:#?}");
+    assert_kept(&verdict);
     (mesh, verdict)
-}
-
-fn status(verdict: &Verdict, name: &str) -> Status {
-    verdict.checks.iter().find(|c| c.name == name).expect("a check of this name").status
 }
 
 fn largest_angle_deg(mesh: &Mesh) -> f64 {
@@ -146,8 +117,8 @@ fn a_zero_angle_costs_vertices_but_ends() {
 #[test]
 fn corner_arcs_keep_large_angles_away() {
     let options = |corner_arcs| Options { corner_arcs, ..Options::default() };
-    let (without, _) = kept(&wedge(0.1), 0.5, &options(None));
-    let (with, verdict) = kept(&wedge(0.1), 0.5, &options(Some(FRAC_PI_3)));
+    let (without, _) = kept(&wedge(0.1, [1.0, 1.0]), 0.5, &options(None));
+    let (with, verdict) = kept(&wedge(0.1, [1.0, 1.0]), 0.5, &options(Some(FRAC_PI_3)));
     assert_eq!(status(&verdict, "max_angle"), Status::Reached);
     assert!(largest_angle_deg(&without) > 170.0 && largest_angle_deg(&with) <= 180.0 - 2.0 * 20.7);
 }
@@ -213,7 +184,7 @@ fn a_budget_ends_with_a_valid_mesh_and_says_what_is_owed() {
         max_vertices: 500,
         ..Options::default()
     };
-    let domain = domain_of(&wedge(10.0), 0.5);
+    let domain = domain_of(&wedge(10.0, [1.0, 1.0]), 0.5);
     let refined = refine(&domain, &options);
     assert_eq!(refined.stop.reason, StopReason::VertexBudget);
     assert!(refined.stop.owed > 0 && !refined.stop.places.is_empty());
@@ -240,7 +211,8 @@ fn a_watcher_can_stop_the_run() {
         told += 1;
         progress.phase == "conforming"
     };
-    let refined = lopping::refine(&domain_of(&wedge(10.0), 0.5), &options, &mut watch).expect("no arithmetic limit");
+    let refined =
+        lopping::refine(&domain_of(&wedge(10.0, [1.0, 1.0]), 0.5), &options, &mut watch).expect("no arithmetic limit");
     assert_eq!(refined.stop.reason, StopReason::Cancelled);
     assert!(told == 1 && refined.mesh.is_some() && refined.stop.owed > 0);
 }
@@ -267,7 +239,7 @@ fn features_nearer_than_the_arithmetic_are_an_error_with_a_place() {
 
 #[test]
 fn balls_answer_to_acute_corners_only() {
-    let mesh = kept(&wedge(45.0), 0.5, &Options::default()).0;
+    let mesh = kept(&wedge(45.0, [1.0, 1.0]), 0.5, &Options::default()).0;
     let corners: Vec<PointId> = mesh.balls.iter().map(|b| b.corner).collect();
     assert_eq!(corners.len(), 1, "{corners:?}");
 }
@@ -290,7 +262,7 @@ fn slivers_take_at_least_what_is_told() {
         let (r, s) = (1.0, 1.0 + gap);
         drawing_of(&[(-r, 0.0, r, 0.0, 1.0), (r, 0.0, -r, 0.0, 1.0), (-s, 0.0, s, 0.0, 1.0), (s, 0.0, -s, 0.0, 1.0)])
     };
-    for drawing in [wedge(0.1), wedge(0.01), ring(1e-3), ring(1e-4), strip(1e-3), strip(1e-4)] {
+    for drawing in [wedge(0.1, [1.0, 1.0]), wedge(0.01, [1.0, 1.0]), ring(1e-3), ring(1e-4), strip(1e-3), strip(1e-4)] {
         for min_edge in [None, Some(1e-2)] {
             let options = Options { sizing: Sizing { min_edge, ..Sizing::default() }, ..Options::default() };
             let (told, taken) = told_and_taken(&drawing, &options);

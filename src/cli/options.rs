@@ -8,7 +8,7 @@ use squinch::import::Format;
 use squinch::pipeline::Exit;
 use squinch::request::{
     BallShrinking, ChordError, EdgeTurning, Engine, FillChoice, Keep, MaxTurning, Midpoint, Order, Overlap, Request,
-    SizeOf, Steiner, Strokes, Switch, TrailingEdge,
+    SizeOf, SnapTo, Steiner, Strokes, Switch, TrailingEdge,
 };
 use squinch::size::Given;
 use std::path::{Path, PathBuf};
@@ -138,9 +138,16 @@ pub struct Options {
     /// With gcdr: who chooses the points in triangles; nothing is proven of the free ones [default: center]
     #[arg(long, value_enum, value_name = "WHO", help_heading = "Engine")]
     steiner: Option<Steiner>,
+    /// With --steiner snap: the pitch of a square grid through the origin, or a file of places: `x y` on every line
+    #[arg(long, value_name = "H|FILE", allow_hyphen_values = true, help_heading = "Engine")]
+    snap: Option<String>,
     /// With --steiner random [default: 0]
     #[arg(long, value_name = "N", help_heading = "Engine")]
     seed: Option<u64>,
+    /// With gcdr: measure how much nearer to others every point was inserted than the drawing asks for, and hold it to the bounds known
+    /// [default: off]
+    #[arg(long, value_enum, value_name = "on|off", help_heading = "Engine")]
+    densities: Option<Switch>,
 }
 
 /// Keys of [`Options`] that say how to run, not what to make.
@@ -169,6 +176,7 @@ impl Options {
             asked.into_iter().partition(|(key, _)| OUTSIDE.contains(&key.as_str()));
         let all: Self = toml::Value::Table(outside).try_into().map_err(usage)?;
         read_sizes(&mut asked)?;
+        read_snap(&mut asked)?;
         let request: Request = toml::Value::Table(asked).try_into().map_err(usage)?;
         request.validate().map_err(usage)?;
         if let Some(threads) = all.threads {
@@ -194,6 +202,22 @@ fn read_sizes(asked: &mut toml::Table) -> Result<(), Halt> {
     let text = std::fs::read_to_string(path).map_err(|e| wrong(e.to_string()))?;
     let sizes = toml::Value::try_from(Given::read_samples(&text).map_err(wrong)?).map_err(usage)?;
     asked.insert("size".into(), sizes);
+    Ok(())
+}
+
+/// Puts a pitch, or the places of a file, in the place of its text.
+fn read_snap(asked: &mut toml::Table) -> Result<(), Halt> {
+    let Some(toml::Value::String(given)) = asked.get("snap") else { return Ok(()) };
+    let wrong = |e: String| Halt::Usage(format!("--snap {given}: {e}"));
+    let snap = match given.parse() {
+        Ok(pitch) => SnapTo::Pitch(pitch),
+        Err(_) => {
+            let text = std::fs::read_to_string(given)
+                .map_err(|e| wrong(format!("neither a pitch nor a file that can be read: {e}")))?;
+            SnapTo::read_places(&text).map_err(wrong)?
+        }
+    };
+    asked.insert("snap".into(), toml::Value::try_from(snap).map_err(usage)?);
     Ok(())
 }
 
@@ -259,6 +283,7 @@ mod tests {
             timeout: Some(1.0),
             face: Some("largest".into()),
             delta2: Some(1.0),
+            snap: Some(SnapTo::Pitch(1.0)),
             delta1: Some(1.0),
             mu: Some(1.0),
             ..Request::default()

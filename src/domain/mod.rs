@@ -2,11 +2,13 @@
 
 mod arrange;
 mod drawing;
+mod features;
 mod flaws;
 mod locate;
 mod planar;
 
 pub use arrange::{ArrangeError, ArrangeOptions, Repair, RepairKind, Unarranged};
 pub use drawing::{Drawing, DrawnCurve, DrawnPoint, FaceInfo, FillRule, Seed, SeedKind, Shape, SizeRequest, Skipped};
+pub use features::Features;
 pub use locate::Locator;
 pub use planar::{Corner, Domain, DomainCurve, Incident, Region};

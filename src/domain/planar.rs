@@ -4,6 +4,7 @@
 //! a curve; no curve is closed, has a cusp or a tangent jump inside, or zero length; every curve knows the kept region on either side.
 
 use super::Repair;
+use super::features::Features;
 use super::locate::Locator;
 use crate::curve::{Curve, End};
 use crate::geometry::boxes::BoxHierarchy;
@@ -174,6 +175,11 @@ impl Domain {
             }
         }
         lfs
+    }
+
+    /// For many questions of local feature size at any place.
+    pub fn features(&self) -> Features<'_> {
+        Features::new(self)
     }
 
     /// The complex with every curve cut until it turns at most `tau` (≤ π/3); the cuts become points of P.

@@ -78,6 +78,28 @@ pub enum BallReason {
     Size,
 }
 
+/// A vertex as a refinement inserted it that promises a density for it (Foteinos, Chernikov & Chrisochoides 2010, section 2).
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Insertion {
+    pub kind: InsertionKind,
+    pub at: Point,
+    /// R(p): the distance to the nearest vertex that it saw (Definition 2.4).
+    pub radius: f64,
+    /// p̂, because of which it was inserted (Definition 2.5); none of a vertex that a size asked for.
+    pub parent: Option<Point>,
+}
+
+/// The type of an inserted vertex.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum InsertionKind {
+    /// Inside a triangle.
+    A,
+    /// On a segment.
+    B,
+    /// On a segment that another vertex on a segment, or of the input, crowds.
+    C,
+}
+
 impl Mesh {
     /// Polynomial order of the cells: 1 or 2.
     pub fn order(&self) -> u8 {

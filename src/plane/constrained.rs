@@ -75,17 +75,7 @@ impl Constrained {
 
     /// Looks: the triangles that see `p` inside their circle, given where `p` lies. Empty where `p` is a vertex.
     pub fn cavity(&self, p: Point, at: Location, cavity: &mut Cavity) {
-        assert!(super::insert::in_range(p), "{p:?} is beyond exact signs");
-        let start = match at {
-            Location::Vertex(_) => {
-                cavity.triangles.clear();
-                cavity.border.clear();
-                return;
-            }
-            Location::Side(s) => s.triangle(),
-            Location::Triangle(t) => t,
-        };
-        self.delaunay.in_sight(|sight| sight.collect(p, start, |s| self.is_piece(s), cavity));
+        self.delaunay.cavity_within(|s| self.is_piece(s), p, at, cavity);
     }
 
     /// Acts: replaces the cavity of `p`, which must not lie on a piece, by the triangles that join `p` to its border.
@@ -286,11 +276,40 @@ impl Constrained {
         on.map_or(Location::Triangle(t), Location::Side)
     }
 
+    /// Whether neither a piece nor a vertex lies between two vertices.
+    pub fn see_each_other(&self, a: VertexId, b: VertexId) -> bool {
+        self.crossings(a, b).is_ok()
+    }
+
     /// Whether a vertex to the left of a side sees any place between its ends.
+    pub fn sees(&self, v: VertexId, side: Side) -> bool {
+        let [x, y] = [self.topology().origin(side), self.topology().target(side)].map(|v| self.point(v));
+        let below = x + (y - x) * share_along(self.point(v), [x, y]).clamp(0.01, 0.99);
+        self.glimpses(v, below, side) || self.makes_out(v, side)
+    }
+
+    /// Whether the ray from a vertex towards a place leaves through a side before any piece, and meets no vertex on the way: then the
+    /// vertex sees the side. One line, where [`Constrained::makes_out`] looks through all that lies between.
+    fn glimpses(&self, v: VertexId, toward: Point, side: Side) -> bool {
+        let topology = self.topology();
+        let from = self.point(v);
+        let is = |w: VertexId, wanted: Orientation| w != GHOST && orient(from, toward, self.point(w)) == wanted;
+        let leaves = |s: &Side| {
+            is(topology.origin(*s), Orientation::Clockwise) && is(topology.target(*s), Orientation::CounterClockwise)
+        };
+        let mut exit = topology.sides_from(v).map(Side::next).find(leaves);
+        while let Some(s) = exit.filter(|&s| s != side && !self.is_piece(s)) {
+            let beyond = topology.twin(s);
+            exit = [beyond.next(), beyond.prev()].into_iter().find(leaves);
+        }
+        exit == Some(side)
+    }
+
+    /// [`Constrained::sees`], by all there is to see.
     ///
     /// Triangular expansion: the cone of what the vertex sees is followed from triangle to triangle, narrowed by every side it passes
     /// and ended by pieces.
-    pub fn sees(&self, v: VertexId, side: Side) -> bool {
+    fn makes_out(&self, v: VertexId, side: Side) -> bool {
         let topology = self.topology();
         let from = self.point(v);
         let turns_left = |a: VertexId, b: VertexId| orient(from, self.point(a), self.point(b));
@@ -335,24 +354,16 @@ impl Constrained {
         false
     }
 
-    /// The vertices inside the diametral circle of a side with a piece that see any of it, on both sides, in the order of their ids.
-    pub fn visible_in_diametral_circle(&self, side: Side) -> Vec<VertexId> {
-        let mut seen = Vec::new();
-        for s in [side, self.topology().twin(side)] {
-            self.look_into_half_circle(s, &mut seen);
-        }
-        seen.sort_unstable();
-        seen
-    }
-
-    /// Those to the left of a side. The apex of its triangle tells whether there are any: if it lies outside, so does whatever else the
-    /// triangle sees. Otherwise triangles are searched that hang together within the circle.
-    fn look_into_half_circle(&self, side: Side, seen: &mut Vec<VertexId>) {
+    /// The vertices inside the diametral circle of a side, to its left, that may see it: all that do, and some others.
+    ///
+    /// The apex of its triangle tells whether there are any: if it lies outside, so does whatever else the triangle sees. Otherwise
+    /// triangles are searched that hang together within the circle.
+    pub fn in_half_circle(&self, side: Side) -> Vec<VertexId> {
         let topology = self.topology();
         let [x, y] = [topology.origin(side), topology.target(side)].map(|v| self.point(v));
         let inside = |v: VertexId| v != GHOST && in_diametral(x, y, self.point(v)) == CircleSide::Inside;
         if !inside(topology.apex(side)) {
-            return;
+            return Vec::new();
         }
         // What a rounded distance leaves out is no vertex inside: those are told exactly.
         let (center, radius) = (x.midpoint(y), 0.5 * x.distance(y) * (1.0 + 1e-9));
@@ -373,7 +384,7 @@ impl Constrained {
             }
         }
         let left = |v: &VertexId| orient(x, y, self.point(*v)) == Orientation::CounterClockwise;
-        seen.extend(found.into_iter().filter(|v| left(v) && self.sees(*v, side)));
+        found.into_iter().filter(left).collect()
     }
 
     // ---- checks ----
@@ -410,10 +421,14 @@ impl Constrained {
     }
 }
 
-fn distance_to_segment(p: Point, [a, b]: [Point; 2]) -> f64 {
+fn distance_to_segment(p: Point, ends: [Point; 2]) -> f64 {
+    p.distance(ends[0].lerp(ends[1], share_along(p, ends).clamp(0.0, 1.0)))
+}
+
+/// The share of the way along a segment at which a place lies beside it.
+fn share_along(p: Point, [a, b]: [Point; 2]) -> f64 {
     let (ab, ap) = (b - a, p - a);
-    let share = if ab.hypot2() > 0.0 { (ap.dot(ab) / ab.hypot2()).clamp(0.0, 1.0) } else { 0.0 };
-    (ap - share * ab).hypot()
+    if ab.hypot2() > 0.0 { ap.dot(ab) / ab.hypot2() } else { 0.0 }
 }
 
 #[cfg(test)]

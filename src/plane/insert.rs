@@ -355,6 +355,11 @@ impl Delaunay {
     /// `p` is a vertex.
     /// The coordinates of `p` must be numbers within 2^±180, as those of all vertices.
     pub fn cavity(&self, p: Point, at: Location, cavity: &mut Cavity) {
+        self.cavity_within(|_| false, p, at, cavity);
+    }
+
+    /// [`Delaunay::cavity`], which ends at walls.
+    pub(super) fn cavity_within(&self, is_wall: impl Fn(Side) -> bool, p: Point, at: Location, cavity: &mut Cavity) {
         // Beyond that range signs contradict each other, and the walk around the cavity need not end.
         assert!(in_range(p), "{p:?} is beyond exact signs");
         let start = match at {
@@ -366,7 +371,7 @@ impl Delaunay {
             Location::Side(s) => s.triangle(),
             Location::Triangle(t) => t,
         };
-        self.in_sight(|sight| sight.collect(p, start, |_| false, cavity));
+        self.in_sight(|sight| sight.collect(p, start, is_wall, cavity));
     }
 
     /// Acts: replaces the cavity of `p` by the triangles that join `p` to its border, and returns the new vertex.

@@ -7,8 +7,10 @@ pub mod gcdr;
 mod harvest;
 pub mod insert;
 pub mod lopping;
+mod refined;
 mod remove;
 mod subcurves;
+mod suspects;
 pub mod triangulation;
 
 pub use subcurves::Midpoint;

@@ -67,20 +67,7 @@ impl Given {
     /// # Errors
     /// A sentence with the line that is not so.
     pub fn read_samples(text: &str) -> Result<Self, String> {
-        let mut samples = Vec::new();
-        for (i, line) in text.lines().enumerate() {
-            let line = line.split('#').next().unwrap_or_default();
-            let tokens: Vec<&str> =
-                line.split(|c: char| c.is_whitespace() || matches!(c, ',' | ';')).filter(|t| !t.is_empty()).collect();
-            if tokens.is_empty() {
-                continue;
-            }
-            let numbers: Option<Vec<f64>> =
-                tokens.iter().map(|t| t.parse().ok().filter(|v: &f64| v.is_finite())).collect();
-            let sample: Option<[f64; 3]> = numbers.and_then(|n| n.try_into().ok());
-            samples.push(sample.ok_or_else(|| format!("line {}: `x y size` is expected", i + 1))?);
-        }
-        Ok(Self::Samples(samples))
+        rows_of(text, "x y size").map(Self::Samples)
     }
 
     /// What is out of bounds.
@@ -104,6 +91,26 @@ impl Given {
             Self::Samples(_) => None,
         }
     }
+}
+
+/// Rows of N finite numbers, between blanks, commas or semicolons; `#` begins a comment.
+///
+/// # Errors
+/// A sentence with the line that is not `form`.
+pub fn rows_of<const N: usize>(text: &str, form: &str) -> Result<Vec<[f64; N]>, String> {
+    let mut rows = Vec::new();
+    for (i, line) in text.lines().enumerate() {
+        let line = line.split('#').next().unwrap_or_default();
+        let tokens: Vec<&str> =
+            line.split(|c: char| c.is_whitespace() || matches!(c, ',' | ';')).filter(|t| !t.is_empty()).collect();
+        if tokens.is_empty() {
+            continue;
+        }
+        let numbers: Option<Vec<f64>> = tokens.iter().map(|t| t.parse().ok().filter(|v: &f64| v.is_finite())).collect();
+        let row: Option<[f64; N]> = numbers.and_then(|n| n.try_into().ok());
+        rows.push(row.ok_or_else(|| format!("line {}: `{form}` is expected", i + 1))?);
+    }
+    Ok(rows)
 }
 
 #[cfg(test)]

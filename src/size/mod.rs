@@ -7,7 +7,7 @@ mod expression;
 mod given;
 
 pub use expression::Expression;
-pub use given::{Given, SAMPLE_GRADE};
+pub use given::{Given, SAMPLE_GRADE, rows_of};
 
 use crate::curve::{Curve, End};
 use crate::domain::{Domain, Incident, SizeRequest};
@@ -244,6 +244,11 @@ impl SizeField {
     /// Largest area allowed in a region.
     pub fn area_in(&self, region: RegionId) -> f64 {
         self.region_areas[region]
+    }
+
+    /// The edge that a cell is to have in a region at a place: the longest allowed, or that of the largest equilateral triangle.
+    pub fn length_in(&self, region: RegionId, at: Point) -> f64 {
+        self.edge_in(region, at).min((self.area_in(region) * 4.0 / 3f64.sqrt()).sqrt())
     }
 
     /// How many times a triangle is over its limits (1 and below: within them): by its longest edge and its area.

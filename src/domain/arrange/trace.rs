@@ -108,9 +108,9 @@ impl Faces {
             tracing(domain, self.outer.len() - component).tell(watch)?;
             view.look_from(component)?;
         }
+        view.part_rings(watch)?;
         let seen = view.seen;
-        // A component seen from outside lies where that one lies, which is further left (of flat ones: further down). Each is followed
-        // once: what lies behind it is remembered.
+        // A component seen from outside lies where that one lies. Each is followed once: what lies behind it is remembered.
         let mut behind: Vec<Option<Face>> = vec![None; seen.len()];
         for component in 0..seen.len() {
             let mut way = Vec::new();
@@ -118,7 +118,7 @@ impl Faces {
             let face = loop {
                 match (behind[here], seen[here].flatten()) {
                     (Some(face), _) => break face,
-                    (None, Some(c)) if self.outer[self.cycles[c].component] == c && way.len() < seen.len() => {
+                    (None, Some(c)) if self.outer[self.cycles[c].component] == c => {
                         way.push(here);
                         here = self.cycles[c].component;
                     }
@@ -188,11 +188,78 @@ impl<'a> View<'a> {
                 return Ok(());
             }
         }
-        Err(ArrangeError::near(
+        Err(self.untold(component))
+    }
+
+    /// Two components may see each other, each from another level. Those of such a ring lie in one face, and what is seen left of the leftmost
+    /// of them on any line bounds it, too: that is what all of them see from then on. A further ring joins further ones.
+    fn part_rings(&mut self, watch: &mut Watch) -> Result<(), Unarranged> {
+        // By component: one that it was in a ring with, the same of all of them.
+        let mut group: Vec<usize> = (0..self.seen.len()).collect();
+        loop {
+            let rings = self.rings();
+            if rings.is_empty() {
+                return Ok(());
+            }
+            for ring in rings {
+                Progress { phase: "tracing", vertices: group.len(), queued: ring.len() }.tell(watch)?;
+                let joined: BTreeSet<usize> = ring.iter().map(|&component| group[component]).collect();
+                group.iter_mut().filter(|g| joined.contains(g)).for_each(|g| *g = ring[0]);
+                self.look_out_of(ring[0], &group)?;
+            }
+        }
+    }
+
+    /// Components that see each other from outside in a ring.
+    fn rings(&self) -> Vec<Vec<usize>> {
+        let next = |component: usize| {
+            let cycle = self.seen[component].flatten()?;
+            Some(self.faces.cycles[cycle].component).filter(|&c| self.faces.outer[c] == cycle)
+        };
+        let mut walked = vec![usize::MAX; self.seen.len()];
+        let mut rings = Vec::new();
+        for start in 0..self.seen.len() {
+            let mut here = Some(start);
+            while let Some(component) = here.filter(|&c| walked[c] == usize::MAX) {
+                walked[component] = start;
+                here = next(component);
+            }
+            if let Some(first) = here.filter(|&c| walked[c] == start) {
+                let rest = std::iter::successors(next(first), |&c| next(c)).take_while(|&c| c != first);
+                rings.push([first].into_iter().chain(rest).collect());
+            }
+        }
+        rings
+    }
+
+    /// What the leftmost of a group sees on a line through one of them, which goes on to the end of the frame, all of them see.
+    fn look_out_of(&mut self, component: usize, group: &[usize]) -> Result<(), ArrangeError> {
+        let (bounds, axis) = (self.bounds[component], self.axis(component));
+        let [low, high] = along(axis, bounds);
+        for level in levels(bounds, axis) {
+            let Some(hits) = self.locator.hits(axis, level, [low - 4.0 * FRAME, high], self.margin) else { continue };
+            let is_in = |hit: &Hit| group[self.component_of(hit)] == group[component];
+            if let Some(first) = hits.iter().position(is_in) {
+                let beyond = first.checked_sub(1).map(|k| self.cycle_beyond(&hits[k]));
+                let members = self.seen.iter_mut().zip(group).filter(|(_, g)| **g == group[component]);
+                members.for_each(|(seen, _)| *seen = Some(beyond));
+                return Ok(());
+            }
+        }
+        Err(self.untold(component))
+    }
+
+    /// The cycle that is seen from the right of a crossing.
+    fn cycle_beyond(&self, hit: &Hit) -> usize {
+        self.faces.cycle_of[Half { curve: hit.curve, side: hit.before.other() }.index()]
+    }
+
+    fn untold(&self, component: usize) -> ArrangeError {
+        ArrangeError::near(
             "it cannot be told which face contains the curves",
-            bounds.center(),
+            self.bounds[component].center(),
             "remove curves that are hardly larger than the rounding of their coordinates",
-        ))
+        )
     }
 
     fn component_of(&self, hit: &Hit) -> usize {
@@ -207,8 +274,7 @@ impl<'a> View<'a> {
             let is_first = std::mem::replace(&mut self.met[component], self.lines) != self.lines;
             let begins = from <= along(axis, self.bounds[component])[0] && self.axis(component) == axis;
             if is_first && begins && k > 0 {
-                let Hit { curve, before, .. } = hits[k - 1];
-                let cycle = self.faces.cycle_of[Half { curve, side: before.other() }.index()];
+                let cycle = self.cycle_beyond(&hits[k - 1]);
                 self.seen[component].get_or_insert(Some(cycle));
             }
         }

@@ -22,6 +22,7 @@ mod angles;
 mod balls;
 mod circles;
 mod curves;
+mod densities;
 mod edges;
 mod elevation;
 mod evidence;
@@ -30,6 +31,7 @@ mod tally;
 mod topology;
 
 pub use angles::{ANGLE_RULE_GUARANTEE_RAD, guaranteed_angle};
+pub use densities::{Densities, DensityPromise, densities};
 
 use super::Mesh;
 use crate::domain::Domain;

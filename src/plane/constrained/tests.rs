@@ -186,13 +186,19 @@ fn sight_agrees_with_every_segment_asked() {
                 let left = orient(x, y, p) == Orientation::CounterClockwise;
                 let side = if left { side } else { built.topology().twin(side) };
                 let sees = scene.sees(p, [x, y]);
-                assert_eq!(built.sees(VertexId::from_index(v), side), sees, "seed {seed}: vertex {v}, segment {a} {b}");
+                let v = VertexId::from_index(v);
+                assert_eq!(built.sees(v, side), sees, "seed {seed}: {v:?}, segment {a} {b}");
+                assert_eq!(built.makes_out(v, side), sees, "seed {seed}: {v:?}, segment {a} {b}");
                 *if sees { &mut seen } else { &mut hidden } += 1;
                 if sees && in_diametral(x, y, p) == CircleSide::Inside {
-                    in_circle.push(VertexId::from_index(v));
+                    in_circle.push(v);
                 }
             }
-            assert_eq!(built.visible_in_diametral_circle(side), in_circle, "seed {seed}: segment {a} {b}");
+            let sighted = |s: Side| built.in_half_circle(s).into_iter().filter(|&v| built.sees(v, s)).collect();
+            let found: [Vec<VertexId>; 2] = [side, built.topology().twin(side)].map(sighted);
+            let mut found = found.concat();
+            found.sort_unstable();
+            assert_eq!(found, in_circle, "seed {seed}: segment {a} {b}");
         }
     }
     assert!(seen > 1000 && hidden > 1000, "{seen} seen, {hidden} hidden");

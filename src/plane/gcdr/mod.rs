@@ -17,7 +17,15 @@
 //! - *Corners sharper than 60°.* Segments that end there are split on concentric shells (Ruppert 1995), at distances from the corner that
 //!   are round binary numbers; a triangle whose shortest edge lies across the corner, from one curve to the other, with ends equally far from the corner is
 //!   left as it is: its small angle is the input's. Curves that leave a sharp corner are cut together: [`chords`] says why.
+//! - *Order.* Algorithm 2 leaves open which triangle comes first. Segments that a vertex which will stay sees at more than 180° − 2κ come before
+//!   all else: they cannot stand, and split late they would undo what was refined beside them. Then comes what the strategy says.
 //! - *Rounding.* Decisions are made on the rounded point. A point that would not remove its triangle is not inserted, and owed.
+//!
+//! *Which engine.* Of 180 drawings at 20.7° with free optimal points (outlines, maps, DXF, SVG) all end that end with corner lopping, all but
+//! one with fewer triangles: a fourth to a half of them by folder, in the geometric mean. That holds of straight input and curved, with
+//! sharp corners and without. So the drawing does not tell which engine is the better one, and there is none called `auto`: what is asked of
+//! the mesh tells. Corner lopping proves its angle on more input, bounds the largest angle, and makes a whole Delaunay triangulation with empty
+//! diametral circles; this engine makes fewer triangles, and larger angles.
 
 mod chords;
 pub mod parameters;
@@ -28,19 +36,21 @@ mod triangles;
 use super::carve::{self, Carver};
 use super::constrained::Constrained;
 use super::harvest::Harvest;
-use super::insert::{Cavity, Degenerate};
-use super::lopping::{RefineError, Refined};
+use super::insert::Cavity;
+use super::refined::{RefineError, Refined};
 use super::subcurves::Subcurves;
+use super::suspects::{self, Suspect, Suspects};
 use crate::domain::Domain;
 use crate::geometry::{self, Point};
-use crate::ids::{BallId, CurveId, Id, IdVec, PieceId, PointId, TriangleId, VertexId};
-use crate::mesh::RIM_ROUNDING;
-use crate::mesh::verify::{ConstrainedPromise, Promise};
-use crate::refine::{Counters, Stop, StopReason, WorstFirst};
+use crate::ids::{BallId, CurveId, Id, IdVec, PieceId, PointId, VertexId};
+use crate::mesh::verify::{ConstrainedPromise, DensityPromise, Promise};
+use crate::mesh::{Insertion, InsertionKind, RIM_ROUNDING};
+use crate::refine::{Counters, Stop, StopReason};
 use crate::size::{SizeField, Sizing};
 use crate::watch::{Progress, Watch};
 use chords::Beginning;
-pub use parameters::{Densities, Regions, Violation};
+use parameters::radius_edge_of;
+pub use parameters::{Regions, Violation};
 use std::f64::consts::FRAC_PI_3;
 pub use steiner::SteinerStrategy;
 
@@ -53,6 +63,8 @@ pub struct Options {
     pub sizing: Sizing,
     /// Vertices after which nothing is split any more.
     pub max_vertices: usize,
+    /// Keep what every insertion was, for densities.
+    pub record: bool,
 }
 
 /// Corners up to this angle are sharp: less than 60° by more than rounding explains.
@@ -77,21 +89,10 @@ impl Options {
     }
 }
 
-/// What type of point a vertex was inserted as.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Kind {
-    A,
-    B,
-    C,
-}
-
-/// A point as it was inserted.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub struct Insertion {
-    pub kind: Kind,
-    pub at: Point,
-    /// R(p): the distance to the nearest vertex that it saw (Definition 2.4).
-    pub radius: f64,
+/// The smallest angle of the domain at which curves are not cut on shells: 60° or more; π where there is none.
+pub fn least_angle(domain: &Domain) -> f64 {
+    let angles = domain.points().ids().filter_map(|p| domain.corner(p)).map(|corner| corner.angle_rad);
+    angles.filter(|&a| a > SHARP_RAD).fold(std::f64::consts::PI, f64::min)
 }
 
 /// Where a vertex came from.
@@ -108,9 +109,6 @@ struct Fan {
     radius: f64,
     spokes: Vec<PieceId>,
 }
-
-/// A triangle as it was when it was queued: a triangle's id may be another's by now.
-type Suspect = (TriangleId, [VertexId; 3]);
 
 /// The engine, held at a step.
 pub struct Gcdr<'s> {
@@ -130,8 +128,7 @@ pub struct Gcdr<'s> {
     strategy: &'s mut dyn SteinerStrategy,
     /// Pieces whose size is to be looked at.
     suspects: Vec<PieceId>,
-    skinny: WorstFirst<Suspect>,
-    oversized: WorstFirst<Suspect>,
+    bad: Suspects,
     carver: Carver,
     cavity: Cavity,
     counters: Counters,
@@ -142,7 +139,7 @@ pub struct Gcdr<'s> {
     sin2_min: f64,
     /// No edge shorter than this is made on purpose.
     resolution: f64,
-    insertions: Option<Vec<Insertion>>,
+    insertions: Vec<Insertion>,
 }
 
 /// Meshes a domain whose curves turn at most π/3 each, as long as `watch` says to go on, in `most` steps or as many as there are.
@@ -171,6 +168,21 @@ pub fn refine(
             return gcdr.finish();
         }
         steps += 1;
+    }
+}
+
+impl Options {
+    /// What the densities of a domain's mesh are held to by a strategy that is not free: `None` on curves, at angles below 60°, and where
+    /// sizes are asked for, which insert vertices of their own.
+    pub fn density_promise(&self, domain: &Domain) -> Option<DensityPromise> {
+        let straight = domain.curves().iter().all(|c| c.curve.is_straight());
+        let sharp = |p: PointId| domain.corner(p).is_some_and(|corner| corner.angle_rad <= SHARP_RAD);
+        // Along straight segments nothing turns.
+        let unsized_but_for_turning =
+            self.sizing == Sizing { edge_turning_rad: self.sizing.edge_turning_rad, ..Sizing::default() };
+        let bounded =
+            straight && unsized_but_for_turning && self.angle_min_rad > 0.0 && !domain.points().ids().any(sharp);
+        bounded.then(|| self.regions.density_promise(radius_edge_of(self.angle_min_rad), least_angle(domain)))
     }
 }
 
@@ -205,15 +217,19 @@ impl<'s> Gcdr<'s> {
         if stopped || beginning.points.len() > options.max_vertices {
             let reason = if stopped { StopReason::Cancelled } else { StopReason::VertexBudget };
             let stop = Stop { reason, owed: 1, places: Vec::new() };
-            return Ok(Start::Ended(Box::new(Refined { mesh: None, stop, counters: Counters::default() })));
+            return Ok(Start::Ended(Box::new(Refined {
+                mesh: None,
+                stop,
+                counters: Counters::default(),
+                insertions: Vec::new(),
+            })));
         }
         let mesh = triangulated(&beginning).map_err(|e| e.scaled(1.0 / scale))?;
         let Beginning { origins, subcurves, fans, .. } = beginning;
         let sin_min = libm::sin(options.angle_min_rad);
         let mut gcdr = Self {
             suspects: Vec::new(),
-            skinny: WorstFirst::default(),
-            oversized: WorstFirst::default(),
+            bad: Suspects::default(),
             carver: Carver::default(),
             cavity: Cavity::default(),
             counters: Counters::default(),
@@ -222,7 +238,7 @@ impl<'s> Gcdr<'s> {
             sin2_min: sin_min * sin_min,
             alive: origins.len(),
             options: options.clone(),
-            insertions: None,
+            insertions: Vec::new(),
             resolution,
             domain,
             scale,
@@ -245,27 +261,14 @@ impl<'s> Gcdr<'s> {
         Ok(Start::Ready(Box::new(gcdr)))
     }
 
-    /// Keeps what every insertion was, for densities.
-    pub fn recording(mut self) -> Self {
-        self.insertions = Some(Vec::new());
-        self
-    }
-
-    /// What was inserted since [`Gcdr::recording`], in the domain's own scale.
-    pub fn insertions(&self) -> Vec<Insertion> {
-        let down = 1.0 / self.scale;
-        let scaled = |i: &Insertion| Insertion { at: geometry::scaled(i.at, down), radius: i.radius * down, ..*i };
-        self.insertions.iter().flatten().map(scaled).collect()
-    }
-
-    /// The nearest vertex that a vertex sees is its neighbour in a constrained Delaunay triangulation.
-    fn record(&mut self, v: VertexId, kind: Kind) {
-        let Some(insertions) = &mut self.insertions else { return };
+    /// Notes an insertion. The nearest vertex that a vertex sees is its neighbour in a constrained Delaunay
+    /// triangulation.
+    fn record(&mut self, v: VertexId, kind: InsertionKind, parent: Option<VertexId>) {
         let topology = self.mesh.topology();
         let at = self.mesh.point(v);
         let away = topology.sides_from(v).map(|s| topology.target(s)).filter(|&w| w != super::triangulation::GHOST);
         let radius = away.map(|w| at.distance(self.mesh.point(w))).fold(f64::INFINITY, f64::min);
-        insertions.push(Insertion { kind, at, radius });
+        self.insertions.push(Insertion { kind, at, radius, parent: parent.map(|p| self.mesh.point(p)) });
     }
 
     /// Splits the first of: a piece that is too large, the worst skinny triangle, the largest triangle. `false`: there is none, or the run
@@ -280,7 +283,7 @@ impl<'s> Gcdr<'s> {
         if self.reason != StopReason::Done {
             return false;
         }
-        match self.skinny.pop().or_else(|| self.oversized.pop()) {
+        match self.bad.pop() {
             Some(suspect) => self.split_triangle(suspect),
             None => return false,
         }
@@ -300,7 +303,7 @@ impl<'s> Gcdr<'s> {
     }
 
     pub fn progress(&self) -> Progress {
-        let queued = self.suspects.len() + self.skinny.len() + self.oversized.len();
+        let queued = self.suspects.len() + self.bad.len();
         Progress { phase: "refining", vertices: self.alive, queued }
     }
 
@@ -313,16 +316,26 @@ impl<'s> Gcdr<'s> {
             let at = self.too_near.first().copied().unwrap_or_default();
             return Err(RefineError::too_near(at).scaled(1.0 / self.scale));
         }
-        let (owed, mut places) = self.owed();
+        const PLACES: usize = 16;
+        let (owed, mut places) = self.bad.owed(self.mesh.kernel(), PLACES);
+        let owed = owed + self.too_near.len();
         places.extend(self.too_near.iter().copied());
         places.iter_mut().for_each(|p| *p = geometry::scaled(*p, 1.0 / self.scale));
         let harvest = Harvest { domain: &self.domain, delaunay: self.mesh.kernel(), subcurves: &self.subcurves };
         let mesh = Some(harvest.mesh().scaled(1.0 / self.scale));
+        let down = |p: Point| geometry::scaled(p, 1.0 / self.scale);
+        let unscaled = |i: &Insertion| Insertion {
+            at: down(i.at),
+            radius: i.radius / self.scale,
+            parent: i.parent.map(down),
+            ..*i
+        };
+        let insertions = self.insertions.iter().map(unscaled).collect();
         let kernel = self.mesh.kernel().counters();
         self.counters.add("predicates", kernel.orient + kernel.in_circle);
         self.counters.add("exact_fallbacks", kernel.exact_fallbacks);
         self.counters.add("cavity_triangles", kernel.cavity_triangles);
-        Ok(Refined { mesh, stop: Stop { reason: self.reason, owed, places }, counters: self.counters })
+        Ok(Refined { mesh, stop: Stop { reason: self.reason, owed, places }, counters: self.counters, insertions })
     }
 
     fn is_side(&self, id: PieceId) -> bool {
@@ -330,40 +343,13 @@ impl<'s> Gcdr<'s> {
         let topology = self.mesh.topology();
         topology.side_between(y, x).is_some_and(|s| topology.piece(s) == Some(id))
     }
-
-    /// What still misses a bound, and some of the places.
-    fn owed(&mut self) -> (usize, Vec<Point>) {
-        const PLACES: usize = 16;
-        let (mut owed, mut places) = (self.too_near.len(), Vec::new());
-        while let Some(suspect) = self.skinny.pop().or_else(|| self.oversized.pop()) {
-            if self.is_stale(&suspect) {
-                continue;
-            }
-            owed += 1;
-            if places.len() < PLACES {
-                places.push(self.mesh.point(suspect.1[0]));
-            }
-        }
-        (owed, places)
-    }
 }
 
 /// The constrained Delaunay triangulation of all chords.
 fn triangulated(beginning: &Beginning) -> Result<Constrained, RefineError> {
     let at = |i: usize| beginning.points[i];
-    let mut mesh = Constrained::new(beginning.points.clone()).map_err(|e| match e {
-        Degenerate::Duplicate { first, .. } => RefineError::too_near(at(first)),
-        Degenerate::OutOfRange { index } => RefineError {
-            what: "a coordinate is so small beside the others that exact signs cannot hold it".to_owned(),
-            at: at(index),
-            help: "round it to 0".to_owned(),
-        },
-        Degenerate::TooFew | Degenerate::Collinear => RefineError {
-            what: "nothing to mesh: everything lies on one line".to_owned(),
-            at: beginning.points.first().copied().unwrap_or_default(),
-            help: "draw at least one closed outline".to_owned(),
-        },
-    })?;
+    let mut mesh =
+        Constrained::new(beginning.points.clone()).map_err(|why| RefineError::degenerate(&why, &beginning.points))?;
     for id in beginning.subcurves.ids() {
         let piece = beginning.subcurves.get(id);
         if piece.is_gone() {

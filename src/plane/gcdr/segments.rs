@@ -2,15 +2,27 @@
 
 use super::chords::{Hull, curve_of, shape_of};
 use super::steiner::Encroached;
-use super::{Gcdr, Kind, Origin};
+use super::{Gcdr, Origin};
 use crate::curve::End;
 use crate::geometry::exact::{CircleSide, in_diametral};
 use crate::geometry::{Point, Vec2, scaled};
 use crate::ids::{BallId, PieceId, PointId, TriangleId, VertexId};
+use crate::mesh::InsertionKind;
 use crate::plane::insert::{self, Location};
 use crate::plane::subcurves::{Piece, Standing};
 use crate::plane::triangulation::Side;
 use crate::refine::StopReason;
+
+/// Vertices in the diametral circle of a piece.
+#[derive(Default)]
+struct Encroachers {
+    /// Free ones that see the piece.
+    free: Vec<VertexId>,
+    /// All that are not free, seen or not.
+    others: Vec<VertexId>,
+    /// Whether any of those sees it.
+    type_c: bool,
+}
 
 impl Gcdr<'_> {
     pub(super) fn ends_of(&self, piece: &Piece) -> [Point; 2] {
@@ -26,7 +38,7 @@ impl Gcdr<'_> {
         }
         let [t0, t1] = piece.t;
         if self.field.edge_too_large(curve_of(&piece), shape_of(&self.domain, &piece), t0, t1) {
-            self.split_segment(id, "vertices_size");
+            self.split_segment(id, None, "vertices_size");
         }
     }
 
@@ -39,20 +51,25 @@ impl Gcdr<'_> {
     }
 
     /// Lines 7–14 of Algorithm 2: free vertices in the diametral circle go, and a point of type B or C comes. A spoke takes its whole fan
-    /// with it. `false` where coordinates cannot hold it.
-    pub(super) fn split_segment(&mut self, id: PieceId, why: &'static str) -> bool {
+    /// with it. `latest` is the parent where no vertex crowds the segment. `false` where coordinates cannot hold it.
+    pub(super) fn split_segment(&mut self, id: PieceId, latest: Option<VertexId>, why: &'static str) -> bool {
         let piece = *self.subcurves.get(id);
         if let Standing::Spoke(fan) = piece.standing {
             return self.cut_fan(fan, why);
         }
-        let type_c = self.encroachers(id).into_iter().any(|v| self.origins[v] != Origin::Free);
+        let Encroachers { free, others, type_c } = self.encroachers(id);
         let t = match self.distance_to_sharp_end(&piece) {
             Some((end, radius)) => shape_of(&self.domain, &piece).leaves_ball(end, radius, 0.0, 1.0),
             None => self.choose(&piece, type_c),
         };
-        let Some(parts) = self.split_together(&[(id, vec![t.unwrap_or(f64::NAN)])], why) else { return false };
+        let cuts = [(id, vec![t.unwrap_or(f64::NAN)])];
+        let Some(parts) = self.split_together(&cuts, free, why) else { return false };
         let v = self.subcurves.get(parts[0][0]).ends[1];
-        self.record(v, if type_c { Kind::C } else { Kind::B });
+        if self.options.record {
+            let (kind, parent) =
+                if type_c { (InsertionKind::C, self.nearest_seen(v, others)) } else { (InsertionKind::B, latest) };
+            self.record(v, kind, parent);
+        }
         true
     }
 
@@ -95,20 +112,34 @@ impl Gcdr<'_> {
         (far - near > 0.5 * chord).then(|| (end, roundest_between(near + third, far - third)))
     }
 
-    /// The vertices in the diametral circle of a piece that see it.
-    fn encroachers(&self, id: PieceId) -> Vec<VertexId> {
-        self.side_of(id).map_or(Vec::new(), |side| self.mesh.visible_in_diametral_circle(side))
+    /// Rule 4 of Definition 2.5.
+    fn nearest_seen(&self, v: VertexId, vertices: Vec<VertexId>) -> Option<VertexId> {
+        let away = |w: &VertexId| self.mesh.point(*w).distance_squared(self.mesh.point(v));
+        let seen = vertices.into_iter().filter(|&w| self.mesh.see_each_other(v, w));
+        seen.min_by(|a, b| away(a).total_cmp(&away(b)))
     }
 
-    /// Deletes the free vertices among them.
-    fn clear_diametral_circle(&mut self, id: PieceId) {
-        for v in self.encroachers(id) {
-            if self.origins[v] == Origin::Free {
-                self.mesh.remove(v);
-                self.counters.add("vertices_deleted", 1);
-                self.alive -= 1;
-            }
+    fn encroachers(&self, id: PieceId) -> Encroachers {
+        let mut found = Encroachers::default();
+        for side in self.side_of(id).into_iter().flat_map(|s| [s, self.mesh.topology().twin(s)]) {
+            let (of_side, rest): (Vec<VertexId>, Vec<VertexId>) =
+                self.mesh.in_half_circle(side).into_iter().partition(|&v| self.origins[v] == Origin::Free);
+            found.free.extend(of_side.into_iter().filter(|&v| self.mesh.sees(v, side)));
+            found.type_c = found.type_c
+                || rest.contains(&self.mesh.topology().apex(side))
+                || rest.iter().any(|&v| self.mesh.sees(v, side));
+            found.others.extend(rest);
         }
+        found
+    }
+
+    /// Deletes free vertices, some of which may be given twice.
+    fn delete(&mut self, mut vertices: Vec<VertexId>) {
+        vertices.sort_unstable();
+        vertices.dedup();
+        self.alive -= vertices.len();
+        self.counters.add("vertices_deleted", vertices.len() as u64);
+        vertices.into_iter().for_each(|v| self.mesh.remove(v));
     }
 
     fn side_of(&self, id: PieceId) -> Option<Side> {
@@ -127,7 +158,8 @@ impl Gcdr<'_> {
         let fan = &self.fans[id];
         let (corner, radius) = (VertexId(fan.corner.0), 0.5 * fan.radius);
         let cuts = self.shells(corner, radius, &fan.spokes);
-        let Some(parts) = self.split_together(&cuts, why) else { return false };
+        let free = fan.spokes.iter().flat_map(|&spoke| self.encroachers(spoke).free).collect();
+        let Some(parts) = self.split_together(&cuts, free, why) else { return false };
         self.fans[id].radius = radius;
         self.fans[id].spokes.clear();
         for parts in parts {
@@ -187,9 +219,14 @@ impl Gcdr<'_> {
         bounds.windows(2).map(|t| Hull::of(&self.domain, piece, [t[0], t[1]])).collect()
     }
 
-    /// Splits pieces at ascending parameters, all at once: between two of a fan chords may cross. `None` where coordinates cannot hold it:
-    /// the place is owed; if that shows only half-way, the run is over.
-    fn split_together(&mut self, cuts: &[(PieceId, Vec<f64>)], why: &'static str) -> Option<Vec<Vec<PieceId>>> {
+    /// Splits pieces at ascending parameters, all at once: between two of a fan chords may cross. `free` vertices, those that encroach,
+    /// are deleted first. `None` where coordinates cannot hold it: the place is owed; if that shows only half-way, the run is over.
+    fn split_together(
+        &mut self,
+        cuts: &[(PieceId, Vec<f64>)],
+        free: Vec<VertexId>,
+        why: &'static str,
+    ) -> Option<Vec<Vec<PieceId>>> {
         for (id, ts) in cuts {
             let piece = *self.subcurves.get(*id);
             if !self.has_room(&piece, ts) {
@@ -197,7 +234,7 @@ impl Gcdr<'_> {
                 return None;
             }
         }
-        cuts.iter().for_each(|(id, _)| self.clear_diametral_circle(*id));
+        self.delete(free);
         for (id, _) in cuts {
             let side = self.side_of(*id).expect("a piece is a side");
             self.mesh.release(side);

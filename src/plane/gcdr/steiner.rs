@@ -1,8 +1,9 @@
 //! Who chooses the point inside a selection region.
 
 use super::parameters::radius_edge_of;
+use crate::geometry::boxes::BoxHierarchy;
 use crate::geometry::dice::Dice;
-use crate::geometry::{Point, direction};
+use crate::geometry::{Point, Rect, direction};
 use std::f64::consts::TAU;
 
 /// A skinny triangle, and the disk from which its point is chosen; in the domain's own coordinates.
@@ -16,6 +17,8 @@ pub struct Skinny {
     pub radius: f64,
     /// Radius of the disk around `center`: r(1−δ₂).
     pub reach: f64,
+    /// The longest edge that is asked for there; infinite where none is.
+    pub size: f64,
 }
 
 /// An encroached segment, and the interval from which its point is chosen.
@@ -38,7 +41,7 @@ pub enum Order {
 
 /// F_A, F_B and F_C of Algorithm 2. What it answers is moved to the nearest place in the region, unless it is [free](Self::is_free).
 pub trait SteinerStrategy {
-    /// F_A: a point of the selection disk.
+    /// F_A: a point of the selection disk. Triangles that are only too large are asked for, too, unless the strategy is free.
     fn in_disk(&mut self, triangle: &Skinny) -> Point;
 
     /// F_B and F_C: a share of the way from end to end, within the interval.
@@ -96,7 +99,7 @@ impl SteinerStrategy for OffCenter {
     }
 
     fn order(&self) -> Order {
-        Order::ShortestEdge
+        if self.free { Order::ShortestEdge } else { Order::SmallestAngle }
     }
 
     fn is_free(&self) -> bool {
@@ -147,7 +150,7 @@ impl SteinerStrategy for Optimal {
     }
 
     fn order(&self) -> Order {
-        Order::SmallestCircle
+        if self.off_center.free { Order::SmallestCircle } else { Order::SmallestAngle }
     }
 
     fn is_free(&self) -> bool {
@@ -224,5 +227,42 @@ impl SteinerStrategy for Grid {
         let snap = |x: f64| (x / self.pitch).round() * self.pitch;
         let at = Point::new(snap(triangle.center.x), snap(triangle.center.y));
         if at.distance(triangle.center) <= triangle.reach { at } else { triangle.center }
+    }
+}
+
+/// The given place nearest to the centre, where the region has one; else the centre.
+pub struct Places {
+    places: Vec<Point>,
+    boxes: BoxHierarchy,
+}
+
+impl Places {
+    pub fn new(places: impl IntoIterator<Item = Point>) -> Self {
+        let places: Vec<Point> = places.into_iter().collect();
+        let boxes = BoxHierarchy::new(places.iter().map(|&p| Rect::from_points(p, p)));
+        Self { places, boxes }
+    }
+}
+
+impl SteinerStrategy for Places {
+    fn in_disk(&mut self, triangle: &Skinny) -> Point {
+        let away = |i: usize, _| self.places[i].distance(triangle.center);
+        let nearest = self.boxes.nearest(triangle.center, triangle.reach, away);
+        nearest.map_or(triangle.center, |(i, _)| self.places[i])
+    }
+}
+
+/// On the way from the shortest edge to the centre, where the new edges to its ends have the length that is asked for; the centre where
+/// that is farther, or nothing is asked for.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct BySize;
+
+impl SteinerStrategy for BySize {
+    fn in_disk(&mut self, triangle: &Skinny) -> Point {
+        let [p, q, _] = triangle.corners;
+        let middle = p.midpoint(q);
+        let (half, away) = (0.5 * p.distance(q), triangle.center - middle);
+        let height = (triangle.size * triangle.size - half * half).max(0.0).sqrt();
+        if height < away.hypot() { middle + away * (height / away.hypot()) } else { triangle.center }
     }
 }

@@ -1,9 +1,10 @@
 //! Points of type A: which triangles miss a bound, whom a corner excuses, and what mends the others.
 
 use super::steiner::{Order, Skinny};
-use super::{Gcdr, Kind, Origin, Suspect};
+use super::{Gcdr, Origin, Suspect, suspects};
 use crate::geometry::{Point, scaled};
-use crate::ids::{CurveId, TriangleId, VertexId};
+use crate::ids::{CurveId, PieceId, RegionId, TriangleId, VertexId};
+use crate::mesh::InsertionKind;
 use crate::plane::constrained::Look;
 use crate::plane::insert::{self, Location};
 use crate::plane::lopping::splittri::{circumcircle, sin2_smallest};
@@ -42,8 +43,7 @@ impl Gcdr<'_> {
         }
         let excess = self.field.excess(region, corners);
         if excess > 1.0 {
-            // Badness by octaves of excess: 2^32 is as bad as it gets.
-            self.oversized.push(suspect, libm::log2(excess) / 32.0);
+            self.bad.push_oversized(suspect, excess);
         }
     }
 
@@ -52,16 +52,17 @@ impl Gcdr<'_> {
         // Lengths by octaves below the unit to which the domain is scaled: 2^-40 is as short as it gets.
         let octaves = |length: f64| -libm::log2(length) / 40.0;
         let badness = match self.strategy.order() {
-            Order::SmallestAngle => 1.0 - sin2_smallest(corners) / self.sin2_min,
+            _ if self.doomed(suspect.0).is_some() => 1.0,
+            // By the sine: its square would crowd what is nearly good enough.
+            Order::SmallestAngle => 1.0 - (sin2_smallest(corners) / self.sin2_min).sqrt(),
             Order::ShortestEdge => octaves((0..3).map(|i| edge2(corners, i)).fold(f64::INFINITY, f64::min).sqrt()),
             Order::SmallestCircle => octaves(circumcircle(corners).1),
         };
-        self.skinny.push(suspect, badness);
+        self.bad.push_skinny(suspect, badness);
     }
 
-    pub(super) fn is_stale(&self, &(t, corners): &Suspect) -> bool {
-        let topology = self.mesh.topology();
-        !topology.is_alive(t) || topology.corners(t) != corners
+    fn is_stale(&self, suspect: &Suspect) -> bool {
+        suspects::is_stale(self.mesh.topology(), suspect)
     }
 
     pub(super) fn split_triangle(&mut self, suspect: Suspect) {
@@ -80,17 +81,50 @@ impl Gcdr<'_> {
         }
         if self.is_spent() {
             self.reason = StopReason::VertexBudget;
-            return self.skinny.push(suspect, 1.0);
+            return self.bad.push_skinny(suspect, 1.0);
         }
-        let p = if skinny { self.choose_in_disk(t, center, radius) } else { center };
-        self.kill(suspect, p);
+        let parent = skinny.then(|| self.latest_of_shortest(vertices));
+        if skinny && let Some(piece) = self.doomed(t) {
+            return self.encroach(suspect, piece, parent);
+        }
+        // A disk of no size leaves no choice.
+        let chosen = if self.strategy.is_free() { skinny } else { self.options.regions.delta2 < 1.0 };
+        let p = if chosen { self.choose_in_disk(t, region, center, radius) } else { center };
+        self.kill(suspect, p, parent);
+    }
+
+    /// The segment of a triangle that must be split whatever else is: a vertex that will stay sees it at an angle so wide that the
+    /// triangle on it will be skinny as long as it stands. Split at once, it spares free vertices that would be deleted later. Its point
+    /// is of type C, which needs no rejected point to be proven.
+    fn doomed(&self, t: TriangleId) -> Option<PieceId> {
+        let topology = self.mesh.topology();
+        let widest = libm::cos(2.0 * self.options.angle_min_rad);
+        let is_wide = |s: &Side| {
+            let [u, v] = [topology.origin(*s), topology.target(*s)]
+                .map(|end| self.mesh.point(end) - self.mesh.point(topology.apex(*s)));
+            -u.dot(v) > widest * u.hypot() * v.hypot()
+        };
+        let stays = |s: &Side| self.origins[topology.apex(*s)] != Origin::Free;
+        let widest = [0, 1, 2].map(|i| t.side_of(i)).into_iter().find(|s| stays(s) && is_wide(s))?;
+        topology.piece(widest)
+    }
+
+    /// The vertices of a triangle, the ends of its shortest edge first.
+    fn shortest_edge_first(&self, [a, b, c]: [VertexId; 3]) -> [VertexId; 3] {
+        let length = |e: &[VertexId; 3]| self.mesh.point(e[0]).distance_squared(self.mesh.point(e[1]));
+        let turns = [[a, b, c], [b, c, a], [c, a, b]];
+        turns.into_iter().min_by(|e, f| length(e).total_cmp(&length(f))).expect("three edges")
+    }
+
+    /// Rules 2 and 3 of Definition 2.5. Ids are given in the order of insertion.
+    fn latest_of_shortest(&self, vertices: [VertexId; 3]) -> VertexId {
+        let [a, b, _] = self.shortest_edge_first(vertices);
+        a.max(b)
     }
 
     /// Whether the shortest edge of a triangle lies across a sharp corner, with its ends equally far from it: an angle that the input has.
-    fn is_excused(&self, [a, b, c]: [VertexId; 3]) -> bool {
-        let length = |e: &[VertexId; 3]| self.mesh.point(e[0]).distance_squared(self.mesh.point(e[1]));
-        let turns = [[a, b, c], [b, c, a], [c, a, b]];
-        let shortest = turns.into_iter().min_by(|e, f| length(e).total_cmp(&length(f))).expect("three edges");
+    fn is_excused(&self, vertices: [VertexId; 3]) -> bool {
+        let shortest = self.shortest_edge_first(vertices);
         if shortest[..2].iter().any(|&v| self.origins[v] == Origin::Free) {
             return false;
         }
@@ -107,7 +141,7 @@ impl Gcdr<'_> {
     }
 
     /// F_A, moved into the disk unless the strategy is free.
-    fn choose_in_disk(&mut self, t: TriangleId, center: Point, radius: f64) -> Point {
+    fn choose_in_disk(&mut self, t: TriangleId, region: RegionId, center: Point, radius: f64) -> Point {
         let topology = self.mesh.topology();
         let down = |p: Point| scaled(p, 1.0 / self.scale);
         let corners = self.corners(t);
@@ -124,12 +158,13 @@ impl Gcdr<'_> {
             center: down(center),
             radius: radius / self.scale,
             reach: reach / self.scale,
+            size: self.field.length_in(region, center) / self.scale,
         };
         let p = scaled(self.strategy.in_disk(&skinny), self.scale);
         let away = p.distance(center);
         if self.strategy.is_free() && away.is_finite() || away <= reach {
             p
-        } else if reach > 0.0 && away.is_finite() {
+        } else if away.is_finite() {
             center + (p - center) * (reach / away)
         } else {
             center
@@ -137,16 +172,16 @@ impl Gcdr<'_> {
     }
 
     /// Inserts a point that removes a triangle, or splits the nearest segment that hides it from there.
-    fn kill(&mut self, suspect: Suspect, p: Point) {
+    fn kill(&mut self, suspect: Suspect, p: Point, parent: Option<VertexId>) {
         let (t, vertices) = suspect;
         let place = self.mesh.point(vertices[0]);
         if !insert::in_range(p) {
             return self.too_near.push(place);
         }
         let location = match self.mesh.look_from(t, p) {
-            Some(Look::Blocked(side)) => return self.encroach(suspect, side),
+            Some(Look::Blocked(side)) => return self.reject(suspect, side, parent),
             Some(Look::Seen(Location::Side(side))) if self.mesh.topology().piece(side).is_some() => {
-                return self.encroach(suspect, side);
+                return self.reject(suspect, side, parent);
             }
             Some(Look::Seen(location)) => location,
             None => return self.too_near.push(place),
@@ -160,17 +195,23 @@ impl Gcdr<'_> {
         self.origins.push(Origin::Free);
         self.alive += 1;
         self.counters.add("vertices_free", 1);
-        self.record(v, Kind::A);
+        if self.options.record {
+            self.record(v, InsertionKind::A, parent);
+        }
         self.settle(false);
     }
 
     /// The chosen point is rejected: Definition 2.1.
-    fn encroach(&mut self, suspect: Suspect, side: Side) {
+    fn reject(&mut self, suspect: Suspect, side: Side, parent: Option<VertexId>) {
         let Some(piece) = self.mesh.topology().piece(side) else { return };
         self.counters.add("rejected", 1);
-        let split = self.split_segment(piece, "vertices_segment");
-        if split && !self.is_stale(&suspect) {
-            self.push_skinny(suspect);
+        self.encroach(suspect, piece, parent);
+    }
+
+    /// Splits a segment that a triangle encroaches, and comes back to the triangle if it still stands.
+    fn encroach(&mut self, suspect: Suspect, piece: PieceId, parent: Option<VertexId>) {
+        if self.split_segment(piece, parent, "vertices_segment") && !self.is_stale(&suspect) {
+            self.judge(suspect.0);
         }
     }
 }

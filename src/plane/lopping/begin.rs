@@ -79,27 +79,16 @@ impl<'a> Beginning<'a> {
     /// D of what there is. Where all of it lies on one line (a lens, a D), bent pieces are split first.
     pub(super) fn triangulate(&mut self, midpoint: Midpoint) -> Result<Delaunay, RefineError> {
         match Delaunay::new(self.points.clone()) {
-            Ok(delaunay) => return Ok(delaunay),
-            Err(Degenerate::Duplicate { first, second }) => return Err(self.coincident(first, second)),
             Err(Degenerate::TooFew | Degenerate::Collinear) => self.split_bent(midpoint),
-            Err(Degenerate::OutOfRange { index }) => return Err(self.out_of_range(index)),
+            done => return done.map_err(|why| self.refuse(&why)),
         }
-        Delaunay::new(self.points.clone()).map_err(|e| match e {
-            Degenerate::Duplicate { first, second } => self.coincident(first, second),
-            Degenerate::OutOfRange { index } => self.out_of_range(index),
-            Degenerate::TooFew | Degenerate::Collinear => RefineError {
-                what: "nothing to mesh: everything lies on one line".to_owned(),
-                at: self.points.first().copied().unwrap_or_default(),
-                help: "draw at least one closed outline".to_owned(),
-            },
-        })
+        Delaunay::new(self.points.clone()).map_err(|why| self.refuse(&why))
     }
 
-    fn out_of_range(&self, index: usize) -> RefineError {
-        RefineError {
-            what: "a coordinate is so small beside the others that exact signs cannot hold it".to_owned(),
-            at: self.points[index],
-            help: "round it to 0".to_owned(),
+    fn refuse(&self, why: &Degenerate) -> RefineError {
+        match *why {
+            Degenerate::Duplicate { first, second } => self.coincident(first, second),
+            _ => RefineError::degenerate(why, &self.points),
         }
     }
 

@@ -40,13 +40,15 @@ use super::balls::Balls;
 use super::carve::Carver;
 use super::harvest::Harvest;
 use super::insert::{Cavity, Delaunay};
+pub use super::refined::{RefineError, Refined};
 use super::subcurves::{Midpoint, Subcurves};
+use super::suspects::{self, Suspect, Suspects};
 use crate::domain::Domain;
 use crate::geometry::{self, Point};
 use crate::ids::{BallId, CurveId, IdVec, PieceId, PointId, TriangleId, VertexId};
 use crate::mesh::verify::{Promise, guaranteed_angle};
 use crate::mesh::{Ball, Mesh, RIM_ROUNDING};
-use crate::refine::{Counters, Stop, StopReason, WorstFirst};
+use crate::refine::{Counters, Stop, StopReason};
 use crate::size::{SizeField, Sizing};
 use crate::watch::{Progress, Watch};
 use begin::Beginning;
@@ -110,24 +112,6 @@ pub enum Shrinking {
     Literal,
 }
 
-/// A refined mesh, and how it ended.
-#[derive(Clone, Debug)]
-pub struct Refined {
-    /// `None` where the budget ended before the mesh was valid.
-    pub mesh: Option<Mesh>,
-    pub stop: Stop,
-    pub counters: Counters,
-}
-
-/// Why a domain cannot be meshed.
-#[derive(Clone, PartialEq, Debug, thiserror::Error)]
-#[error("{what} at ({}, {})", at.x, at.y)]
-pub struct RefineError {
-    pub what: String,
-    pub at: Point,
-    pub help: String,
-}
-
 /// Meshes a domain whose curves turn at most π/3 each, as long as `watch` says to go on; what a valid mesh needs is still done then.
 pub fn refine(domain: &Domain, options: &Options, watch: &mut Watch) -> Result<Refined, RefineError> {
     /// Steps between two questions: of microseconds on lines, of milliseconds on curves of high degree.
@@ -153,9 +137,6 @@ enum Origin {
     Free,
 }
 
-/// A triangle as it was when it was queued: a triangle's id may be another's by now.
-type Suspect = (TriangleId, [VertexId; 3]);
-
 /// The engine, held at a step.
 pub struct Lopping {
     domain: Domain,
@@ -174,8 +155,7 @@ pub struct Lopping {
     /// Balls whose arcs are due.
     arcs_due: VecDeque<BallId>,
     /// Triangles with an angle below κ, and triangles too large.
-    skinny: WorstFirst<Suspect>,
-    oversized: WorstFirst<Suspect>,
+    bad: Suspects,
     /// Triangles made since regions were last given.
     fresh: Vec<TriangleId>,
     carved: bool,
@@ -218,8 +198,7 @@ impl Lopping {
             suspects: subcurves.ids().collect(),
             intruded: VecDeque::new(),
             arcs_due: if options.corner_arcs.is_some() { balls.ids().collect() } else { VecDeque::new() },
-            skinny: WorstFirst::default(),
-            oversized: WorstFirst::default(),
+            bad: Suspects::default(),
             fresh: Vec::new(),
             carved: false,
             carver: Carver::default(),
@@ -278,7 +257,7 @@ impl Lopping {
         if let Some(ball) = self.arcs_due.pop_front() {
             return Rule::PlaceArcs(ball);
         }
-        match self.skinny.pop().or_else(|| self.oversized.pop()) {
+        match self.bad.pop() {
             Some(suspect) => Rule::Split(suspect),
             None => Rule::Rest,
         }
@@ -303,7 +282,7 @@ impl Lopping {
 
     pub fn progress(&self) -> Progress {
         let phase = if self.carved { "refining" } else { "conforming" };
-        let queued = self.suspects.len() + self.skinny.len() + self.oversized.len();
+        let queued = self.suspects.len() + self.bad.len();
         Progress { phase, vertices: self.origins.len(), queued }
     }
 
@@ -321,7 +300,7 @@ impl Lopping {
         };
         let mesh = self.is_conforming().then(|| self.mesh().scaled(1.0 / self.scale));
         self.count_kernel();
-        Ok(Refined { mesh, stop: Stop { reason, owed, places }, counters: self.counters })
+        Ok(Refined { mesh, stop: Stop { reason, owed, places }, counters: self.counters, insertions: Vec::new() })
     }
 
     fn mesh(&self) -> Mesh {
@@ -342,15 +321,9 @@ impl Lopping {
         pieces.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
         let mut owed = self.too_near.len() + pieces.len();
         let mut places: Vec<Point> = pieces.into_iter().map(|(_, at)| at).take(PLACES).collect();
-        while let Some(suspect) = self.skinny.pop().or_else(|| self.oversized.pop()) {
-            if self.is_stale(&suspect) {
-                continue;
-            }
-            owed += 1;
-            if places.len() < PLACES {
-                places.push(self.delaunay.point(suspect.1[0]));
-            }
-        }
+        let (triangles, more) = self.bad.owed(&self.delaunay, PLACES - places.len());
+        owed += triangles;
+        places.extend(more);
         (owed, places)
     }
 
@@ -389,19 +362,4 @@ pub fn arc_turning(kappa_rad: f64, lambda_rad: f64) -> f64 {
         }
     }
     if 2.0 * covered >= FINEST { 2.0 * covered } else { FRAC_PI_3 }
-}
-
-impl RefineError {
-    pub(super) fn too_near(at: Point) -> Self {
-        Self {
-            what: "features lie nearer to each other than the coordinates can tell apart".to_owned(),
-            at,
-            help: "move the drawing nearer to the origin, or weld the features with a larger --tolerance".to_owned(),
-        }
-    }
-
-    pub(super) fn scaled(mut self, factor: f64) -> Self {
-        self.at = geometry::scaled(self.at, factor);
-        self
-    }
 }

@@ -40,7 +40,7 @@ impl Lopping {
         ball.why = BallReason::Encroached;
         let excused = std::mem::take(&mut ball.excused);
         for suspect in excused {
-            self.skinny.push(suspect, 1.0);
+            self.bad.push_skinny(suspect, 1.0);
         }
         if self.options.corner_arcs.is_some() {
             self.arcs_due.push_back(id);

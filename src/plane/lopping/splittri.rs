@@ -1,6 +1,6 @@
 //! Rule 4, splittri: which triangles miss a bound, and the circumcenters that mend them.
 
-use super::{Lopping, Origin, Suspect};
+use super::{Lopping, Origin, Suspect, suspects};
 use crate::geometry::{Point, Vec2};
 use crate::ids::{PieceId, TriangleId};
 use crate::plane::carve;
@@ -32,18 +32,16 @@ impl Lopping {
         let suspect = (t, self.delaunay.topology().corners(t));
         let sin2 = sin2_smallest(corners);
         if sin2 < self.sin2_min {
-            return self.skinny.push(suspect, 1.0 - sin2 / self.sin2_min);
+            return self.bad.push_skinny(suspect, 1.0 - sin2 / self.sin2_min);
         }
         let excess = self.field.excess(region, corners);
         if excess > 1.0 {
-            // Badness by octaves of excess: 2^32 is as bad as it gets.
-            self.oversized.push(suspect, libm::log2(excess) / 32.0);
+            self.bad.push_oversized(suspect, excess);
         }
     }
 
-    pub(super) fn is_stale(&self, &(t, corners): &Suspect) -> bool {
-        let topology = self.delaunay.topology();
-        !topology.is_alive(t) || topology.corners(t) != corners
+    pub(super) fn is_stale(&self, suspect: &Suspect) -> bool {
+        suspects::is_stale(self.delaunay.topology(), suspect)
     }
 }
 
@@ -69,7 +67,7 @@ impl Lopping {
         let corners = self.corners(t);
         if self.origins.len() >= self.options.max_vertices {
             self.reason = StopReason::VertexBudget;
-            return self.skinny.push(suspect, 1.0);
+            return self.bad.push_skinny(suspect, 1.0);
         }
         if self.options.corner_arcs.is_some() && self.balls.holding_all(corners, self.resolution).is_some() {
             return;
@@ -116,7 +114,7 @@ impl Lopping {
             self.counters.add("rejected_circumcenters", 1);
             self.split_piece(piece, None, "vertices_rejected_circumcenter");
             if !self.is_stale(&suspect) {
-                self.skinny.push(suspect, 0.0);
+                self.bad.push_skinny(suspect, 0.0);
             }
             return;
         }

@@ -2,9 +2,9 @@
 
 use crate::run;
 use squinch::domain::{ArrangeOptions, Domain};
-use squinch::geometry::Point;
+use squinch::mesh::verify::{Densities, DensityPromise, densities};
 use squinch::plane::gcdr::steiner::{Extreme, Random};
-use squinch::plane::gcdr::{Gcdr, Insertion, Kind, Options, Regions, Start, SteinerStrategy};
+use squinch::plane::gcdr::{self, Options, Regions, SteinerStrategy};
 use squinch::size::Sizing;
 use std::f64::consts::{FRAC_PI_2, SQRT_2};
 
@@ -25,7 +25,6 @@ struct Observed {
 
 pub fn print(path: &str) -> Result<(), String> {
     let domain = run::read(path)?.arrange(&ArrangeOptions::default()).map_err(|e| e.to_string())?;
-    let features = Features::of(&domain);
     println!(
         "| row | δ₂ δ₁ μ | printed D_A D_B D_C | least solution | experiment 1: A B C | triangles (paper) | experiment 2: A B C |"
     );
@@ -38,10 +37,10 @@ pub fn print(path: &str) -> Result<(), String> {
         let printed = regions.printed_densities(SQRT_2, FRAC_PI_2);
         let least = regions.least_densities(SQRT_2, FRAC_PI_2);
         let least = least.map_or("none".into(), |d| format!("{:.2} {:.2} {:.2}", d.a, d.b, d.c));
-        let first = observe(&domain, &features, regions, &mut Extreme)?;
+        let first = observe(&domain, regions, &mut Extreme)?;
         let mut worst = [0.0f64; 3];
         for seed in 0..REPEATS {
-            let observed = observe(&domain, &features, regions, &mut Random::new(seed))?;
+            let observed = observe(&domain, regions, &mut Random::new(seed))?;
             worst.iter_mut().zip(observed.densities).for_each(|(w, d)| *w = w.max(d));
         }
         let bounds = [printed.a, printed.b, printed.c];
@@ -69,54 +68,15 @@ pub fn print(path: &str) -> Result<(), String> {
     Ok(())
 }
 
-fn observe(
-    domain: &Domain,
-    features: &Features,
-    regions: Regions,
-    strategy: &mut dyn SteinerStrategy,
-) -> Result<Observed, String> {
+fn observe(domain: &Domain, regions: Regions, strategy: &mut dyn SteinerStrategy) -> Result<Observed, String> {
     let angle_min_rad = (0.5 / SQRT_2).asin();
-    let options = Options { angle_min_rad, regions, sizing: Sizing::default(), max_vertices: 100_000 };
-    let Start::Ready(gcdr) = Gcdr::start(domain, &options, strategy, &mut |_| true).map_err(|e| e.to_string())? else {
-        return Err("the beginning did not end".into());
-    };
-    let mut gcdr = gcdr.recording();
-    while gcdr.step() {}
-    let mut densities = [0.0f64; 3];
-    for Insertion { kind, at, radius } in gcdr.insertions() {
-        let place = match kind {
-            Kind::A => 0,
-            Kind::B => 1,
-            Kind::C => 2,
-        };
-        densities[place] = densities[place].max(features.lfs(at) / radius);
-    }
-    let mesh = gcdr.finish().map_err(|e| e.to_string())?.mesh.ok_or("no mesh")?;
-    Ok(Observed { densities, triangles: mesh.triangles.len() })
-}
-
-/// Segments and points of a PSLG, each with the points it contains.
-struct Features(Vec<([Point; 2], [u32; 2])>);
-
-impl Features {
-    fn of(domain: &Domain) -> Self {
-        let segments = domain.curves().iter().map(|c| (c.ends.map(|p| domain.points()[p]), c.ends.map(|p| p.0)));
-        let points = domain.points().enumerate().map(|(id, &p)| ([p, p], [id.0, id.0]));
-        Self(segments.chain(points).collect())
-    }
-
-    /// lfs(p): the radius of the smallest disk around p that meets two features without a common point.
-    fn lfs(&self, p: Point) -> f64 {
-        let mut near: Vec<(f64, [u32; 2])> = self.0.iter().map(|&(ends, ids)| (distance(p, ends), ids)).collect();
-        near.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let apart = |a: [u32; 2], b: [u32; 2]| !a.iter().any(|id| b.contains(id));
-        let second = (1..near.len()).find(|&j| near[..j].iter().any(|(_, ids)| apart(*ids, near[j].1)));
-        second.map_or(f64::INFINITY, |j| near[j].0)
-    }
-}
-
-fn distance(p: Point, [a, b]: [Point; 2]) -> f64 {
-    let (ab, ap) = (b - a, p - a);
-    let share = if ab.hypot2() > 0.0 { (ap.dot(ab) / ab.hypot2()).clamp(0.0, 1.0) } else { 0.0 };
-    (ap - share * ab).hypot()
+    let options = Options { angle_min_rad, regions, sizing: Sizing::default(), max_vertices: 100_000, record: true };
+    let refined = gcdr::refine(domain, &options, strategy, None, &mut |_| true).map_err(|e| e.to_string())?;
+    let mesh = refined.mesh.ok_or("no mesh")?;
+    let none = Densities { a: f64::MAX, b: f64::MAX, c: f64::MAX };
+    let checks = densities(domain, &mesh, &refined.insertions, Some(DensityPromise { bounds: none, proven: false }));
+    Ok(Observed {
+        densities: checks.map(|check| check.worst.map_or(0.0, |worst| worst.value)),
+        triangles: mesh.triangles.len(),
+    })
 }

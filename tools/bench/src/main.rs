@@ -8,6 +8,7 @@ mod million;
 mod pslgs;
 mod run;
 mod strategies;
+mod thirty;
 mod wild;
 
 fn main() {
@@ -18,12 +19,16 @@ fn main() {
         Some("corners") if args.len() == 2 => corners::print(&args[1]),
         Some("million") => million::print(),
         Some("densities") if args.len() == 2 => told(densities::print(&args[1])),
-        Some("pslgs") => pslgs::print(args.get(1).and_then(|n| n.parse().ok()).unwrap_or(1000)),
+        Some("pslgs") => {
+            let number = |i: usize, default| args.get(i).and_then(|n| n.parse().ok()).unwrap_or(default);
+            pslgs::print(number(1, 1000), number(2, 0));
+        }
         Some("strategies") if args.len() >= 2 => args[1..].iter().for_each(|path| told(strategies::print(path))),
+        Some("thirty") if args.len() >= 2 => told(thirty::print(&args[1..])),
         Some("wild") => wild::print(args.get(1).is_some_and(|word| word == "large")),
         _ => {
             eprintln!(
-                "usage: squinch-bench fig4 | complexes [N] | corners DIR | million | densities PSLG | pslgs [N] | strategies PSLG… | wild [large]"
+                "usage: squinch-bench fig4 | complexes [N] | corners DIR | million | densities PSLG | pslgs [N] [FROM] | strategies PSLG… | thirty DIR… | wild [large]"
             );
             std::process::exit(2);
         }

@@ -14,14 +14,16 @@ use squinch::size::Sizing;
 /// A bound for every strategy in turn: proven, at the brink, and beyond what is proven.
 const TURNS: [(f64, &str); 4] = [(20.7, "center"), (20.7, "random"), (20.7, "extreme"), (30.0, "optimal-free")];
 
-pub fn print(n: u64) {
+/// `n` seeds from one on.
+pub fn print(n: u64, from: u64) {
     println!("| angles | PSLGs | ended and kept | otherwise | triangles |");
     println!("|---|---|---|---|---|");
     for (what, least_deg) in [("60° and more", 60.0), ("any", 0.0)] {
         let (mut kept, mut triangles, mut otherwise) = (0, 0, Vec::new());
-        for seed in 0..n {
+        for seed in from..from + n {
             let (degrees, strategy) = TURNS[(seed % TURNS.len() as u64) as usize];
-            match refined(&random(seed, least_deg), degrees, strategy, seed) {
+            let run = || refined(&random(seed, least_deg), degrees, strategy, seed);
+            match std::panic::catch_unwind(run).unwrap_or_else(|_| Err("a panic".into())) {
                 Ok(count) => {
                     kept += 1;
                     triangles += count;
@@ -47,7 +49,7 @@ fn refined(drawing: &Drawing, degrees: f64, strategy: &str, seed: u64) -> Result
         "extreme" => Box::new(Extreme),
         _ => Box::new(Optimal::new(angle_min_rad, true)),
     };
-    let options = Options { angle_min_rad, regions, sizing: Sizing::default(), max_vertices: 200_000 };
+    let options = Options { angle_min_rad, regions, sizing: Sizing::default(), max_vertices: 200_000, record: false };
     let refined = gcdr::refine(&domain, &options, &mut *strategy, None, &mut |_| true).map_err(|e| e.to_string())?;
     let mesh = refined.mesh.ok_or("no mesh")?;
     if refined.stop.reason != StopReason::Done || refined.stop.owed > 0 {

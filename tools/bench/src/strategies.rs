@@ -31,7 +31,8 @@ pub fn print(path: &str) -> Result<(), String> {
             };
             let regions = Regions::widest_disks(radius_edge_of(angle_min_rad));
             let regions = if free || name == "center" { Regions::CENTERS } else { regions };
-            let options = Options { angle_min_rad, regions, sizing: Sizing::default(), max_vertices: 200_000 };
+            let options =
+                Options { angle_min_rad, regions, sizing: Sizing::default(), max_vertices: 200_000, record: false };
             let start = Instant::now();
             let refined =
                 gcdr::refine(&domain, &options, &mut *strategy, None, &mut |_| true).map_err(|e| e.to_string())?;

@@ -1,0 +1,78 @@
+//! The densities that a refinement recorded, held against their bounds.
+
+use super::tally::Tally;
+use super::{Check, Status};
+use crate::domain::Domain;
+use crate::geometry::Point;
+use crate::ids::{Id, VertexId};
+use crate::mesh::{Insertion, InsertionKind, Mesh};
+use std::collections::BTreeMap;
+
+/// Bounds on D(p) = lfs(p)/R(p) by the type of p; infinite where there is none.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Densities {
+    pub a: f64,
+    pub b: f64,
+    pub c: f64,
+}
+
+/// What densities are held to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DensityPromise {
+    pub bounds: Densities,
+    /// Whether theory stands behind the bounds.
+    pub proven: bool,
+}
+
+/// *density_a*, *density_b*, *density_c*: lfs is measured anew on the domain; the recorded R(p) is not believed to be larger than the edges that
+/// the vertex has in the mesh with older ones. Worst: the largest density. Not asked where there is no finite bound.
+pub fn densities(
+    domain: &Domain,
+    mesh: &Mesh,
+    insertions: &[Insertion],
+    promise: Option<DensityPromise>,
+) -> [Check; 3] {
+    let features = domain.features();
+    let nearest = nearest_older(mesh, insertions);
+    [InsertionKind::A, InsertionKind::B, InsertionKind::C].map(|kind| {
+        let (name, bound) = match (kind, promise.map(|p| p.bounds)) {
+            (InsertionKind::A, bounds) => ("density_a", bounds.map(|b| b.a)),
+            (InsertionKind::B, bounds) => ("density_b", bounds.map(|b| b.b)),
+            (InsertionKind::C, bounds) => ("density_c", bounds.map(|b| b.c)),
+        };
+        let Some((bound, promise)) = bound.filter(|b| b.is_finite()).zip(promise) else {
+            return Check::not_asked(name);
+        };
+        let mut tally = Tally::highest(name);
+        for (insertion, nearest) in insertions.iter().zip(&nearest).filter(|(i, _)| i.kind == kind) {
+            tally.count();
+            let at = insertion.at;
+            let density = features.lfs(at) / insertion.radius.min(*nearest);
+            tally.measure(density, at);
+            // Lengths are rounded.
+            if density > bound * (1.0 + 1e-9) {
+                tally.flaw(|| format!("the vertex at ({}, {}) has a density of {density}", at.x, at.y));
+            }
+        }
+        tally.finish(if promise.proven { Status::Proven } else { Status::Reached })
+    })
+}
+
+/// For each inserted vertex the length of the shortest edge to an older one, infinite where it has none.
+fn nearest_older(mesh: &Mesh, insertions: &[Insertion]) -> Vec<f64> {
+    let bits = |p: Point| [p.x.to_bits(), p.y.to_bits()];
+    // Of two at one place the later one stands: the first was deleted.
+    let ages: BTreeMap<[u64; 2], usize> = insertions.iter().enumerate().map(|(age, i)| (bits(i.at), age)).collect();
+    let age_of = |v: VertexId| ages.get(&bits(mesh.nodes[v])).copied();
+    let ages: Vec<Option<usize>> = mesh.nodes.ids().map(age_of).collect();
+    let mut nearest = vec![f64::INFINITY; insertions.len()];
+    for &[a, b, c] in mesh.triangles.iter() {
+        for [v, w] in [[a, b], [b, c], [c, a]] {
+            // What was not inserted was there from the first.
+            if let Some(age) = ages[v.index()].max(ages[w.index()]) {
+                nearest[age] = nearest[age].min(mesh.nodes[v].distance(mesh.nodes[w]));
+            }
+        }
+    }
+    nearest
+}

@@ -1,0 +1,58 @@
+//! What comes of a refinement, by either engine, and why there may be nothing to refine.
+
+use super::insert::Degenerate;
+use crate::geometry::{self, Point};
+use crate::mesh::{Insertion, Mesh};
+use crate::refine::{Counters, Stop};
+
+/// A refined mesh, and how it ended.
+#[derive(Clone, Debug)]
+pub struct Refined {
+    /// `None` where the budget ended before the mesh was valid.
+    pub mesh: Option<Mesh>,
+    pub stop: Stop,
+    pub counters: Counters,
+    /// What was inserted, in order, by an engine that was asked to record it.
+    pub insertions: Vec<Insertion>,
+}
+
+/// Why a domain cannot be meshed.
+#[derive(Clone, PartialEq, Debug, thiserror::Error)]
+#[error("{what} at ({}, {})", at.x, at.y)]
+pub struct RefineError {
+    pub what: String,
+    pub at: Point,
+    pub help: String,
+}
+
+impl RefineError {
+    pub(super) fn too_near(at: Point) -> Self {
+        Self {
+            what: "features lie nearer to each other than the coordinates can tell apart".to_owned(),
+            at,
+            help: "move the drawing nearer to the origin, or weld the features with a larger --tolerance".to_owned(),
+        }
+    }
+
+    pub(super) fn scaled(mut self, factor: f64) -> Self {
+        self.at = geometry::scaled(self.at, factor);
+        self
+    }
+
+    /// Why there is no triangulation of some points.
+    pub(super) fn degenerate(why: &Degenerate, points: &[Point]) -> Self {
+        match *why {
+            Degenerate::Duplicate { first, .. } => Self::too_near(points[first]),
+            Degenerate::OutOfRange { index } => Self {
+                what: "a coordinate is so small beside the others that exact signs cannot hold it".to_owned(),
+                at: points[index],
+                help: "round it to 0".to_owned(),
+            },
+            Degenerate::TooFew | Degenerate::Collinear => Self {
+                what: "nothing to mesh: everything lies on one line".to_owned(),
+                at: points.first().copied().unwrap_or_default(),
+                help: "draw at least one closed outline".to_owned(),
+            },
+        }
+    }
+}
