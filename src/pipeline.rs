@@ -384,7 +384,7 @@ fn scaled(mut drawing: Drawing, factor: f64) -> Drawing {
     drawing
 }
 
-/// Drawing → domain, as long as `watch` says to go on, within the request's tolerance or the one that [`Healing`] takes.
+/// Drawing → domain, as long as `watch` says to go on, within the request's tolerance or the one that `Healing` takes.
 pub fn arrange(drawing: &Drawing, request: &Request, watch: &mut Watch) -> Result<Domain, FailureReport> {
     Healing::new(drawing, request).arrange(watch)
 }

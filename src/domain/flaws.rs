@@ -1,11 +1,11 @@
 //! The promises of a domain, asked one by one: an independent check that shares no step with the arranging.
 
-use super::locate::{Axis, Hit, Locator, gap_between, left_of};
+use super::locate::{Axis, Hit, Locator, TANGENTS_TELL, gap_after, left_of};
 use super::{Domain, Incident};
 use crate::curve::{Curve, End, meetings, self_meetings};
 use crate::geometry::boxes::{BoxHierarchy, Labels};
 use crate::geometry::exact::orient;
-use crate::geometry::{Rect, magnitude};
+use crate::geometry::{Rect, Vec2, magnitude};
 use crate::ids::{CurveId, Id, IdVec, PointId, RegionId};
 use std::f64::consts::TAU;
 
@@ -100,12 +100,10 @@ impl Domain {
     }
 
     fn goes_round_once(&self, star: &[Incident]) -> bool {
-        let direction = |i: Incident| self.curves[i.curve].curve.direction_at(i.end);
-        let following = star.iter().cycle().skip(1);
-        let gaps = star.iter().zip(following).map(|(&a, &b)| gap_between(direction(a), direction(b), star.len()));
-        let total: f64 = gaps.sum();
-        // All tangents at zero angle make no full turn; near-zero angles may be off by what `gap_between` rounds to none.
-        let slack = 1e-5 * star.len() as f64;
+        let directions: Vec<Vec2> = star.iter().map(|i| self.curves[i.curve].curve.direction_at(i.end)).collect();
+        let total: f64 = (0..star.len()).map(|k| gap_after(&directions, k)).sum();
+        // All tangents at zero angle make no full turn; near-zero angles may be off by what `gap_after` rounds to none.
+        let slack = 2.0 * TANGENTS_TELL * star.len() as f64;
         (total - TAU).abs() < slack || total < slack
     }
 

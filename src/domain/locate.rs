@@ -169,11 +169,11 @@ fn side_of(curve: &Curve, t: f64, foot: Point, p: Point) -> Side {
 /// The side of a curve that borders the sector which lies in direction `towards` from a point of P.
 fn sector(domain: &Domain, at: PointId, towards: Vec2) -> (CurveId, Side) {
     let star = domain.star(at);
-    let direction = |i: Incident| domain.curves[i.curve].curve.direction_at(i.end);
+    let directions: Vec<Vec2> = star.iter().map(|i| domain.curves[i.curve].curve.direction_at(i.end)).collect();
     let mut best: (f64, Incident) = (f64::NEG_INFINITY, star[0]);
     for (k, &from) in star.iter().enumerate() {
-        let gap = gap_between(direction(from), direction(star[(k + 1) % star.len()]), star.len());
-        let off = ccw(direction(from), towards);
+        let gap = gap_after(&directions, k);
+        let off = ccw(directions[k], towards);
         let holds = if off < gap { gap } else { gap - TAU };
         if holds > best.0 {
             best = (holds, from);
@@ -190,14 +190,24 @@ pub(super) fn left_of(incident: Incident) -> Side {
     }
 }
 
-/// The angle of the sector from one curve of a star to the next, in [0, 2π].
-pub(super) fn gap_between(from: Vec2, to: Vec2, star: usize) -> f64 {
+/// Tangents that differ by less (rad) are not trusted to tell the order of a star, which is that of the curves themselves.
+pub(super) const TANGENTS_TELL: f64 = 1e-3;
+
+/// The angle of the sector between a curve of a star and the next, in [0, 2π], by the directions in which all its curves leave.
+///
+/// Curves with nearly one tangent may leave against their order, and the angle then comes out just below a full turn: it is 0, as long as
+/// another curve leaves elsewhere. Where none does, either answer closes the circle if the tangents are one.
+pub(super) fn gap_after(directions: &[Vec2], k: usize) -> f64 {
+    let n = directions.len();
+    let (from, to) = (directions[k], directions[(k + 1) % n]);
     let gap = ccw(from, to);
-    match star {
+    // Each of those between two that are tied may be so to its neighbours only.
+    let tied = TANGENTS_TELL * n.min(16) as f64;
+    let elsewhere = |&other: &Vec2| turn_from(from, other).abs() > tied && turn_from(to, other).abs() > tied;
+    match n {
         1 => TAU,
-        // Curves with a common tangent: the rounded angle may come out just below a full turn. No other star has such a sector,
-        // but one of two curves that leave at zero angle, where either answer closes the circle.
         _ if gap > TAU - 1e-6 => 0.0,
+        _ if gap > TAU - tied && directions.iter().any(elsewhere) => 0.0,
         _ => gap,
     }
 }
@@ -206,4 +216,27 @@ pub(super) fn gap_between(from: Vec2, to: Vec2, star: usize) -> f64 {
 fn ccw(u: Vec2, v: Vec2) -> f64 {
     let turn = turn_from(u, v);
     if turn < 0.0 { (turn + TAU).min(TAU - f64::EPSILON * PI) } else { turn }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sectors_of_a_star_close_the_circle_whatever_nearly_equal_tangents_say() {
+        let towards = |angle: f64| Vec2::new(libm::cos(angle), libm::sin(angle));
+        let gaps = |angles: &[f64]| -> Vec<f64> {
+            let directions: Vec<Vec2> = angles.iter().map(|&angle| towards(angle)).collect();
+            (0..angles.len()).map(|k| gap_after(&directions, k)).collect()
+        };
+        // The second curve lies left of the first, though it leaves a little to the right of it.
+        let reversed = gaps(&[0.0, -1e-4, 3.0]);
+        assert_eq!(reversed[0], 0.0);
+        assert!((reversed.iter().sum::<f64>() - TAU).abs() < 1e-3);
+        // Sharp corners with nothing else around keep their sectors.
+        for sharp in [&[0.0, 1e-4][..], &[0.0, 1e-4, 2e-4]] {
+            assert!((gaps(sharp).iter().sum::<f64>() - TAU).abs() < 1e-9);
+        }
+        assert_eq!(gaps(&[1.0]), [TAU]);
+    }
 }

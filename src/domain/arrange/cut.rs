@@ -604,9 +604,12 @@ impl Network<'_> {
         }
         let [p, q] = ids.map(|id| &self.pieces[id].curve);
         let ends = t.map(|t| p.point(t));
+        if ends[0].distance(ends[1]) <= SLOW * self.tolerances.weld {
+            return false;
+        }
         let within = |t: f64| q.nearest(p.point(t), u[0].min(u[1]), u[0].max(u[1])).1;
         let widest = t.map(within).into_iter().fold(0.0, f64::max);
-        ends[0].distance(ends[1]) > SLOW * self.tolerances.weld && within(0.5 * (t[0] + t[1])) <= BENT * widest
+        within(0.5 * (t[0] + t[1])) <= BENT * widest
     }
 
     /// Further meetings of two pieces with a common end. Within the tolerance of it all is one contact, but the curves may cross there
@@ -669,7 +672,10 @@ impl Network<'_> {
         let [p, q] = ids.map(|id| &self.pieces[id]);
         let within = |t: f64, end: usize, curve: &Curve, other: &Curve| {
             let end = end as f64;
-            [0.25, 0.5, 0.75].iter().all(|&f| other.nearest(curve.point(end + f * (t - end)), 0.0, 1.0).1 <= slack)
+            t == end
+                || [0.25, 0.5, 0.75]
+                    .iter()
+                    .all(|&f| other.nearest(curve.point(end + f * (t - end)), 0.0, 1.0).1 <= slack)
         };
         let shared = (0..2).flat_map(|i| (0..2).map(move |j| (i, j))).filter(|&(i, j)| p.ends[i] == q.ends[j]);
         shared.into_iter().any(|(i, j)| within(ts[0], i, &p.curve, &q.curve) && within(ts[1], j, &q.curve, &p.curve))

@@ -2,6 +2,7 @@
 
 use super::{ArrangeError, Unarranged};
 use crate::curve::{Curve, End};
+use crate::domain::locate::TANGENTS_TELL;
 use crate::domain::{DomainCurve, Incident};
 use crate::geometry::exact::{Orientation, orient};
 use crate::geometry::{Point, Vec2, turn_from};
@@ -10,10 +11,6 @@ use crate::watch::{Progress, Watch};
 use std::cmp::Ordering;
 use std::f64::consts::PI;
 use std::ops::Range;
-
-/// Tangents that differ by less than this (rad) are not trusted to tell the order. Two curves that leave at an angle θ may bend towards
-/// each other and cross at once, θ²/κ deep; at 1e-3 that is more than rounding (1e-14) for radii of curvature down to 1e-8.
-const TANGENTS_TELL: f64 = 1e-3;
 
 /// Circles that are tried around a point, each half the one before.
 const CIRCLES: usize = 24;
@@ -47,6 +44,8 @@ fn order(at: Point, star: &mut Vec<Incident>, curves: &IdVec<CurveId, DomainCurv
     }
     let mut leaving: Vec<(Vec2, Incident)> = star.iter().map(|i| (curve(i).direction_at(i.end), *i)).collect();
     leaving.sort_by(|a, b| angle(a.0).total_cmp(&angle(b.0)).then(a.1.curve.cmp(&b.1.curve)));
+    // Two curves that leave at an angle θ may bend towards each other and cross at once, θ²/κ deep; at 1e-3 that is more than rounding
+    // (1e-14) for radii of curvature down to 1e-8.
     let are_tied = |a: &(Vec2, Incident), b: &(Vec2, Incident)| turn_from(a.0, b.0).abs() <= TANGENTS_TELL;
     // Begin between two that are not tied, so that no group of tied ones straddles the beginning.
     let n = leaving.len();

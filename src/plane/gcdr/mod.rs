@@ -12,11 +12,11 @@
 //! What the paper leaves open, and how it is done here:
 //!
 //! - *Curves.* A segment is a piece of a curve, seen as its chord; its point is taken on the curve, above the place chosen on the chord.
-//!   [`chords`] splits curves at the beginning until chords are a valid PSLG, whatever is split later. To move a segment to its curve, its
+//!   `chords` splits curves at the beginning until chords are a valid PSLG, whatever is split later. To move a segment to its curve, its
 //!   chord is taken out of the triangulation, the point inserted and the two new chords joined; regions are carved anew there.
 //! - *Corners sharper than 60°.* Segments that end there are split on concentric shells (Ruppert 1995), at distances from the corner that
 //!   are round binary numbers; a triangle whose shortest edge lies across the corner, from one curve to the other, with ends equally far from the corner is
-//!   left as it is: its small angle is the input's. Curves that leave a sharp corner are cut together: [`chords`] says why.
+//!   left as it is: its small angle is the input's. Curves that leave a sharp corner are cut together: `chords` says why.
 //! - *Order.* Algorithm 2 leaves open which triangle comes first. Segments that a vertex which will stay sees at more than 180° − 2κ come before
 //!   all else: they cannot stand, and split late they would undo what was refined beside them. Then comes what the strategy says.
 //! - *Rounding.* Decisions are made on the rounded point. A point that would not remove its triangle is not inserted, and owed.
