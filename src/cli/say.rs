@@ -270,7 +270,8 @@ fn repair_kinds(repairs: &[Repair]) -> String {
 
 /// One line a repair.
 fn repair_line(repair: &Repair) -> String {
-    format!("{} {}, moved by {}", place(repair.at), repair.what, number(repair.size, 3))
+    let size = if repair.size > 0.0 { format!(", by {}", number(repair.size, 3)) } else { String::new() };
+    format!("{} {}{size}", place(repair.at), repair.what)
 }
 
 /// How a batch ended: how many inputs with each exit code, `earlier` of them in an earlier run.

@@ -78,6 +78,8 @@ pub struct MeetingBudget {
 
 /// Pairs of pieces that are compared at most: some 0.1 s of work. Curves that run beside each other at 1e-13 of their size exceed it.
 const PAIRS: usize = 1 << 18;
+/// Contacts looked through at most, for all pairs together: some 0.5 s of work. Circles a few roundings apart touch in thousands of places.
+const LOOKS: usize = 1 << 29;
 /// Control points that are kept at most, some 40 bytes each. Only curves of a degree above ten come to so many before [`PAIRS`] ends it.
 const CONTROL_POINTS: usize = 1 << 22;
 
@@ -147,11 +149,12 @@ impl<'c> Search<'c> {
     fn run(&mut self) -> Result<(), MeetingBudget> {
         let second = self.second();
         let mut stack = vec![[self.hulls[0].root(), self.hulls[second].root()]];
-        let mut compared = 0;
+        let (mut compared, mut looks) = (0, 0);
         while let Some([i, j]) = stack.pop() {
             compared += 1;
+            looks += self.contacts.followed();
             let kept: usize = self.hulls.iter().map(Hulls::control_points).sum();
-            if compared > PAIRS || kept > CONTROL_POINTS {
+            if compared > PAIRS || looks > LOOKS || kept > CONTROL_POINTS {
                 return Err(MeetingBudget { at: self.hulls[0][i].bounds.center() });
             }
             if self.contacts.same && i == j {

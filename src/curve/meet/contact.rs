@@ -90,19 +90,21 @@ pub(super) struct Contacts<'c> {
     pub same: bool,
     /// Walks along contacts: (t, u) with ascending t.
     walks: Vec<Vec<[f64; 2]>>,
+    /// The range of t of each.
+    reaches: Vec<[f64; 2]>,
     pub points: Vec<Meeting>,
     pub overlaps: Vec<Overlap>,
 }
 
 impl<'c> Contacts<'c> {
     pub fn new(a: Track<'c>, b: Track<'c>, tolerance: f64, same: bool) -> Self {
-        Self { a, b, tolerance, same, walks: Vec::new(), points: Vec::new(), overlaps: Vec::new() }
+        Self { a, b, tolerance, same, walks: Vec::new(), reaches: Vec::new(), points: Vec::new(), overlaps: Vec::new() }
     }
 
     /// Records a crossing of which nothing else can be near: no end, no other meeting within `reach` of it.
     pub fn add_clear_crossing(&mut self, t: f64, u: f64, reach: f64) {
         let (dt, du) = (self.a.step_of(t, reach), self.b.step_of(u, reach));
-        self.walks.push(vec![[t - dt, u - du], [t + dt, u + du]]);
+        self.keep(vec![[t - dt, u - du], [t + dt, u + du]]);
         let at = self.a.curve.point(t).midpoint(self.b.curve.point(u));
         let contact = Overlap { t: [t; 2], u: [u; 2] };
         self.points.push(Meeting { at, t, u, kind: MeetingKind::Crossing, contact });
@@ -130,8 +132,18 @@ impl<'c> Contacts<'c> {
         if let Stop::Away(outside) = after {
             walk.push(outside);
         }
-        self.walks.push(walk);
+        self.keep(walk);
         Ok(())
+    }
+
+    fn keep(&mut self, walk: Vec<[f64; 2]>) {
+        self.reaches.push([walk[0][0], walk[walk.len() - 1][0]]);
+        self.walks.push(walk);
+    }
+
+    /// How many contacts were followed: what it costs to ask for one.
+    pub fn followed(&self) -> usize {
+        self.walks.len()
     }
 
     /// Whether (t, u) lies in a contact that was followed.
@@ -146,11 +158,11 @@ impl<'c> Contacts<'c> {
         }
         let dt = self.a.step_of(0.5 * (t[0] + t[1]), 2.0 * self.tolerance);
         let du = self.b.step_of(0.5 * (u[0] + u[1]), 2.0 * self.tolerance);
-        self.walks.iter().any(|walk| {
-            let (first, last) = (walk[0], walk[walk.len() - 1]);
-            if t[0] < first[0] - dt || t[1] > last[0] + dt {
+        self.reaches.iter().zip(&self.walks).any(|(reach, walk)| {
+            if t[0] < reach[0] - dt || t[1] > reach[1] + dt {
                 return false;
             }
+            let (first, last) = (walk[0], walk[walk.len() - 1]);
             let (low, high) = (first[1].min(last[1]) - du, first[1].max(last[1]) + du);
             if u[0] < low || u[1] > high {
                 return false;

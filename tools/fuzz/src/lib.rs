@@ -3,12 +3,13 @@
 pub mod sketch;
 
 use sketch::Sketch;
-use squinch::domain::{Domain, Drawing, FillRule, Unarranged};
+use squinch::domain::{ArrangeOptions, Domain, Drawing, FillRule, Unarranged};
 use squinch::geometry::{magnitude, scaled};
 use squinch::import::{self, Format, mesh};
 use squinch::pipeline::{self, Exit, Extent, Outcome, Plan, Source};
 use squinch::request::{Keep, Request};
 use squinch::watch::Progress;
+use std::collections::BTreeMap;
 
 /// Questions to the watch before a run is told to stop: by count, so that a find does not depend on the machine.
 const STEPS: usize = 20_000;
@@ -61,14 +62,19 @@ pub fn arrange(sketch: &Sketch) {
     let (drawing, options) = (&sketch.drawing, &sketch.arrange_options());
     let arranged = drawing.arrange_watched(options, &mut budget());
     let other = at_scale(drawing, SCALE).arrange_watched(
-        &squinch::domain::ArrangeOptions { tolerance: options.tolerance.map(|t| t * SCALE), ..options.clone() },
+        &ArrangeOptions { tolerance: options.tolerance.map(|t| t * SCALE), ..options.clone() },
         &mut budget(),
     );
     match (arranged, other) {
         (Ok(domain), Ok(other)) => {
             assert_eq!(domain.flaws(), [""; 0]);
-            if options.keep_all || options.fill == Some(FillRule::Regions) && drawing.seeds.is_empty() {
+            // Faces of shapes are regions by name.
+            let all_kept = options.keep_all || options.fill == Some(FillRule::Regions) && drawing.seeds.is_empty();
+            if all_kept && drawing.shapes.is_empty() {
                 check_faces(&domain);
+            }
+            if options.fill == Some(FillRule::Shapes) && !options.keep_all && drawing.seeds.is_empty() {
+                check_paint(drawing, options, &domain);
             }
             assert_eq!(domain.curves().as_slice(), other.scaled(1.0 / SCALE).curves().as_slice(), "at another scale");
         }
@@ -89,6 +95,29 @@ fn at_scale(drawing: &Drawing, factor: f64) -> Drawing {
     other.points.iter_mut().for_each(|p| p.at = scaled(p.at, factor));
     other.seeds.iter_mut().for_each(|s| s.at = scaled(s.at, factor));
     other
+}
+
+/// What is seen of each shape has the area of its fragments, by the topmost, and nothing hidden is left in it.
+fn check_paint(drawing: &Drawing, options: &ArrangeOptions, domain: &Domain) {
+    let Ok(fragments) = drawing.arrange_watched(&ArrangeOptions { fragments: true, ..options.clone() }, &mut budget())
+    else {
+        return;
+    };
+    let seen = |domain: &Domain| {
+        let mut areas: BTreeMap<String, f64> = BTreeMap::new();
+        for region in domain.regions().iter() {
+            let topmost = domain.name(region.name).split('+').next().unwrap_or_default();
+            *areas.entry(topmost.to_owned()).or_default() += region.area;
+        }
+        areas
+    };
+    let lengths = fragments.curves().iter().map(|c| c.curve.length() + 1.0).sum::<f64>();
+    let slack = 8.0 * lengths * fragments.tolerance();
+    let mut apart = seen(&fragments);
+    seen(domain).into_iter().for_each(|(name, area)| *apart.entry(name).or_default() -= area);
+    assert!(apart.values().all(|change| change.abs() <= slack), "{apart:?} beyond {slack:e}");
+    let hidden = domain.curves().iter().find(|c| c.sides[0].is_some() && c.sides[0] == c.sides[1]);
+    assert!(hidden.is_none(), "{hidden:?} is hidden");
 }
 
 /// Euler: where every bounded face is kept, there are curves − points + components of them.
@@ -139,7 +168,9 @@ fn check_outcome(outcome: &Outcome, request: &Request) {
         assert_ne!(outcome.exit, Exit::Done, "done, but no mesh");
         return;
     };
-    if request.keep == Keep::All {
+    let painted =
+        request.keep == Keep::All && domain.regions().iter().any(|r| domain.name(r.name).starts_with("shape"));
+    if request.keep == Keep::All && !painted {
         check_faces(domain);
     }
     // Area of the triangles between corners, and of what lies between a curve and its mesh edge on the sides that are kept.

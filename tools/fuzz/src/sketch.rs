@@ -4,7 +4,7 @@
 use arbitrary::{Arbitrary, Result, Unstructured};
 use kurbo::Affine;
 use squinch::curve::{Curve, End};
-use squinch::domain::{ArrangeOptions, Drawing, DrawnPoint, FillRule, Seed, SeedKind};
+use squinch::domain::{ArrangeOptions, Drawing, DrawnPoint, FillRule, Seed, SeedKind, Shape};
 use squinch::geometry::{Point, Vec2, direction};
 use squinch::import::outline;
 use squinch::request::{Keep, Order, Request};
@@ -65,6 +65,7 @@ impl<'a> Arbitrary<'a> for Sketch {
             Some(FillRule::EvenOdd),
             Some(FillRule::NonZero),
             Some(FillRule::Regions),
+            Some(FillRule::Shapes),
         ])?;
         let keep_all = bytes.ratio(1, 8)?;
         let tolerance = *bytes.choose(&[None, None, None, Some(0.0), Some(1e-6), Some(1e-3)])?;
@@ -78,7 +79,10 @@ impl<'a> Arbitrary<'a> for Sketch {
         let mut drawing = Drawing { format: "sketch".into(), ..Drawing::default() };
         drawing.fill = fill.unwrap_or_default();
         for (i, curve) in curves.into_iter().enumerate() {
-            drawing.add(curve, ["a", "b", "c"][i % 3], format!("curve {i}"));
+            match fill {
+                Some(FillRule::Shapes) => add_shape(&mut drawing, curve, i),
+                _ => drawing.add(curve, NAMES[i % 3], format!("curve {i}")),
+            }
         }
         if let [.., place] = places[..] {
             match bytes.int_in_range(0..=15)? {
@@ -88,6 +92,19 @@ impl<'a> Arbitrary<'a> for Sketch {
             }
         }
         Ok(Self { drawing, fill, keep_all, tolerance, min_angle, order })
+    }
+}
+
+const NAMES: [&str; 3] = ["a", "b", "c"];
+
+/// Adds what a curve and its chord enclose as a shape of its own.
+fn add_shape(drawing: &mut Drawing, curve: Curve, i: usize) {
+    let (name, entity) = (drawing.names.intern(&format!("shape {i}")), format!("shape {i}"));
+    let shape = drawing.shapes.push(Shape { name, even_odd: i % 2 == 0, entity });
+    let chord = Curve::line(curve.end(), curve.start()).ok();
+    for side in [curve].into_iter().chain(chord) {
+        drawing.add(side, NAMES[i % 3], format!("side of shape {i}"));
+        drawing.curves.last_mut().expect("one was added").shape = Some(shape);
     }
 }
 
