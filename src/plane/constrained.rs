@@ -367,22 +367,25 @@ impl Constrained {
         }
         // What a rounded distance leaves out is no vertex inside: those are told exactly.
         let (center, radius) = (x.midpoint(y), 0.5 * x.distance(y) * (1.0 + 1e-9));
-        let mut found: BTreeSet<VertexId> = BTreeSet::new();
+        let mut found = vec![topology.apex(side)];
         let mut visited: BTreeSet<TriangleId> = BTreeSet::from([side.triangle()]);
         let mut open = vec![side.triangle()];
         while let Some(t) = open.pop() {
-            found.extend(topology.corners(t).into_iter().filter(|&v| inside(v)));
             for s in [0, 1, 2].map(|i| t.side_of(i)) {
-                let beyond = topology.twin(s).triangle();
-                if self.is_piece(s) || topology.is_ghost(beyond) {
+                let beyond = topology.twin(s);
+                if self.is_piece(s) || topology.is_ghost(beyond.triangle()) {
                     continue;
                 }
                 let ends = [topology.origin(s), topology.target(s)].map(|v| self.point(v));
-                if distance_to_segment(center, ends) < radius && visited.insert(beyond) {
-                    open.push(beyond);
+                if distance_to_segment(center, ends) < radius && visited.insert(beyond.triangle()) {
+                    open.push(beyond.triangle());
+                    // Its other corners were asked before.
+                    found.extend(Some(topology.apex(beyond)).filter(|&v| inside(v)));
                 }
             }
         }
+        found.sort_unstable();
+        found.dedup();
         let left = |v: &VertexId| orient(x, y, self.point(*v)) == Orientation::CounterClockwise;
         found.into_iter().filter(left).collect()
     }
