@@ -506,6 +506,7 @@ impl Gcdr {
                 Some(SnapTo::Places(places)) => {
                     Box::new(steiner::Places::new(places.iter().map(|&[x, y]| Point::new(x, y))))
                 }
+                // No request passes its check so.
                 None => Box::new(steiner::Center),
             },
             Steiner::OffcenterFree => Box::new(steiner::OffCenter::new(angle, true)),

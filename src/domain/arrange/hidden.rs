@@ -10,7 +10,6 @@ use super::fill::{drawn_along, topmost};
 use super::trace::{Faces, Half};
 use crate::curve::End;
 use crate::domain::locate::Side;
-use crate::geometry::Point;
 use crate::ids::{CurveId, IdVec, PointId, ShapeId};
 use std::collections::BTreeSet;
 
@@ -116,15 +115,5 @@ impl Network<'_> {
         whole.merged.extend(merged);
         whole.paint = first.paint;
         self.place_part(whole);
-    }
-
-    /// Drops splits from the list of repairs at places where nothing is split any more.
-    fn forget_splits(&mut self) {
-        let cell = 4.0 * self.tolerances.weld;
-        let cell_of = |[x, y]: [f64; 2]| [x, y].map(|x| (x / cell).floor() as i64);
-        let place = |at: Point| cell_of([at.x, at.y]);
-        let nodes: BTreeSet<[i64; 2]> = self.nodes.iter().map(|node| place(node.at)).collect();
-        let is_node = |[i, j]: [i64; 2]| (i - 1..=i + 1).any(|i| nodes.range([i, j - 1]..=[i, j + 1]).next().is_some());
-        self.repairs.retain(|repair| repair.kind != RepairKind::Split || is_node(cell_of(repair.at)));
     }
 }

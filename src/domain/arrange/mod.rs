@@ -39,6 +39,7 @@
 mod cut;
 mod fill;
 mod hidden;
+mod repair;
 mod star;
 mod trace;
 mod weld;
@@ -49,6 +50,8 @@ use crate::geometry::{Point, Rect, magnitude, scaled, unit_scale};
 use crate::ids::{IdVec, PointId};
 use crate::watch::{Stopped, Watch};
 use cut::{Network, extent};
+use repair::{Cells, Places};
+pub use repair::{Repair, RepairKind};
 use std::collections::BTreeMap;
 
 /// A drawn point this many times as far from the origin as the curves reach is a mistake, and would take 20 of the 53 bits of every
@@ -68,66 +71,6 @@ pub struct ArrangeOptions {
     /// Where filled shapes of a picture overlap, each set of them has a region of its own, named by all of them, the topmost first:
     /// `leaf+stem`. Else the topmost shape has it all.
     pub fragments: bool,
-}
-
-/// Something that was mended on the way in, with its place and size (a length, in units of the drawing): how far ends moved, how wide the gap
-/// between curves was that became one, how large what was lost; 0 where nothing moved.
-#[derive(Clone, Debug, PartialEq, serde::Serialize)]
-pub struct Repair {
-    pub kind: RepairKind,
-    pub at: [f64; 2],
-    pub size: f64,
-    /// One sentence with the entities.
-    pub what: String,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum RepairKind {
-    /// The whole drawing was welded within more than the default tolerance: its slivers would have taken too many vertices.
-    ToleranceRaised,
-    /// Ends within the tolerance became one vertex.
-    Weld,
-    /// An open gap was closed to the nearest free end.
-    GapClosed,
-    /// A curve was split where another crosses, touches or ends on it.
-    Split,
-    /// A curve met itself and was split there.
-    SelfSplit,
-    /// A cusp or tangent jump became a corner.
-    Corner,
-    /// A curve that another repeats was dropped.
-    Duplicate,
-    /// Overlapping stretches became one.
-    Overlap,
-    /// A curve no longer than the tolerance was dropped: its ends are one vertex.
-    ZeroLength,
-    /// A closed curve, or a loop of a curve, no wider than the tolerance became a point or a line.
-    Collapsed,
-    /// A stretch of an outline that a later shape of the picture covers was left out.
-    Hidden,
-    /// A hole or region point that lies in no bounded face, or a second one in the same face.
-    Seed,
-}
-
-impl RepairKind {
-    /// What it is called, of one and of several.
-    pub fn words(self) -> [&'static str; 2] {
-        match self {
-            Self::ToleranceRaised => ["tolerance raised", "tolerances raised"],
-            Self::Weld => ["weld", "welds"],
-            Self::GapClosed => ["gap closed", "gaps closed"],
-            Self::Split => ["split", "splits"],
-            Self::SelfSplit => ["split of a curve with itself", "splits of curves with themselves"],
-            Self::Corner => ["corner found", "corners found"],
-            Self::Duplicate => ["duplicate dropped", "duplicates dropped"],
-            Self::Overlap => ["overlap merged", "overlaps merged"],
-            Self::Collapsed => ["feature within the tolerance lost", "features within the tolerance lost"],
-            Self::ZeroLength => ["curve of no length dropped", "curves of no length dropped"],
-            Self::Hidden => ["outline hidden in part", "outlines hidden in part"],
-            Self::Seed => ["seed without a face", "seeds without a face"],
-        }
-    }
 }
 
 /// What cannot be repaired, where, and the way out.
@@ -152,39 +95,6 @@ pub enum Unarranged {
     Stopped(#[from] Stopped),
 }
 
-/// How many repairs of a kind were made about each place: by square cells.
-struct Places {
-    cell: f64,
-    counts: BTreeMap<(RepairKind, [i64; 2]), usize>,
-}
-
-impl Places {
-    fn of(repairs: &[Repair], cell: f64) -> Self {
-        let mut places = Self { cell, counts: BTreeMap::new() };
-        for repair in repairs {
-            *places.counts.entry((repair.kind, places.cell_of(repair))).or_default() += 1;
-        }
-        places
-    }
-
-    fn cell_of(&self, repair: &Repair) -> [i64; 2] {
-        repair.at.map(|x| (x / self.cell).floor() as i64)
-    }
-
-    /// Whether there is a repair of the same kind in the same cell or the ones around it, which then is there no longer.
-    fn take(&mut self, repair: &Repair) -> bool {
-        let [i, j] = self.cell_of(repair);
-        let cells = (-1..=1).flat_map(|di| (-1..=1).map(move |dj| [i + di, j + dj]));
-        for cell in cells {
-            if let Some(count) = self.counts.get_mut(&(repair.kind, cell)).filter(|count| **count > 0) {
-                *count -= 1;
-                return true;
-            }
-        }
-        false
-    }
-}
-
 impl Unarranged {
     /// Its place times a factor.
     fn scaled(self, factor: f64) -> Self {
@@ -203,14 +113,6 @@ impl ArrangeError {
     /// Features lie too near to each other.
     fn near(what: impl Into<String>, at: Point, help: impl Into<String>) -> Self {
         Self { near: true, ..Self::new(what, at, help) }
-    }
-}
-
-impl Repair {
-    /// Place and size times a factor.
-    pub(super) fn scale(&mut self, factor: f64) {
-        self.at = self.at.map(|x| x * factor);
-        self.size *= factor;
     }
 }
 
@@ -279,7 +181,7 @@ impl Drawing {
             Err(Unarranged::Invalid(_)) => Vec::new(),
             Err(stopped) => return Err(stopped),
         };
-        let mut made = Places::of(&made, 4.0 * tolerances.weld);
+        let mut made = Places::of(&made, Cells::wider_than(tolerances.weld));
         repairs.retain(|repair| repair.size > tolerances.rounding || !made.take(repair));
         repairs.iter_mut().for_each(|repair| repair.scale(1.0 / factor));
         Ok(repairs)

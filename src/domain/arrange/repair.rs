@@ -1,0 +1,129 @@
+//! What was mended on the way in, and where.
+
+use super::cut::Network;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Something that was mended on the way in, with its place and size (a length, in units of the drawing): how far ends moved, how wide the gap
+/// between curves was that became one, how large what was lost; 0 where nothing moved.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct Repair {
+    pub kind: RepairKind,
+    pub at: [f64; 2],
+    pub size: f64,
+    /// One sentence with the entities.
+    pub what: String,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum RepairKind {
+    /// The whole drawing was welded within more than the default tolerance: its slivers would have taken too many vertices.
+    ToleranceRaised,
+    /// Ends within the tolerance became one vertex.
+    Weld,
+    /// An open gap was closed to the nearest free end.
+    GapClosed,
+    /// A curve was split where another crosses, touches or ends on it.
+    Split,
+    /// A curve met itself and was split there.
+    SelfSplit,
+    /// A cusp or tangent jump became a corner.
+    Corner,
+    /// A curve that another repeats was dropped.
+    Duplicate,
+    /// Overlapping stretches became one.
+    Overlap,
+    /// A curve no longer than the tolerance was dropped: its ends are one vertex.
+    ZeroLength,
+    /// A closed curve, or a loop of a curve, no wider than the tolerance became a point or a line.
+    Collapsed,
+    /// A stretch of an outline that a later shape of the picture covers was left out.
+    Hidden,
+    /// A hole or region point that lies in no bounded face, or a second one in the same face.
+    Seed,
+}
+
+impl RepairKind {
+    /// What it is called, of one and of several.
+    pub fn words(self) -> [&'static str; 2] {
+        match self {
+            Self::ToleranceRaised => ["tolerance raised", "tolerances raised"],
+            Self::Weld => ["weld", "welds"],
+            Self::GapClosed => ["gap closed", "gaps closed"],
+            Self::Split => ["split", "splits"],
+            Self::SelfSplit => ["split of a curve with itself", "splits of curves with themselves"],
+            Self::Corner => ["corner found", "corners found"],
+            Self::Duplicate => ["duplicate dropped", "duplicates dropped"],
+            Self::Overlap => ["overlap merged", "overlaps merged"],
+            Self::Collapsed => ["feature within the tolerance lost", "features within the tolerance lost"],
+            Self::ZeroLength => ["curve of no length dropped", "curves of no length dropped"],
+            Self::Hidden => ["outline hidden in part", "outlines hidden in part"],
+            Self::Seed => ["seed without a face", "seeds without a face"],
+        }
+    }
+}
+
+impl Repair {
+    /// Place and size times a factor.
+    pub(in crate::domain) fn scale(&mut self, factor: f64) {
+        self.at = self.at.map(|x| x * factor);
+        self.size *= factor;
+    }
+}
+
+/// Square cells, wider than a repair moves anything.
+#[derive(Clone, Copy)]
+pub(super) struct Cells {
+    width: f64,
+}
+
+impl Cells {
+    pub fn wider_than(tolerance: f64) -> Self {
+        Self { width: 4.0 * tolerance }
+    }
+
+    fn of(self, at: [f64; 2]) -> [i64; 2] {
+        at.map(|x| (x / self.width).floor() as i64)
+    }
+
+    /// The cell of a place and the ones around it.
+    fn around(self, at: [f64; 2]) -> impl Iterator<Item = [i64; 2]> {
+        let [i, j] = self.of(at);
+        (-1..=1).flat_map(move |di| (-1..=1).map(move |dj| [i + di, j + dj]))
+    }
+}
+
+/// How many repairs of a kind were made about each place: by square cells.
+pub(super) struct Places {
+    cells: Cells,
+    counts: BTreeMap<(RepairKind, [i64; 2]), usize>,
+}
+
+impl Places {
+    pub fn of(repairs: &[Repair], cells: Cells) -> Self {
+        let mut counts = BTreeMap::new();
+        repairs.iter().for_each(|repair| *counts.entry((repair.kind, cells.of(repair.at))).or_default() += 1);
+        Self { cells, counts }
+    }
+
+    /// Whether there is a repair of the same kind in the same cell or the ones around it, which then is there no longer.
+    pub fn take(&mut self, repair: &Repair) -> bool {
+        for cell in self.cells.around(repair.at) {
+            if let Some(count) = self.counts.get_mut(&(repair.kind, cell)).filter(|count| **count > 0) {
+                *count -= 1;
+                return true;
+            }
+        }
+        false
+    }
+}
+
+impl Network<'_> {
+    /// Drops splits from the list at places where nothing is split any more.
+    pub fn forget_splits(&mut self) {
+        let cells = Cells::wider_than(self.tolerances.weld);
+        let nodes: BTreeSet<[i64; 2]> = self.nodes.iter().map(|node| cells.of([node.at.x, node.at.y])).collect();
+        let is_node = |at: [f64; 2]| cells.around(at).any(|cell| nodes.contains(&cell));
+        self.repairs.retain(|repair| repair.kind != RepairKind::Split || is_node(repair.at));
+    }
+}
