@@ -64,6 +64,16 @@ fn shapes_that_nearly_touch_or_coincide_have_their_area() {
 }
 
 #[test]
+fn lenses_between_arcs_have_their_area_far_from_the_origin() {
+    for turn in 0..12 {
+        for separation in [1e-5, 1e-6, -1e-6] {
+            let known = known::nearly(Near::Arcs, separation, 0.7 * f64::from(turn)).moved(Vec2::new(1e7, -1e7));
+            is_right(&known, &format!("{separation:e} turned by {turn}"));
+        }
+    }
+}
+
+#[test]
 fn powers_of_two_change_no_bit_of_a_mesh() {
     let request = Request { max_vertices: 20_000, ..Request::default() };
     for (name, known) in families() {

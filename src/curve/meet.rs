@@ -133,12 +133,13 @@ struct Search<'c> {
 impl<'c> Search<'c> {
     fn new(a: &'c Curve, b: &'c Curve, hulls: Vec<Hulls>, tolerance: f64, same: bool) -> Self {
         // De Casteljau's algorithm errs by up to 2n units of rounding at degree n, and so does cutting a part out of a curve;
-        // a gap is between two such points. A unit of rounding is half of EPSILON: twice 4(n + 1) of them is safe.
+        // a gap is between two such points. A unit of rounding is half of EPSILON: 4(n + 1) of them is the noise of a gap, and
+        // four times that a safe tolerance.
         let most = |value: fn(&Hulls) -> f64| hulls.iter().map(value).fold(0.0, f64::max);
-        let least = 8.0 * (most(|h| h.degree as f64) + 1.0) * f64::EPSILON * most(|h| h.magnitude);
+        let noise = 2.0 * (most(|h| h.degree as f64) + 1.0) * f64::EPSILON * most(|h| h.magnitude);
         let track = |curve, hulls: &Hulls| Track::new(curve, hulls.degree, hulls[hulls.root()].size);
         let (on_a, on_b) = (track(a, &hulls[0]), track(b, &hulls[hulls.len() - 1]));
-        Self { contacts: Contacts::new(on_a, on_b, tolerance.max(least), same), hulls }
+        Self { contacts: Contacts::new(on_a, on_b, tolerance.max(4.0 * noise), noise, same), hulls }
     }
 
     /// Where the pieces of b are kept.

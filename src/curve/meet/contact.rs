@@ -86,6 +86,9 @@ pub(super) struct Contacts<'c> {
     pub a: Track<'c>,
     pub b: Track<'c>,
     pub tolerance: f64,
+    /// The gap up to which a contact is followed: noise about the tolerance would tear it where the curves part slowly, and each shred would
+    /// be a meeting.
+    held: f64,
     /// Whether a and b are one curve that may meet itself.
     pub same: bool,
     /// Walks along contacts: (t, u) with ascending t.
@@ -97,8 +100,10 @@ pub(super) struct Contacts<'c> {
 }
 
 impl<'c> Contacts<'c> {
-    pub fn new(a: Track<'c>, b: Track<'c>, tolerance: f64, same: bool) -> Self {
-        Self { a, b, tolerance, same, walks: Vec::new(), reaches: Vec::new(), points: Vec::new(), overlaps: Vec::new() }
+    /// `noise`: what rounding does to a gap.
+    pub fn new(a: Track<'c>, b: Track<'c>, tolerance: f64, noise: f64, same: bool) -> Self {
+        let (walks, reaches, points, overlaps) = Default::default();
+        Self { a, b, tolerance, held: tolerance + 2.0 * noise, same, walks, reaches, points, overlaps }
     }
 
     /// Records a crossing of which nothing else can be near: no end, no other meeting within `reach` of it.
@@ -207,7 +212,7 @@ impl<'c> Contacts<'c> {
             let jumps = (foot - u).abs() > self.b.span(u).max(self.b.span(foot)) / samples;
             let beside = self.same && foot - next <= (from[1] - from[0]) / samples;
             let at_end = is_end(foot);
-            if gap <= self.tolerance && !at_end && !jumps && !beside {
+            if gap <= self.held && !at_end && !jumps && !beside {
                 here = [next, foot];
                 passed.push(here);
                 step *= 2.0;
@@ -224,7 +229,7 @@ impl<'c> Contacts<'c> {
             }
             // The border of the contact is wanted to a small part of its length only: it serves to know the contact again. But a
             // gap far beyond the tolerance may be a foot gone astray in a sharp bend.
-            let is_border = gap <= 2.0 * self.tolerance && !jumps && step <= (t - from[0]).abs() / 256.0;
+            let is_border = gap <= 2.0 * self.held && !jumps && step <= (t - from[0]).abs() / 256.0;
             if is_border || step <= first_step {
                 return Ok((passed, Stop::Away([next, foot])));
             }

@@ -762,3 +762,19 @@ fn a_common_end_is_one_touching_however_short_the_handles_are() {
         }
     }
 }
+
+#[test]
+fn curves_that_part_slowly_far_from_the_origin_meet_once_where_they_part() {
+    // Rounding moves the gap up and down by more than it grows from one sample to the next.
+    for turn in 0..60 {
+        let end = Point::ORIGIN + crate::geometry::direction(0.1 * f64::from(turn));
+        let [a, b] = [end - Point::ORIGIN, Point::ORIGIN - end].map(|away| Point::new(1e7, -1e7) + away);
+        for bulge in [1.0 + 1e-6, 1.0 - 3e-6, 1.0 + 1e-5] {
+            let [p, q] = [1.0, bulge].map(|bulge| Curve::bulge(a, b, bulge).unwrap());
+            let met = meetings(&p, &q, 3.6e-8).unwrap();
+            let places: Vec<[f64; 2]> = met.points.iter().map(|m| [m.t, m.u]).collect();
+            assert_eq!(places, [[0.0, 0.0], [1.0, 1.0]], "{turn} {bulge}");
+            assert_eq!(met.overlaps, []);
+        }
+    }
+}
