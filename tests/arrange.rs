@@ -868,6 +868,26 @@ fn a_coarse_tolerance_keeps_every_promise() {
     }
 }
 
+#[test]
+fn splines_with_hairpins_about_as_wide_as_the_tolerance_have_no_flaw() {
+    let mut number = numbers(77);
+    for seed in 0..120 {
+        let mut place = || p((40.0 * number() - 20.0).round() / 4.0, (40.0 * number() - 20.0).round() / 4.0);
+        let [a, b, c] = [place(), if seed % 3 == 0 { p(0.0, 0.0) } else { place() }, place()];
+        if a == b || b == c || a == c {
+            continue;
+        }
+        let Ok(spline) = Curve::natural_spline(&[a, b, b + Vec2::new(1e-3, 0.0), c, a]) else { continue };
+        let mut drawing = drawing([spline, Curve::line(a, c).unwrap()]);
+        drawing.points.push(DrawnPoint { at: c + Vec2::new(1e-3, 0.0), name: None, entity: "point".into() });
+        for tolerance in [Some(0.0), None, Some(1e-6), Some(1e-3)] {
+            let options = ArrangeOptions { tolerance, fill: Some(FillRule::Regions), ..ArrangeOptions::default() };
+            let domain = drawing.arrange(&options).unwrap_or_else(|e| panic!("{seed} {tolerance:?}: {e}"));
+            assert_eq!(domain.flaws(), [""; 0], "seed {seed}, tolerance {tolerance:?}");
+        }
+    }
+}
+
 // ---- files ----
 
 /// Points, segments and holes of a `.poly` file, as plainly as a test needs.

@@ -99,7 +99,7 @@ pub fn meetings(a: &Curve, b: &Curve, tolerance: f64) -> Result<Meetings, Meetin
 }
 
 /// Where a curve meets itself, with t < u: crossings and touchings; the ends of a stretch that it runs along twice are touchings.
-/// The common end of a closed curve is no meeting. The curve is to have neither cusps nor jumps of its tangent.
+/// The common end of a closed curve is no meeting, nor is where a loop no wider than the tolerance closes. The curve is to have neither cusps nor jumps of its tangent.
 ///
 /// # Errors
 /// [`MeetingBudget`] as for [`meetings`].
@@ -109,6 +109,7 @@ pub fn self_meetings(a: &Curve, tolerance: f64) -> Result<Vec<Meeting>, MeetingB
     }
     let mut search = Search::new(a, a, vec![Hulls::of(a)], tolerance, true);
     search.run()?;
+    let tolerance = search.contacts.tolerance;
     let Meetings { mut points, overlaps } = search.finish();
     for Overlap { t, u } in overlaps {
         let ends = [(t[0], u[0]), (t[1], u[1])].into_iter().filter(|(t, u)| t < u);
@@ -120,6 +121,8 @@ pub fn self_meetings(a: &Curve, tolerance: f64) -> Result<Vec<Meeting>, MeetingB
             contact: Overlap { t: [t; 2], u: [u; 2] },
         }));
     }
+    // Where it turns round within the tolerance it is near to itself along itself.
+    points.retain(|m| !contact::is_near(a, m.t, m.u, tolerance));
     points.sort_by(|p, q| p.t.total_cmp(&q.t).then(p.u.total_cmp(&q.u)));
     Ok(points)
 }

@@ -13,6 +13,9 @@ use crate::geometry::{Vec2, turn_from};
 const COUNT_SLACK: f64 = 1e-12;
 /// Most parts that one curve is cut into, whatever the limit asks: more than any mesh that memory holds has edges.
 const PARTS_MAX: f64 = 1e8;
+/// A knot where the tangent turns less than this is no corner, although the turn counts as turning: parts of splines carry the rounding of the
+/// curves that they were cut from, which may have been much larger.
+const CORNER_RAD: f64 = 1e-9;
 /// Pieces that the search for half planes may look at: some dozens of cusps, each approached by 48 halvings from both sides.
 const PIECE_BUDGET: usize = 1 << 13;
 
@@ -157,8 +160,10 @@ fn has_stretches(curve: &Curve) -> bool {
 /// The stretches of t0..t1 of a Bézier or a spline, in order. None of a part that does not move.
 fn stretches(curve: &Curve, t0: f64, t1: f64) -> Vec<Stretch> {
     let mut all: Vec<Stretch> = Vec::new();
-    for span in spans(curve, t0, t1) {
-        let noise = span.bezier.hodograph_noise();
+    let spans = spans(curve, t0, t1);
+    // A curve that is cut or moved is rounded at its far end's magnitude, also where it passes the origin.
+    let noise = spans.iter().map(|span| span.bezier.hodograph_noise()).fold(0.0, f64::max);
+    for span in spans {
         for (k, piece) in one_way_pieces(span.hodograph(), noise).into_iter().enumerate() {
             let Some((from, to)) = end_directions(&piece.hodograph, noise) else { continue };
             let noise_rad = noise / length(from) + noise / length(to);
@@ -195,7 +200,7 @@ fn join(before: &mut Stretch, after: &mut Stretch, at_knot: bool, noise: f64) {
     // An analytic tangent passes a zero of the derivative straight on or reversed, so half way tells which.
     if vanished && after.jump_rad > std::f64::consts::FRAC_PI_2 {
         after.breaks = Some(BreakKind::Cusp);
-    } else if after.jump_rad > before.noise_rad + after.noise_rad {
+    } else if after.jump_rad > (before.noise_rad + after.noise_rad).max(CORNER_RAD) {
         after.breaks = Some(if vanished && !at_knot { BreakKind::Cusp } else { BreakKind::TangentJump });
     }
 }

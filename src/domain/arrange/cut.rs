@@ -385,17 +385,25 @@ impl<'a> Network<'a> {
         regular.split(&cuts)
     }
 
-    /// The parameters at which a regular part meets itself.
+    /// The parameters at which a regular part meets itself. Within the tolerance a loop is nothing but the curve's nearness to itself, but it
+    /// may cross itself there: asked only of parts that meet themselves nowhere else.
     fn self_cuts(&mut self, source: u32, part: &Curve) -> Result<Vec<f64>, ArrangeError> {
-        let found = self_meetings(part, self.tolerances.weld).map_err(|budget| {
-            let what = format!("{} runs so near to itself that its meetings cannot be told apart", self.entity(source));
-            ArrangeError::near(what, budget.at, "simplify the curve, or raise the tolerance")
-        })?;
+        let mut found = self.self_meetings_of(source, part, self.tolerances.weld)?;
+        if found.is_empty() {
+            found = self.self_meetings_of(source, part, self.tolerances.rounding)?;
+        }
         for meeting in &found {
             let what = format!("{} meets itself and was split there", self.entity(source));
             self.repair(RepairKind::SelfSplit, meeting.at, 0.0, what);
         }
         Ok(found.iter().flat_map(|m| [m.t, m.u]).collect())
+    }
+
+    fn self_meetings_of(&self, source: u32, part: &Curve, tolerance: f64) -> Result<Vec<Meeting>, ArrangeError> {
+        self_meetings(part, tolerance).map_err(|budget| {
+            let what = format!("{} runs so near to itself that its meetings cannot be told apart", self.entity(source));
+            ArrangeError::near(what, budget.at, "simplify the curve, or raise the tolerance")
+        })
     }
 
     /// Adds a part, halved where its ends are one point.

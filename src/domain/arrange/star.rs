@@ -99,8 +99,8 @@ fn part(
         if let Some(exits) = exits {
             let mut around: Vec<(Point, Incident)> = exits.into_iter().zip(tied.iter().copied()).collect();
             around.sort_by(|a, b| turn_from(b.0 - at, a.0 - at).total_cmp(&0.0).then(a.1.curve.cmp(&b.1.curve)));
-            // Rounding cannot have swapped neighbours that are 64 units in the last place apart.
-            let noise = 64.0 * f64::EPSILON * at.x.abs().max(at.y.abs()).max(radius);
+            // Rounding cannot have swapped neighbours that are 16 units in the last place apart; curves that run nearer than that are one.
+            let noise = 16.0 * f64::EPSILON * at.x.abs().max(at.y.abs()).max(radius);
             let mut from = 0;
             let runs = around.chunk_by(|a, b| a.0.distance(b.0) <= noise).map(|run| {
                 from += run.len();
