@@ -1,4 +1,4 @@
-//! Runs that once went wrong, each as its case file: they end with a verified mesh or a located refusal.
+//! Runs that once went wrong, each as its case file: they end with a verified mesh, at an announced limit, or with a located refusal.
 
 use squinch::case::Case;
 use squinch::import::Format;
@@ -7,7 +7,7 @@ use std::fs;
 use std::path::PathBuf;
 
 #[test]
-fn every_case_ends_with_a_mesh_or_a_located_refusal() {
+fn every_case_ends_with_a_mesh_at_a_limit_or_with_a_located_refusal() {
     let mut files: Vec<PathBuf> =
         fs::read_dir("tests/cases").expect("the cases are there").map(|e| e.expect("an entry").path()).collect();
     files.sort();
@@ -22,6 +22,7 @@ fn every_case_ends_with_a_mesh_or_a_located_refusal() {
         let outcome = run(&source, &case.request, Extent::Whole(&mut |_| true));
         assert_ne!(outcome.exit, Exit::Bug, "{name}: {:?}", outcome.report.failure);
         match &outcome.report.failure {
+            None if outcome.exit == Exit::Missed => assert!(outcome.report.stop.is_some(), "{name}"),
             None => assert!(outcome.verdict.is_some_and(|verdict| verdict.kept()), "{name}"),
             Some(failure) => assert!(failure.at.is_some() && !failure.help.is_empty(), "{name}: {failure:?}"),
         }

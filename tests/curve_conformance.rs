@@ -294,6 +294,28 @@ fn boxes_hold_the_samples_and_are_touched() {
 }
 
 #[test]
+fn a_curve_lies_in_the_cones_from_its_ends() {
+    let mut cones = 0;
+    for case in cases() {
+        for (t0, t1) in [(0.0, 1.0), (0.0, 0.3), (0.3, 0.6), (0.6, 1.0)] {
+            let part = case.curve.part(t0, t1);
+            for (end, apex) in [(End::Start, part.start()), (End::Finish, part.end())] {
+                let Some(cone) = part.cone_from(end) else { continue };
+                let slack = 64.0 * case.grain;
+                cones += 1;
+                for t in grid(64, 0.0, 1.0) {
+                    let v = part.point(t) - apex;
+                    let off = |side: Vec2, other: f64| side.cross(v) * other / side.hypot();
+                    let inside = off(cone.right, 1.0) >= -slack && off(cone.left, -1.0) >= -slack;
+                    assert!(inside, "{} {t0}..{t1} from {end:?}: {v:?} not in {cone:?}", case.name);
+                }
+            }
+        }
+    }
+    assert!(cones > 100, "{cones}");
+}
+
+#[test]
 fn the_nearest_point_is_nearest() {
     for Case { name, curve, size, grain } in cases() {
         let center = curve.bounds().center();

@@ -90,6 +90,10 @@ const CONTROL_POINTS: usize = 1 << 22;
 /// # Errors
 /// [`MeetingBudget`] where the curves run along each other just outside the tolerance for too long.
 pub fn meetings(a: &Curve, b: &Curve, tolerance: f64) -> Result<Meetings, MeetingBudget> {
+    // Most pairs are far apart. Twice: arcs are moved by up to a tolerance by spreading it along them.
+    if a.is_clear_of(b, 2.0 * tolerance) {
+        return Ok(Meetings::default());
+    }
     let mut search = Search::new(a, b, vec![Hulls::of(a), Hulls::of(b)], tolerance, false);
     match circles::guesses(&search.contacts) {
         Some(guesses) => guesses.into_iter().try_for_each(|guess| search.follow(guess))?,
@@ -224,7 +228,7 @@ impl<'c> Search<'c> {
         let (Some(c), Some(d)) = (p.cone, q.cone) else { return false };
         // All legs in the open half-plane ahead of the mean of the chords: no two points of the joined pieces are one.
         let ahead = (p.last() - p.first()).normalize() + (q.last() - q.first()).normalize();
-        [c[0], c[1], d[0], d[1]].iter().all(|leg| leg.dot(ahead) > 0.0)
+        [c.right, c.left, d.right, d.left].iter().all(|leg| leg.dot(ahead) > 0.0)
     }
 
     /// Ends of either piece that lie within the tolerance of the other curve: `all` of them, or only the ends of spans.
@@ -388,8 +392,9 @@ fn beside_chord(piece: &Piece, x: Point) -> f64 {
 
 /// Whether no direction, either way, is in the cones of tangents of both pieces.
 fn no_common_direction(p: &Piece, q: &Piece) -> bool {
-    let (Some([c, d]), Some([e, f])) = (p.cone, q.cone) else { return false };
-    let signs = [c.cross(e), c.cross(f), d.cross(e), d.cross(f)];
+    let (Some(c), Some(d)) = (p.cone, q.cone) else { return false };
+    let signs = [c.right, c.left].map(|u| [d.right, d.left].map(|v| u.cross(v)));
+    let signs = signs.as_flattened();
     signs.iter().all(|&s| s > 0.0) || signs.iter().all(|&s| s < 0.0)
 }
 

@@ -10,6 +10,7 @@ mod arc;
 mod bernstein;
 mod bezier;
 mod ellipse;
+mod enclosure;
 mod line;
 mod meet;
 mod quadrature;
@@ -19,6 +20,7 @@ mod turning;
 mod weights;
 mod weld;
 
+pub use enclosure::Cone;
 pub use meet::{Meeting, MeetingBudget, MeetingKind, Meetings, Overlap, meetings, self_meetings};
 
 use crate::geometry::{Point, Rect, Vec2, bounds_of};

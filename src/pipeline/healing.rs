@@ -108,16 +108,16 @@ impl<'a> Healing<'a> {
             return Ok(domain);
         }
         self.areas = Some(areas(&domain));
-        let slivers = self.slivers(&domain, watch)?;
+        let slivers = self.slivers(&domain, self.left[0], watch)?;
         let finest = self.candidate(domain, &slivers);
         let Some((_, dearest)) = slivers.iter().max_by(|a, b| a.0.total_cmp(&b.0)).filter(|_| !self.will_do(&finest))
         else {
             return Ok(finest.domain);
         };
-        // Slivers wider than a tolerance stay: one that leaves too many of them is tried last.
-        let enough = self.enough(&finest.domain);
+        // Slivers wider than a tolerance stay. First comes the finest one that leaves few, or that no coarser one is worth it; then those.
         let stay = |within: f64| slivers.iter().filter(|(_, s)| s.width >= within).map(|(n, _)| n).sum::<f64>();
-        let (mut first, mut last): (Vec<f64>, Vec<f64>) = self.left.iter().partition(|&&within| stay(within) <= enough);
+        let few = self.left.last().map_or(0.0, |&coarsest| stay(coarsest) / WORTH).max(self.enough(&finest.domain));
+        let (mut first, mut last): (Vec<f64>, Vec<f64>) = self.left.iter().partition(|&&within| stay(within) <= few);
         last.reverse();
         first.extend(last);
         self.left = first;
@@ -150,7 +150,7 @@ impl<'a> Healing<'a> {
                 Err(stopped) => return Err(stopped.into()),
             };
             domain.itemise_first(why.repair(tolerance));
-            let slivers = self.slivers(&domain, watch)?;
+            let slivers = self.slivers(&domain, 0.0, watch)?;
             let candidate = self.candidate(domain, &slivers);
             if self.will_do(&candidate) {
                 self.taken = tolerance;
@@ -183,8 +183,9 @@ impl<'a> Healing<'a> {
         few + per_curve * domain.curves().len() as f64
     }
 
-    fn slivers(&self, domain: &Domain, watch: &mut Watch) -> Result<Vec<(f64, Sliver)>, Stopped> {
-        costly_slivers(domain, self.request.angle_min_rad(), COUNTED * self.enough(domain), watch)
+    /// All of them, or more than can be counted; of those that welding within `above` leaves also so many that it is known what welding does.
+    fn slivers(&self, domain: &Domain, above: f64, watch: &mut Watch) -> Result<Vec<(f64, Sliver)>, Stopped> {
+        costly_slivers(domain, self.request.angle_min_rad(), COUNTED * self.enough(domain), above, watch)
     }
 
     /// Whether the regions of a domain are what they are within the finest tolerance.

@@ -5,7 +5,7 @@
 //! corner cutting only blends neighbouring legs, every tangent and every chord of it lies in the cone of the legs. Children are
 //! made by de Casteljau's algorithm at the middle, when first asked for, and kept: a piece is halved once whatever it is compared with.
 
-use crate::curve::{Bezier, Curve};
+use crate::curve::{Bezier, Cone, Curve};
 use crate::geometry::{Point, Rect, Vec2, magnitude};
 use std::f64::consts::FRAC_PI_2;
 
@@ -27,8 +27,8 @@ pub(super) struct Piece {
     pub normal: Vec2,
     /// Least and largest signed distance of the hull from the chord's line.
     pub spread: [f64; 2],
-    /// Clockwise and counter-clockwise border of the cone of tangents, where all legs run less than a right angle from the chord.
-    pub cone: Option<[Vec2; 2]>,
+    /// The cone of tangents, where all legs run less than a right angle from the chord.
+    pub cone: Option<Cone>,
     /// Longer side of the box.
     pub size: f64,
     /// Whether its first and last point are ends of a span: ends of the curve, or knots, where the tangent may jump.
@@ -270,20 +270,11 @@ fn group_piece(left: &Piece, right: &Piece, children: [usize; 2]) -> Piece {
     }
 }
 
-fn cone(hull: &[Point], chord: Vec2) -> Option<[Vec2; 2]> {
-    let mut borders = [chord; 2];
-    for leg in hull.windows(2).map(|w| w[1] - w[0]).filter(|&leg| leg != Vec2::ZERO) {
-        if leg.dot(chord) <= 0.0 {
-            return None;
-        }
-        if borders[0].cross(leg) < 0.0 {
-            borders[0] = leg;
-        }
-        if borders[1].cross(leg) > 0.0 {
-            borders[1] = leg;
-        }
-    }
-    (chord != Vec2::ZERO).then_some(borders)
+/// The cone of the legs, which is narrower than a half plane.
+fn cone(hull: &[Point], chord: Vec2) -> Option<Cone> {
+    let mut cone = Cone::along(chord)?;
+    let mut legs = hull.windows(2).map(|w| w[1] - w[0]).filter(|&leg| leg != Vec2::ZERO);
+    legs.all(|leg| cone.widen(leg, chord)).then_some(cone)
 }
 
 /// Length of a vector (by `sqrt`, which is the same on every machine).

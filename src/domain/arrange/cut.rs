@@ -1,7 +1,7 @@
 //! The network: drawn curves cut into pieces at their breaks and self-meetings, and the places where pieces meet.
 
 use super::{ArrangeError, Drawing, Repair, RepairKind, Tolerances, Unarranged};
-use crate::curve::{BreakKind, Curve, Meeting, MeetingKind, Meetings, Overlap, meetings, self_meetings};
+use crate::curve::{BreakKind, Curve, End, Meeting, MeetingKind, Meetings, Overlap, meetings, self_meetings};
 use crate::geometry::boxes::{BoxHierarchy, Labels};
 use crate::geometry::exact::{Orientation, orient};
 use crate::geometry::{Point, Rect};
@@ -15,7 +15,8 @@ const CUTS_MAX: usize = 1 << 24;
 /// Pairs of curves, or of a node and a curve, that are kept at most while it is looked for where they meet: half a gigabyte.
 const PAIRS_MAX: usize = 1 << 26;
 
-/// Curves part slowly where they stay within the tolerance of each other for so many tolerances.
+/// Curves part slowly where they stay within the tolerance of each other for so many tolerances; those that part at an angle with a sine of one
+/// over this do not.
 const SLOW: f64 = 16.0;
 
 /// In the middle of such a contact they are within this part of their widest distance: less than straight lines would be.
@@ -131,6 +132,13 @@ impl Piece {
 
     fn is_line(&self) -> bool {
         matches!(self.curve, Curve::Line(_))
+    }
+
+    fn end(&self, end: End) -> PointId {
+        match end {
+            End::Start => self.ends[0],
+            End::Finish => self.ends[1],
+        }
     }
 }
 
@@ -451,7 +459,7 @@ impl Network<'_> {
         let mut pairs = Vec::new();
         let fresh: Vec<CurveId> = self.pieces.ids().filter(|&id| self.pieces[id].fresh).collect();
         let mut ask = |a: CurveId, b: CurveId| {
-            if !self.are_circles_apart(a, b) {
+            if !self.are_circles_apart(a, b) && !self.part_at_once(a, b) {
                 pairs.push((a, b));
             }
             self.keep_on(pairs.len(), self.pieces[a].bounds.center(), watch)
@@ -481,6 +489,17 @@ impl Network<'_> {
             return Err(too_many_cuts(at).into());
         }
         if pairs.is_multiple_of(1024) { Ok(self.progress("meeting", pairs).tell(watch)?) } else { Ok(()) }
+    }
+
+    /// Whether two pieces with a common end part there at an angle for good: they meet nowhere else.
+    fn part_at_once(&self, a: CurveId, b: CurveId) -> bool {
+        let [first, second] = [a, b].map(|id| &self.pieces[id]);
+        let ends = [End::Start, End::Finish];
+        let common = ends.iter().find_map(|&i| {
+            let j = ends.iter().find(|&&j| first.end(i) == second.end(j))?;
+            Some((first.curve.cone_from(i)?, second.curve.cone_from(*j)?))
+        });
+        common.is_some_and(|(cone, other)| cone.is_apart_from(&other, 1.0 / SLOW))
     }
 
     /// Whether a place is for certain no part of an arc, told by its circle.

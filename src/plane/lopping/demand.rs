@@ -29,6 +29,9 @@ const SLENDER: f64 = 16.0;
 /// coordinates can hold, it takes some 1500.
 const SAMPLES_MAX: usize = 4096;
 
+/// Slivers that tell of what width the others are.
+const SAMPLE: usize = 8192;
+
 /// Within so many radii of a ball at birth triangles are excused.
 const EXCUSED_RADII: f64 = 2.0;
 
@@ -164,8 +167,9 @@ pub fn slivers(domain: &Domain, watch: &mut Watch) -> Result<Vec<Sliver>, Stoppe
     slivers_until(domain, EXCUSED_RADII, watch, |_| false)
 }
 
-/// The slivers of a domain with the vertices that each is likely to take, kept or not, until these are more than `most`. What is excused
-/// outside a ball counts too: it need not be cut, but it is.
+/// The slivers of a domain with the vertices that each is likely to take, kept or not, until these are more than `most`; where those narrower
+/// than `above` are, until the others are as well, or so many were seen that the rest is likely to be alike. What is excused outside a ball
+/// counts too: it need not be cut, but it is.
 ///
 /// # Errors
 /// [`Stopped`] where the watch says so.
@@ -173,14 +177,17 @@ pub fn costly_slivers(
     domain: &Domain,
     kappa_rad: f64,
     most: f64,
+    above: f64,
     watch: &mut Watch,
 ) -> Result<Vec<(f64, Sliver)>, Stopped> {
     let taken = |sliver: &Sliver| sliver.vertices(kappa_rad, 0.0);
-    let (mut counted, mut vertices) = (0, 0.0);
+    let (mut counted, mut all, mut wide) = (0, 0.0, 0.0);
     let found = slivers_until(domain, 1.0, watch, |found| {
-        vertices += found[counted..].iter().map(taken).sum::<f64>();
+        let new = || found[counted..].iter();
+        all += new().map(taken).sum::<f64>();
+        wide += new().filter(|sliver| sliver.width >= above).map(taken).sum::<f64>();
         counted = found.len();
-        vertices > most
+        wide > most || all > most && counted > SAMPLE
     })?;
     Ok(found.into_iter().map(|sliver| (taken(&sliver), sliver)).collect())
 }
