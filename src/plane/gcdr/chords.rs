@@ -109,6 +109,9 @@ impl<'a> Beginning<'a> {
     fn meeting(&self, dirty: &[PieceId]) -> Vec<PieceId> {
         let live = self.subcurves.ids().filter(|&id| !self.subcurves.get(id).is_gone());
         let mut hulls: Vec<Hull> = live.map(|id| self.hull(id)).collect();
+        if hulls.iter().all(|h| h.lambda == 0.0) {
+            return Vec::new();
+        }
         let lone = self.domain.points().ids().filter(|&p| self.domain.star(p).is_empty());
         hulls.extend(lone.map(|p| {
             let at = self.domain.points()[p];

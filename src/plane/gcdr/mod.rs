@@ -42,7 +42,7 @@ use super::subcurves::Subcurves;
 use super::suspects::{self, Suspect, Suspects};
 use crate::domain::Domain;
 use crate::geometry::{self, Point};
-use crate::ids::{BallId, CurveId, Id, IdVec, PieceId, PointId, VertexId};
+use crate::ids::{BallId, CurveId, Id, IdVec, PieceId, PointId, TriangleId, VertexId};
 use crate::mesh::verify::{ConstrainedPromise, DensityPromise, Promise};
 use crate::mesh::{Insertion, InsertionKind, RIM_ROUNDING};
 use crate::refine::{Counters, Stop, StopReason};
@@ -121,6 +121,8 @@ pub struct Gcdr<'s> {
     origins: IdVec<VertexId, Origin>,
     /// Vertices that were not deleted.
     alive: usize,
+    /// Of these, the free ones.
+    free: usize,
     subcurves: Subcurves,
     fans: IdVec<BallId, Fan>,
     /// Whether curves meet at less than 60°.
@@ -131,6 +133,8 @@ pub struct Gcdr<'s> {
     bad: Suspects,
     carver: Carver,
     cavity: Cavity,
+    /// Triangles to be judged; empty between steps, kept for its memory.
+    touched: Vec<TriangleId>,
     counters: Counters,
     reason: StopReason,
     /// Where something could not be done: below what the coordinates can tell apart.
@@ -232,11 +236,13 @@ impl<'s> Gcdr<'s> {
             bad: Suspects::default(),
             carver: Carver::default(),
             cavity: Cavity::default(),
+            touched: Vec::new(),
             counters: Counters::default(),
             reason: StopReason::Done,
             too_near: Vec::new(),
             sin2_min: sin_min * sin_min,
             alive: origins.len(),
+            free: 0,
             options: options.clone(),
             insertions: Vec::new(),
             resolution,
@@ -254,7 +260,7 @@ impl<'s> Gcdr<'s> {
         gcdr.counters.add("vertices_chord", (gcdr.origins.len() - gcdr.domain.points().len()) as u64);
         let live: Vec<PieceId> = gcdr.subcurves.ids().rev().filter(|&id| !gcdr.subcurves.get(id).is_gone()).collect();
         live.into_iter().for_each(|id| gcdr.suspect(id));
-        gcdr.mesh.take_touched();
+        gcdr.mesh.take_touched(&mut Vec::new());
         let mut all = carve::all_triangles(gcdr.mesh.kernel());
         gcdr.carver.carve(gcdr.mesh.kernel_mut(), &gcdr.subcurves, gcdr.domain.curves(), &mut all);
         all.into_iter().for_each(|t| gcdr.judge(t));

@@ -119,18 +119,29 @@ impl Gcdr<'_> {
         seen.min_by(|a, b| away(a).total_cmp(&away(b)))
     }
 
-    fn encroachers(&self, id: PieceId) -> Encroachers {
+    fn encroachers(&mut self, id: PieceId) -> Encroachers {
         let mut found = Encroachers::default();
-        for side in self.side_of(id).into_iter().flat_map(|s| [s, self.mesh.topology().twin(s)]) {
-            let (of_side, rest): (Vec<VertexId>, Vec<VertexId>) =
-                self.mesh.in_half_circle(side).into_iter().partition(|&v| self.origins[v] == Origin::Free);
+        let Some(side) = self.side_of(id) else { return found };
+        for side in [side, self.mesh.topology().twin(side)] {
+            // The apex sees the segment, and if it lies outside the circle, so does whatever else sees it from there.
+            if !self.mesh.has_apex_in_half_circle(side) {
+                continue;
+            }
+            found.type_c = found.type_c || !self.is_free(self.mesh.topology().apex(side));
+            if self.free == 0 && !self.options.record {
+                continue;
+            }
+            let inside = self.mesh.in_half_circle(side);
+            let (of_side, rest): (Vec<VertexId>, Vec<VertexId>) = inside.into_iter().partition(|&v| self.is_free(v));
             found.free.extend(of_side.into_iter().filter(|&v| self.mesh.sees(v, side)));
-            found.type_c = found.type_c
-                || rest.contains(&self.mesh.topology().apex(side))
-                || rest.iter().any(|&v| self.mesh.sees(v, side));
+            found.type_c = found.type_c || rest.iter().any(|&v| self.mesh.sees(v, side));
             found.others.extend(rest);
         }
         found
+    }
+
+    fn is_free(&self, v: VertexId) -> bool {
+        self.origins[v] == Origin::Free
     }
 
     /// Deletes free vertices, some of which may be given twice.
@@ -138,6 +149,7 @@ impl Gcdr<'_> {
         vertices.sort_unstable();
         vertices.dedup();
         self.alive -= vertices.len();
+        self.free -= vertices.len();
         self.counters.add("vertices_deleted", vertices.len() as u64);
         vertices.into_iter().for_each(|v| self.mesh.remove(v));
     }
@@ -157,8 +169,9 @@ impl Gcdr<'_> {
     fn cut_fan(&mut self, id: BallId, why: &'static str) -> bool {
         let fan = &self.fans[id];
         let (corner, radius) = (VertexId(fan.corner.0), 0.5 * fan.radius);
-        let cuts = self.shells(corner, radius, &fan.spokes);
-        let free = fan.spokes.iter().flat_map(|&spoke| self.encroachers(spoke).free).collect();
+        let spokes = fan.spokes.clone();
+        let cuts = self.shells(corner, radius, &spokes);
+        let free = spokes.iter().flat_map(|&spoke| self.encroachers(spoke).free).collect();
         let Some(parts) = self.split_together(&cuts, free, why) else { return false };
         self.fans[id].radius = radius;
         self.fans[id].spokes.clear();

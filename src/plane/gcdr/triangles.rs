@@ -18,7 +18,8 @@ impl Gcdr<'_> {
 
     /// Judges the triangles made since the last time; where a piece has moved, they get their regions first.
     pub(super) fn settle(&mut self, carve: bool) {
-        let mut touched = self.mesh.take_touched();
+        let mut touched = std::mem::take(&mut self.touched);
+        self.mesh.take_touched(&mut touched);
         if carve {
             let kernel = self.mesh.kernel_mut();
             self.carver.carve(kernel, &self.subcurves, self.domain.curves(), &mut touched);
@@ -27,9 +28,8 @@ impl Gcdr<'_> {
             touched.dedup();
             touched.retain(|&t| self.mesh.topology().is_alive(t));
         }
-        for t in touched {
-            self.judge(t);
-        }
+        touched.drain(..).for_each(|t| self.judge(t));
+        self.touched = touched;
     }
 
     /// Queues a kept triangle that misses a bound.
@@ -39,7 +39,7 @@ impl Gcdr<'_> {
         let suspect = (t, self.mesh.topology().corners(t));
         let sin2 = sin2_smallest(corners);
         if sin2 < self.sin2_min {
-            return self.push_skinny(suspect);
+            return self.push_skinny(suspect, corners, sin2);
         }
         let excess = self.field.excess(region, corners);
         if excess > 1.0 {
@@ -47,14 +47,13 @@ impl Gcdr<'_> {
         }
     }
 
-    fn push_skinny(&mut self, suspect: Suspect) {
-        let corners = self.corners(suspect.0);
+    fn push_skinny(&mut self, suspect: Suspect, corners: [Point; 3], sin2: f64) {
         // Lengths by octaves below the unit to which the domain is scaled: 2^-40 is as short as it gets.
         let octaves = |length: f64| -libm::log2(length) / 40.0;
         let badness = match self.strategy.order() {
             _ if self.doomed(suspect.0).is_some() => 1.0,
             // By the sine: its square would crowd what is nearly good enough.
-            Order::SmallestAngle => 1.0 - (sin2_smallest(corners) / self.sin2_min).sqrt(),
+            Order::SmallestAngle => 1.0 - (sin2 / self.sin2_min).sqrt(),
             Order::ShortestEdge => octaves((0..3).map(|i| edge2(corners, i)).fold(f64::INFINITY, f64::min).sqrt()),
             Order::SmallestCircle => octaves(circumcircle(corners).1),
         };
@@ -194,6 +193,7 @@ impl Gcdr<'_> {
         let v = self.mesh.fill(p, &self.cavity);
         self.origins.push(Origin::Free);
         self.alive += 1;
+        self.free += 1;
         self.counters.add("vertices_free", 1);
         if self.options.record {
             self.record(v, InsertionKind::A, parent);
