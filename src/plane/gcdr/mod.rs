@@ -6,8 +6,10 @@
 //! sees it, else of type B. Otherwise p goes in. Whose point it is, a [`SteinerStrategy`] says.
 //!
 //! *What is proven.* It ends, on segments that meet at 60° and more, for angles up to 30° and points within their regions (Theorem 6.1). Good
-//! grading is proven where C₁C₂ > 1, up to 26.57° for centres ([`Regions::least_densities`]); beyond, it is observed. Above 30°, with a
-//! [free](SteinerStrategy::is_free) strategy, on curves and at sharper corners, that it ends is observed, and the budget ends what does not.
+//! grading is proven where C₁C₂ > 1, up to 26.57° for centres ([`Regions::least_densities`]); beyond, it is observed. Off-centres and
+//! locally optimal points have larger [disks](steiner::Disks::ByShape) without loss of the bounds on insertion radii: that refinement ends is
+//! proven to the same angle, that it is well graded is observed. Above 30°, with a [free](SteinerStrategy::is_free) strategy, on curves and
+//! at sharper corners, that it ends is observed, and the budget ends what does not.
 //!
 //! What the paper leaves open, and how it is done here:
 //!
@@ -176,8 +178,8 @@ pub fn refine(
 }
 
 impl Options {
-    /// What the densities of a domain's mesh are held to by a strategy that is not free: `None` on curves, at angles below 60°, and where
-    /// sizes are asked for, which insert vertices of their own.
+    /// What the densities of a domain's mesh are held to by a strategy whose disks are alike, and that keeps to them: `None` on curves, at
+    /// angles below 60°, and where sizes are asked for, which insert vertices of their own.
     pub fn density_promise(&self, domain: &Domain) -> Option<DensityPromise> {
         let straight = domain.curves().iter().all(|c| c.curve.is_straight());
         let sharp = |p: PointId| domain.corner(p).is_some_and(|corner| corner.angle_rad <= SHARP_RAD);

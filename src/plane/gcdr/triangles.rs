@@ -1,6 +1,7 @@
 //! Points of type A: which triangles miss a bound, whom a corner excuses, and what mends the others.
 
-use super::steiner::{Order, Skinny};
+use super::parameters::radius_edge_of;
+use super::steiner::{Disks, Order, Skinny};
 use super::{Gcdr, Origin, Suspect, suspects};
 use crate::geometry::{Point, scaled};
 use crate::ids::{CurveId, PieceId, RegionId, TriangleId, VertexId};
@@ -86,9 +87,7 @@ impl Gcdr<'_> {
         if skinny && let Some(piece) = self.doomed(t) {
             return self.encroach(suspect, piece, parent);
         }
-        // A disk of no size leaves no choice.
-        let chosen = if self.strategy.is_free() { skinny } else { self.options.regions.delta2 < 1.0 };
-        let p = if chosen { self.choose_in_disk(t, region, center, radius) } else { center };
+        let p = self.choose_in_disk(t, region, (center, radius), skinny);
         self.kill(suspect, p, parent);
     }
 
@@ -140,7 +139,13 @@ impl Gcdr<'_> {
     }
 
     /// F_A, moved into the disk unless the strategy is free.
-    fn choose_in_disk(&mut self, t: TriangleId, region: RegionId, center: Point, radius: f64) -> Point {
+    fn choose_in_disk(&mut self, t: TriangleId, region: RegionId, circle: (Point, f64), skinny: bool) -> Point {
+        let (center, radius) = circle;
+        let reach = self.reach(t, radius);
+        let has_choice = if self.strategy.is_free() { skinny } else { reach > 0.0 };
+        if !has_choice {
+            return center;
+        }
         let topology = self.mesh.topology();
         let down = |p: Point| scaled(p, 1.0 / self.scale);
         let corners = self.corners(t);
@@ -150,7 +155,6 @@ impl Gcdr<'_> {
             let apex = topology.apex(topology.twin(s));
             (topology.piece(s).is_none() && apex != GHOST).then(|| down(self.mesh.point(apex)))
         });
-        let reach = radius * (1.0 - self.options.regions.delta2);
         let skinny = Skinny {
             corners: sides.map(|s| down(self.mesh.point(topology.origin(s)))),
             across,
@@ -168,6 +172,17 @@ impl Gcdr<'_> {
         } else {
             center
         }
+    }
+
+    /// The radius of a triangle's selection disk. What is only too large has no shorter edge than r/ρ̄: to it disks are alike.
+    fn reach(&self, t: TriangleId, radius: f64) -> f64 {
+        let corners = self.corners(t);
+        let shortest = (0..3).map(|i| edge2(corners, i)).fold(f64::INFINITY, f64::min).sqrt();
+        let spared = match self.strategy.disks() {
+            Disks::Alike => radius,
+            Disks::ByShape => radius.min(radius_edge_of(self.options.angle_min_rad) * shortest),
+        };
+        radius - self.options.regions.delta2 * spared
     }
 
     /// Inserts a point that removes a triangle, or splits the nearest segment that hides it from there.
