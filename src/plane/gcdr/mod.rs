@@ -217,8 +217,8 @@ impl<'s> Gcdr<'s> {
         let resolution = RIM_ROUNDING * magnitude * scale;
         let is_sharp = |p: PointId| domain.corner(p).is_some_and(|corner| corner.angle_rad <= SHARP_RAD);
         let sharp: IdVec<PointId, bool> = domain.points().ids().map(is_sharp).collect();
-        let mut beginning = Beginning::new(&domain, resolution);
-        beginning.cut_curves(&sharp, &field);
+        let mut beginning = Beginning::new(&domain, &sharp, resolution);
+        beginning.cut_curves(&field);
         let stopped = beginning.part_hulls(options.max_vertices, watch).is_err();
         if stopped || beginning.points.len() > options.max_vertices {
             let reason = if stopped { StopReason::Cancelled } else { StopReason::VertexBudget };

@@ -1,12 +1,12 @@
 //! Points of types B and C: segments that are encroached or too large, and where they are split.
 
-use super::chords::{Hull, curve_of, shape_of};
+use super::chords::{Hull, curve_of, shape_of, shell_between};
 use super::steiner::Encroached;
 use super::{Gcdr, Origin};
 use crate::curve::End;
 use crate::geometry::exact::{CircleSide, in_diametral};
 use crate::geometry::{Point, Vec2, scaled};
-use crate::ids::{BallId, PieceId, PointId, TriangleId, VertexId};
+use crate::ids::{BallId, PieceId, TriangleId, VertexId};
 use crate::mesh::InsertionKind;
 use crate::plane::insert::{self, Location};
 use crate::plane::subcurves::{Piece, Standing};
@@ -58,7 +58,7 @@ impl Gcdr<'_> {
             return self.cut_fan(fan, why);
         }
         let Encroachers { free, others, type_c } = self.encroachers(id);
-        let t = match self.distance_to_sharp_end(&piece) {
+        let t = match shell_between(&self.domain, &self.sharp, &piece, self.ends_of(&piece)) {
             Some((end, radius)) => shape_of(&self.domain, &piece).leaves_ball(end, radius, 0.0, 1.0),
             None => self.choose(&piece, type_c),
         };
@@ -92,24 +92,6 @@ impl Gcdr<'_> {
         let normal = Vec2::new(x.y - y.y, y.x - x.x);
         let found = shape.line_crossings(x.lerp(y, share), normal, t0, t1);
         Some(found.first().copied().unwrap_or_else(|| shape.bisector_crossing(t0, t1)))
-    }
-
-    /// On a curve that ends at a sharp corner: which end that is, and the distance from it at which a piece is split: the roundest binary
-    /// number in the middle third. Next to the corner that is a power of two (Ruppert's concentric shells); and wherever they are split, the
-    /// two curves of a narrow corner are split at the same distances.
-    fn distance_to_sharp_end(&self, piece: &Piece) -> Option<(End, f64)> {
-        let curve = &self.domain.curves()[curve_of(piece)];
-        let [x, y] = self.ends_of(piece);
-        let middle = x.midpoint(y);
-        let corners =
-            [(End::Start, curve.ends[0]), (End::Finish, curve.ends[1])].into_iter().filter(|&(_, p)| self.sharp[p]);
-        let away = |p: PointId| middle.distance(self.domain.points()[p]);
-        let (end, corner) = corners.min_by(|a, b| away(a.1).total_cmp(&away(b.1)))?;
-        let at = self.domain.points()[corner];
-        let (near, far) = (at.distance(x).min(at.distance(y)), at.distance(x).max(at.distance(y)));
-        let chord = x.distance(y);
-        let third = (far - near) / 3.0;
-        (far - near > 0.5 * chord).then(|| (end, roundest_between(near + third, far - third)))
     }
 
     /// Rule 4 of Definition 2.5.
@@ -311,19 +293,5 @@ impl Gcdr<'_> {
     pub(super) fn stop_too_near(&mut self, at: Point) {
         self.too_near.push(at);
         self.reason = StopReason::Arithmetic;
-    }
-}
-
-/// The multiple of the largest power of two between two positive numbers.
-fn roundest_between(low: f64, high: f64) -> f64 {
-    let mut exponent = libm::ilogb(high);
-    // A step no longer than the interval has a multiple in it.
-    loop {
-        let step = libm::ldexp(1.0, exponent);
-        let multiple = (high / step).floor() * step;
-        if multiple >= low || step < 0.25 * (high - low) || high <= low {
-            return multiple;
-        }
-        exponent -= 1;
     }
 }
