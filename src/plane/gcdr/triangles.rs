@@ -176,11 +176,13 @@ impl Gcdr<'_> {
 
     /// The radius of a triangle's selection disk. What is only too large has no shorter edge than r/ρ̄: to it disks are alike.
     fn reach(&self, t: TriangleId, radius: f64) -> f64 {
-        let corners = self.corners(t);
-        let shortest = (0..3).map(|i| edge2(corners, i)).fold(f64::INFINITY, f64::min).sqrt();
         let spared = match self.strategy.disks() {
             Disks::Alike => radius,
-            Disks::ByShape => radius.min(radius_edge_of(self.options.angle_min_rad) * shortest),
+            Disks::ByShape => {
+                let corners = self.corners(t);
+                let shortest = (0..3).map(|i| edge2(corners, i)).fold(f64::INFINITY, f64::min).sqrt();
+                radius.min(radius_edge_of(self.options.angle_min_rad) * shortest)
+            }
         };
         radius - self.options.regions.delta2 * spared
     }
