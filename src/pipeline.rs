@@ -13,7 +13,7 @@ use crate::mesh::{Insertion, Mesh};
 use crate::plane;
 use crate::plane::gcdr;
 use crate::plane::gcdr::parameters::radius_edge_of;
-use crate::plane::gcdr::steiner::{self, SteinerStrategy};
+use crate::plane::gcdr::steiner::{self, Disks, SteinerStrategy};
 use crate::plane::lopping::demand::Demand;
 use crate::plane::lopping::{self, Lopping, RefineError, Refined, Shrinking};
 use crate::refine::{Stop, StopReason};
@@ -639,7 +639,7 @@ impl Plan {
     /// Holds the densities that a run recorded to their bounds; none where it did not.
     pub fn densities(&self, domain: &Domain, mesh: &Mesh, insertions: &[Insertion]) -> Vec<Check> {
         let Some(gcdr) = self.gcdr.as_ref().filter(|gcdr| gcdr.options.record) else { return Vec::new() };
-        let promise = gcdr.options.density_promise(domain).filter(|_| !gcdr.steiner.is_free());
+        let promise = gcdr.options.density_promise(domain).filter(|_| gcdr.strategy().disks() == Disks::Alike);
         verify::densities(domain, mesh, insertions, promise).into()
     }
 

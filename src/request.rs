@@ -228,16 +228,16 @@ impl Request {
         self.min_angle.to_radians()
     }
 
-    /// δ₂, δ₁ and μ as given; where not: centres, but the widest disks that the angle leaves to a strategy that would not take centres.
+    /// δ₂, δ₁ and μ as given; where not: 1, but the widest disks that the angle leaves to a strategy whose disks are alike and that would not
+    /// take centres.
     pub fn regions(&self) -> Regions {
         let default = match self.steiner {
-            Steiner::Center | Steiner::OffcenterFree | Steiner::OptimalFree => Regions::CENTERS,
-            Steiner::Offcenter
-            | Steiner::Optimal
-            | Steiner::Extreme
-            | Steiner::Random
-            | Steiner::Snap
-            | Steiner::Size => Regions::widest_disks(radius_edge_of(self.angle_min_rad())),
+            Steiner::Center | Steiner::Offcenter | Steiner::Optimal | Steiner::OffcenterFree | Steiner::OptimalFree => {
+                Regions::CENTERS
+            }
+            Steiner::Extreme | Steiner::Random | Steiner::Snap | Steiner::Size => {
+                Regions::widest_disks(radius_edge_of(self.angle_min_rad()))
+            }
         };
         Regions {
             delta2: self.delta2.unwrap_or(default.delta2),
@@ -306,9 +306,9 @@ impl FromStr for Engine {
 pub enum Steiner {
     /// Centres: Chew's second algorithm.
     Center,
-    /// Off-centres (Üngör 2004), kept within the regions.
+    /// Off-centres (Üngör 2004), within regions that are larger in skinnier triangles.
     Offcenter,
-    /// Locally optimal points (Erten & Üngör 2007), kept within the regions.
+    /// Locally optimal points (Erten & Üngör 2007), kept within such regions.
     Optimal,
     /// The border of the regions.
     Extreme,

@@ -125,8 +125,8 @@ pub struct Options {
     /// Arcs around sharp corners, which bound the largest angle [default: on]
     #[arg(long, value_enum, value_name = "on|off", help_heading = "Engine")]
     corner_arcs: Option<Switch>,
-    /// With gcdr: points in triangles lie within r(1 - delta2) of the circumcenter [default: 1; the least that the angle allows where
-    /// --steiner does not take centres]
+    /// With gcdr: points in triangles lie within r(1 - delta2) of the circumcenter, off-centres and optimal points within r - delta2 l/(2 sin
+    /// angle), where l is the shortest edge [default: 1; with --steiner extreme, random, snap and size the least that the angle allows]
     #[arg(long, value_name = "D", allow_hyphen_values = true, help_heading = "Engine")]
     delta2: Option<f64>,
     /// With gcdr: points on segments lie in the middle part of length |s|(1 - delta1) [default: 1]

@@ -8,8 +8,8 @@ use super::insert::{Cavity, Degenerate, Delaunay, Location};
 use super::triangulation::{GHOST, Side, Triangulation};
 use crate::geometry::Point;
 use crate::geometry::exact::{CircleSide, Orientation, in_circle, in_diametral, orient};
-use crate::ids::{PieceId, TriangleId, VertexId};
-use std::collections::{BTreeSet, VecDeque};
+use crate::ids::{Id, PieceId, TriangleId, VertexId};
+use std::collections::VecDeque;
 
 /// What a look along a line meets first.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -32,6 +32,31 @@ pub struct Constrained {
     delaunay: Delaunay,
     /// Triangles made since they were last taken; some may be gone again, some stand twice.
     touched: Vec<TriangleId>,
+    /// Triangles visited by the search that is under way.
+    visited: Visited,
+}
+
+/// A set of triangles that is emptied at no cost.
+#[derive(Default)]
+struct Visited {
+    /// The round in which each was added last.
+    rounds: Vec<u32>,
+    round: u32,
+}
+
+impl Visited {
+    fn clear(&mut self, capacity: usize) {
+        if self.round == u32::MAX {
+            *self = Self::default();
+        }
+        self.round += 1;
+        self.rounds.resize(capacity.max(self.rounds.len()), 0);
+    }
+
+    /// Whether it was not in the set.
+    fn insert(&mut self, t: TriangleId) -> bool {
+        std::mem::replace(&mut self.rounds[t.index()], self.round) != self.round
+    }
 }
 
 impl Constrained {
@@ -40,7 +65,7 @@ impl Constrained {
     /// # Errors
     /// As [`Delaunay::new`].
     pub fn new(points: Vec<Point>) -> Result<Self, Degenerate> {
-        Ok(Self { delaunay: Delaunay::new(points)?, touched: Vec::new() })
+        Ok(Self { delaunay: Delaunay::new(points)?, touched: Vec::new(), visited: Visited::default() })
     }
 
     pub fn topology(&self) -> &Triangulation {
@@ -62,9 +87,9 @@ impl Constrained {
         self.delaunay.point(v)
     }
 
-    /// The triangles made since the last time, each as often as it was made.
-    pub fn take_touched(&mut self) -> Vec<TriangleId> {
-        std::mem::take(&mut self.touched)
+    /// Moves the triangles made since the last time, each as often as it was made, to the end of a list.
+    pub fn take_touched(&mut self, list: &mut Vec<TriangleId>) {
+        list.append(&mut self.touched);
     }
 
     fn is_piece(&self, s: Side) -> bool {
@@ -81,8 +106,8 @@ impl Constrained {
     /// Acts: replaces the cavity of `p`, which must not lie on a piece, by the triangles that join `p` to its border.
     pub fn fill(&mut self, p: Point, cavity: &Cavity) -> VertexId {
         let v = self.delaunay.points.push(p);
-        self.delaunay.topology.star(v, &cavity.triangles, &cavity.border);
-        self.touched.extend(self.delaunay.topology.sides_from(v).map(Side::triangle));
+        let last = self.delaunay.topology.star(v, &cavity.triangles, &cavity.border);
+        self.touched.extend(cavity.triangles.iter().chain(&last));
         self.check_slowly();
         v
     }
@@ -354,40 +379,57 @@ impl Constrained {
         false
     }
 
-    /// The vertices inside the diametral circle of a side, to its left, that may see it: all that do, and some others.
-    ///
-    /// The apex of its triangle tells whether there are any: if it lies outside, so does whatever else the triangle sees. Otherwise
-    /// triangles are searched that hang together within the circle.
-    pub fn in_half_circle(&self, side: Side) -> Vec<VertexId> {
+    /// Whether the apex of a side's triangle lies inside the side's diametral circle. If not, nothing that sees the side from its left
+    /// does.
+    pub fn has_apex_in_half_circle(&self, side: Side) -> bool {
         let topology = self.topology();
         let [x, y] = [topology.origin(side), topology.target(side)].map(|v| self.point(v));
-        let inside = |v: VertexId| v != GHOST && in_diametral(x, y, self.point(v)) == CircleSide::Inside;
-        if !inside(topology.apex(side)) {
+        let apex = topology.apex(side);
+        apex != GHOST && in_diametral(x, y, self.point(apex)) == CircleSide::Inside
+    }
+
+    /// The vertices inside the diametral circle of a side, to its left, that may see it: all that do, and some others; ascending.
+    ///
+    /// Triangles are searched that hang together within the half circle.
+    pub fn in_half_circle(&mut self, side: Side) -> Vec<VertexId> {
+        if !self.has_apex_in_half_circle(side) {
             return Vec::new();
         }
+        let mut visited = std::mem::take(&mut self.visited);
+        visited.clear(self.topology().triangle_capacity());
+        let found = self.search_half_circle(side, &mut visited);
+        self.visited = visited;
+        found
+    }
+
+    /// [`Constrained::in_half_circle`], from an apex that lies in it on.
+    fn search_half_circle(&self, side: Side, visited: &mut Visited) -> Vec<VertexId> {
+        let topology = self.topology();
+        let [x, y] = [topology.origin(side), topology.target(side)].map(|v| self.point(v));
+        let inside = |v: VertexId| in_diametral(x, y, self.point(v)) == CircleSide::Inside;
+        let left = |v: VertexId| orient(x, y, self.point(v)) == Orientation::CounterClockwise;
         // What a rounded distance leaves out is no vertex inside: those are told exactly.
-        let (center, radius) = (x.midpoint(y), 0.5 * x.distance(y) * (1.0 + 1e-9));
+        let (center, reach2) = (x.midpoint(y), 0.25 * x.distance_squared(y) * (1.0 + 1e-9));
         let mut found = vec![topology.apex(side)];
-        let mut visited: BTreeSet<TriangleId> = BTreeSet::from([side.triangle()]);
-        let mut open = vec![side.triangle()];
-        while let Some(t) = open.pop() {
-            for s in [0, 1, 2].map(|i| t.side_of(i)) {
-                let beyond = topology.twin(s);
-                if self.is_piece(s) || topology.is_ghost(beyond.triangle()) {
-                    continue;
-                }
-                let ends = [topology.origin(s), topology.target(s)].map(|v| self.point(v));
-                if distance_to_segment(center, ends) < radius && visited.insert(beyond.triangle()) {
-                    open.push(beyond.triangle());
-                    // Its other corners were asked before.
-                    found.extend(Some(topology.apex(beyond)).filter(|&v| inside(v)));
-                }
+        visited.insert(side.triangle());
+        let mut open = vec![side.next(), side.prev()];
+        while let Some(s) = open.pop() {
+            let beyond = topology.twin(s);
+            if self.is_piece(s) || topology.is_ghost(beyond.triangle()) {
+                continue;
+            }
+            // A line of sight crosses only sides that reach to the left.
+            let ends = [topology.origin(s), topology.target(s)];
+            let near = distance2_to_segment(center, ends.map(|v| self.point(v))) < reach2;
+            if near && ends.into_iter().any(left) && visited.insert(beyond.triangle()) {
+                open.extend([beyond.next(), beyond.prev()]);
+                // Its other corners were asked before.
+                found.extend(Some(topology.apex(beyond)).filter(|&v| inside(v) && left(v)));
             }
         }
         found.sort_unstable();
         found.dedup();
-        let left = |v: &VertexId| orient(x, y, self.point(*v)) == Orientation::CounterClockwise;
-        found.into_iter().filter(left).collect()
+        found
     }
 
     // ---- checks ----
@@ -424,8 +466,8 @@ impl Constrained {
     }
 }
 
-fn distance_to_segment(p: Point, ends: [Point; 2]) -> f64 {
-    p.distance(ends[0].lerp(ends[1], share_along(p, ends).clamp(0.0, 1.0)))
+fn distance2_to_segment(p: Point, ends: [Point; 2]) -> f64 {
+    p.distance_squared(ends[0].lerp(ends[1], share_along(p, ends).clamp(0.0, 1.0)))
 }
 
 /// The share of the way along a segment at which a place lies beside it.

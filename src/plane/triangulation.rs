@@ -368,8 +368,9 @@ impl Triangulation {
     }
 
     /// Replaces a cavity by the star of a new vertex, the next after all there are. Border sides keep their pieces;
-    /// each new triangle has the region of the cavity's triangle on its border side.
-    pub(super) fn star(&mut self, apex: VertexId, triangles: &[TriangleId], border: &[Side]) {
+    /// each new triangle has the region of the cavity's triangle on its border side. The new triangles are those of the cavity, and the
+    /// two returned.
+    pub(super) fn star(&mut self, apex: VertexId, triangles: &[TriangleId], border: &[Side]) -> [TriangleId; 2] {
         let mut labels = std::mem::take(&mut self.labels);
         labels.clear();
         labels.extend(border.iter().map(|&s| (self.piece_label(s), self.regions[s.triangle().index()])));
@@ -383,6 +384,7 @@ impl Triangulation {
         }
         self.anchors.push(Side::of(triangles[0], 2));
         self.labels = labels;
+        last
     }
 
     /// Replaces the three triangles around a vertex of degree 3 by one, which keeps the id and region of the first.

@@ -4,6 +4,7 @@
 use super::*;
 use crate::geometry::dice::Dice;
 use crate::ids::Id;
+use std::collections::BTreeSet;
 
 /// Points, and segments between them of which no two cross.
 struct Scene {
@@ -177,7 +178,7 @@ fn a_segment_that_is_blocked_changes_nothing() {
 fn sight_agrees_with_every_segment_asked() {
     let (mut seen, mut hidden) = (0, 0);
     for (seed, scene) in scenes() {
-        let built = scene.build();
+        let mut built = scene.build();
         for &[a, b] in &scene.segments {
             let side = built.topology().side_between(VertexId::from_index(a), VertexId::from_index(b)).unwrap();
             let [x, y] = [scene.points[a], scene.points[b]];
@@ -194,8 +195,10 @@ fn sight_agrees_with_every_segment_asked() {
                     in_circle.push(v);
                 }
             }
-            let sighted = |s: Side| built.in_half_circle(s).into_iter().filter(|&v| built.sees(v, s)).collect();
-            let found: [Vec<VertexId>; 2] = [side, built.topology().twin(side)].map(sighted);
+            let found: [Vec<VertexId>; 2] = [side, built.topology().twin(side)].map(|s| {
+                let inside = built.in_half_circle(s);
+                inside.into_iter().filter(|&v| built.sees(v, s)).collect()
+            });
             let mut found = found.concat();
             found.sort_unstable();
             assert_eq!(found, in_circle, "seed {seed}: segment {a} {b}");

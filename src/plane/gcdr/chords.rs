@@ -2,8 +2,10 @@
 //!
 //! What is split later stays within the convex hull of its piece, and so does every chord of it. A piece of lens angle λ lies in its
 //! lens, which is convex and lies in the rhombus on its chord with angles 2λ at the ends. So curved pieces are split until no two rhombi
-//! meet but in a common end. Two curves that share an end at a sharp corner may lie in each other's hulls however short they are: there
-//! all curves are cut at one distance from the corner, and from then on together ([`Fan`]): equal distances keep their order.
+//! meet but in a common end: at the bisector, or on curves that end at a sharp corner on [shells](shell_between) around it, so that edges
+//! across a cusp have their ends equally far from it and may stay. Two curves that share an end at a sharp corner may lie in each other's
+//! hulls however short they are: there all curves are cut at one distance from the corner, and from then on together ([`Fan`]): equal
+//! distances keep their order.
 
 use super::{Fan, Origin};
 use crate::curve::{Curve, End};
@@ -18,6 +20,8 @@ use crate::watch::{Progress, Stopped, Watch};
 /// What stands before there is a triangulation.
 pub(super) struct Beginning<'a> {
     domain: &'a Domain,
+    /// Whether curves meet at less than 60°.
+    sharp: &'a IdVec<PointId, bool>,
     pub(super) points: Vec<Point>,
     pub(super) origins: IdVec<VertexId, Origin>,
     pub(super) subcurves: Subcurves,
@@ -35,9 +39,10 @@ pub(super) struct Hull {
 }
 
 impl<'a> Beginning<'a> {
-    pub(super) fn new(domain: &'a Domain, resolution: f64) -> Self {
+    pub(super) fn new(domain: &'a Domain, sharp: &'a IdVec<PointId, bool>, resolution: f64) -> Self {
         Self {
             domain,
+            sharp,
             points: domain.points().iter().copied().collect(),
             origins: domain.points().ids().map(Origin::Input).collect(),
             subcurves: Subcurves::default(),
@@ -52,8 +57,8 @@ impl<'a> Beginning<'a> {
     }
 
     /// Cuts every curve at the fans of its ends.
-    pub(super) fn cut_curves(&mut self, sharp: &IdVec<PointId, bool>, field: &SizeField) {
-        let fan_of = self.place_fans(sharp, field);
+    pub(super) fn cut_curves(&mut self, field: &SizeField) {
+        let fan_of = self.place_fans(field);
         for (id, curve) in self.domain.curves().enumerate() {
             let carrier = Carrier::Curve(id);
             let (mut t, mut ends) = ([0.0, 1.0], curve.ends.map(|p| VertexId(p.0)));
@@ -75,9 +80,9 @@ impl<'a> Beginning<'a> {
 
     /// A fan at every sharp corner that a bent curve ends at: of a radius that is a power of two, at most a third of lfs(p), so that two
     /// never meet and nothing else comes in.
-    fn place_fans(&mut self, sharp: &IdVec<PointId, bool>, field: &SizeField) -> IdVec<PointId, Option<BallId>> {
+    fn place_fans(&mut self, field: &SizeField) -> IdVec<PointId, Option<BallId>> {
         let bent = |p: PointId| self.domain.star(p).iter().any(|i| !self.domain.curves()[i.curve].curve.is_straight());
-        let wanted: Vec<PointId> = self.domain.points().ids().filter(|&p| sharp[p] && bent(p)).collect();
+        let wanted: Vec<PointId> = self.domain.points().ids().filter(|&p| self.sharp[p] && bent(p)).collect();
         let mut fan_of: IdVec<PointId, Option<BallId>> = vec![None; self.domain.points().len()].into();
         if wanted.is_empty() {
             return fan_of;
@@ -109,6 +114,9 @@ impl<'a> Beginning<'a> {
     fn meeting(&self, dirty: &[PieceId]) -> Vec<PieceId> {
         let live = self.subcurves.ids().filter(|&id| !self.subcurves.get(id).is_gone());
         let mut hulls: Vec<Hull> = live.map(|id| self.hull(id)).collect();
+        if hulls.iter().all(|h| h.lambda == 0.0) {
+            return Vec::new();
+        }
         let lone = self.domain.points().ids().filter(|&p| self.domain.star(p).is_empty());
         hulls.extend(lone.map(|p| {
             let at = self.domain.points()[p];
@@ -171,11 +179,15 @@ impl<'a> Beginning<'a> {
         meets(first, second) || meets(second, first)
     }
 
-    /// Splits a bent piece at its bisector; `None` of a spoke, and where coordinates cannot hold it: joining will tell.
+    /// Splits a bent piece on a shell around a sharp corner, or at its bisector; `None` of a spoke, and where coordinates cannot hold it:
+    /// joining will tell.
     fn split(&mut self, id: PieceId) -> Option<[PieceId; 2]> {
         let piece = *self.subcurves.get(id);
         let shape = shape_of(self.domain, &piece);
-        let t = shape.bisector_crossing(piece.t[0], piece.t[1]);
+        let ends = piece.ends.map(|v| self.points[v.index()]);
+        let on_shell = shell_between(self.domain, self.sharp, &piece, ends)
+            .and_then(|(end, radius)| shape.leaves_ball(end, radius, 0.0, 1.0));
+        let t = on_shell.unwrap_or_else(|| shape.bisector_crossing(piece.t[0], piece.t[1]));
         let at = shape.point(t);
         let room = piece.ends.map(|v| at.distance(self.points[v.index()]));
         if piece.is_spoke() || room[0].min(room[1]) < self.resolution || !(piece.t[0] < t && t < piece.t[1]) {
@@ -202,6 +214,41 @@ pub(super) fn curve_of(piece: &Piece) -> CurveId {
     match piece.carrier {
         Carrier::Curve(curve) => curve,
         Carrier::Arc(..) => unreachable!("this engine makes no arcs"),
+    }
+}
+
+/// On a curve that ends at a sharp corner: which end that is, and the distance from it at which a piece is split: the roundest binary
+/// number in the middle third. Next to the corner that is a power of two (Ruppert's concentric shells); and wherever they are split, the
+/// two curves of a narrow corner are split at the same distances.
+pub(super) fn shell_between(
+    domain: &Domain,
+    sharp: &IdVec<PointId, bool>,
+    piece: &Piece,
+    [x, y]: [Point; 2],
+) -> Option<(End, f64)> {
+    let curve = &domain.curves()[curve_of(piece)];
+    let middle = x.midpoint(y);
+    let corners = [(End::Start, curve.ends[0]), (End::Finish, curve.ends[1])].into_iter().filter(|&(_, p)| sharp[p]);
+    let away = |p: PointId| middle.distance(domain.points()[p]);
+    let (end, corner) = corners.min_by(|a, b| away(a.1).total_cmp(&away(b.1)))?;
+    let at = domain.points()[corner];
+    let (near, far) = (at.distance(x).min(at.distance(y)), at.distance(x).max(at.distance(y)));
+    let chord = x.distance(y);
+    let third = (far - near) / 3.0;
+    (far - near > 0.5 * chord).then(|| (end, roundest_between(near + third, far - third)))
+}
+
+/// The multiple of the largest power of two between two positive numbers.
+fn roundest_between(low: f64, high: f64) -> f64 {
+    let mut exponent = libm::ilogb(high);
+    // A step no longer than the interval has a multiple in it.
+    loop {
+        let step = libm::ldexp(1.0, exponent);
+        let multiple = (high / step).floor() * step;
+        if multiple >= low || step < 0.25 * (high - low) || high <= low {
+            return multiple;
+        }
+        exponent -= 1;
     }
 }
 

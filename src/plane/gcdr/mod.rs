@@ -6,8 +6,10 @@
 //! sees it, else of type B. Otherwise p goes in. Whose point it is, a [`SteinerStrategy`] says.
 //!
 //! *What is proven.* It ends, on segments that meet at 60° and more, for angles up to 30° and points within their regions (Theorem 6.1). Good
-//! grading is proven where C₁C₂ > 1, up to 26.57° for centres ([`Regions::least_densities`]); beyond, it is observed. Above 30°, with a
-//! [free](SteinerStrategy::is_free) strategy, on curves and at sharper corners, that it ends is observed, and the budget ends what does not.
+//! grading is proven where C₁C₂ > 1, up to 26.57° for centres ([`Regions::least_densities`]); beyond, it is observed. Off-centres and
+//! locally optimal points have larger [disks](steiner::Disks::ByShape) without loss of the bounds on insertion radii: that refinement ends is
+//! proven to the same angle, that it is well graded is observed. Above 30°, with a [free](SteinerStrategy::is_free) strategy, on curves and
+//! at sharper corners, that it ends is observed, and the budget ends what does not.
 //!
 //! What the paper leaves open, and how it is done here:
 //!
@@ -42,7 +44,7 @@ use super::subcurves::Subcurves;
 use super::suspects::{self, Suspect, Suspects};
 use crate::domain::Domain;
 use crate::geometry::{self, Point};
-use crate::ids::{BallId, CurveId, Id, IdVec, PieceId, PointId, VertexId};
+use crate::ids::{BallId, CurveId, Id, IdVec, PieceId, PointId, TriangleId, VertexId};
 use crate::mesh::verify::{ConstrainedPromise, DensityPromise, Promise};
 use crate::mesh::{Insertion, InsertionKind, RIM_ROUNDING};
 use crate::refine::{Counters, Stop, StopReason};
@@ -121,6 +123,8 @@ pub struct Gcdr<'s> {
     origins: IdVec<VertexId, Origin>,
     /// Vertices that were not deleted.
     alive: usize,
+    /// Of these, the free ones.
+    free: usize,
     subcurves: Subcurves,
     fans: IdVec<BallId, Fan>,
     /// Whether curves meet at less than 60°.
@@ -131,6 +135,8 @@ pub struct Gcdr<'s> {
     bad: Suspects,
     carver: Carver,
     cavity: Cavity,
+    /// Triangles to be judged; empty between steps, kept for its memory.
+    touched: Vec<TriangleId>,
     counters: Counters,
     reason: StopReason,
     /// Where something could not be done: below what the coordinates can tell apart.
@@ -172,8 +178,8 @@ pub fn refine(
 }
 
 impl Options {
-    /// What the densities of a domain's mesh are held to by a strategy that is not free: `None` on curves, at angles below 60°, and where
-    /// sizes are asked for, which insert vertices of their own.
+    /// What the densities of a domain's mesh are held to by a strategy whose disks are alike, and that keeps to them: `None` on curves, at
+    /// angles below 60°, and where sizes are asked for, which insert vertices of their own.
     pub fn density_promise(&self, domain: &Domain) -> Option<DensityPromise> {
         let straight = domain.curves().iter().all(|c| c.curve.is_straight());
         let sharp = |p: PointId| domain.corner(p).is_some_and(|corner| corner.angle_rad <= SHARP_RAD);
@@ -211,8 +217,8 @@ impl<'s> Gcdr<'s> {
         let resolution = RIM_ROUNDING * magnitude * scale;
         let is_sharp = |p: PointId| domain.corner(p).is_some_and(|corner| corner.angle_rad <= SHARP_RAD);
         let sharp: IdVec<PointId, bool> = domain.points().ids().map(is_sharp).collect();
-        let mut beginning = Beginning::new(&domain, resolution);
-        beginning.cut_curves(&sharp, &field);
+        let mut beginning = Beginning::new(&domain, &sharp, resolution);
+        beginning.cut_curves(&field);
         let stopped = beginning.part_hulls(options.max_vertices, watch).is_err();
         if stopped || beginning.points.len() > options.max_vertices {
             let reason = if stopped { StopReason::Cancelled } else { StopReason::VertexBudget };
@@ -232,11 +238,13 @@ impl<'s> Gcdr<'s> {
             bad: Suspects::default(),
             carver: Carver::default(),
             cavity: Cavity::default(),
+            touched: Vec::new(),
             counters: Counters::default(),
             reason: StopReason::Done,
             too_near: Vec::new(),
             sin2_min: sin_min * sin_min,
             alive: origins.len(),
+            free: 0,
             options: options.clone(),
             insertions: Vec::new(),
             resolution,
@@ -254,7 +262,7 @@ impl<'s> Gcdr<'s> {
         gcdr.counters.add("vertices_chord", (gcdr.origins.len() - gcdr.domain.points().len()) as u64);
         let live: Vec<PieceId> = gcdr.subcurves.ids().rev().filter(|&id| !gcdr.subcurves.get(id).is_gone()).collect();
         live.into_iter().for_each(|id| gcdr.suspect(id));
-        gcdr.mesh.take_touched();
+        gcdr.mesh.take_touched(&mut Vec::new());
         let mut all = carve::all_triangles(gcdr.mesh.kernel());
         gcdr.carver.carve(gcdr.mesh.kernel_mut(), &gcdr.subcurves, gcdr.domain.curves(), &mut all);
         all.into_iter().for_each(|t| gcdr.judge(t));

@@ -6,7 +6,7 @@ use std::f64::consts::FRAC_PI_2;
 /// The sizes of the selection regions (Definitions 3.1–3.3); 1: the region is its centre.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Regions {
-    /// Type A points lie within r(1−δ₂) of the circumcenter.
+    /// Type A points lie within r(1−δ₂) of the circumcenter, or, where [disks are by shape](super::steiner::Disks::ByShape), within r − δ₂ρ̄l.
     pub delta2: f64,
     /// Type B points lie in the middle part of length |s|(1−δ₁).
     pub delta1: f64,
@@ -32,7 +32,7 @@ pub fn radius_edge_of(angle_rad: f64) -> f64 {
 }
 
 impl Regions {
-    /// All regions are their centres: Chew's second algorithm (1993).
+    /// All regions are their centres: Chew's second algorithm (1993), where disks are alike.
     pub const CENTERS: Self = Self { delta2: 1.0, delta1: 1.0, mu: 1.0 };
 
     /// All freedom that ρ̄ leaves to the points inside triangles; none for those on segments.
@@ -74,7 +74,8 @@ impl Regions {
         ([rho * delta2, 0.5 * delta1 * 3f64.sqrt(), c3, c4], [(2.0 - delta2) / delta2, b3, (2.0 - mu) / mu])
     }
 
-    /// The input angle above which refinement of segments is proven to end, well graded; `None` where it is not.
+    /// The input angle above which refinement of segments is proven to end, and where disks are alike, well graded; `None` where it is
+    /// not.
     ///
     /// That is where (5.11)–(5.19) have a solution. The proof of Theorem 4.6 has C₂ = δ₁cos κ before it puts in 30°: with that centres are
     /// proven up to 26.57°, as Shewchuk (2002) has it for Chew's algorithm.

@@ -1,12 +1,12 @@
 //! Points of types B and C: segments that are encroached or too large, and where they are split.
 
-use super::chords::{Hull, curve_of, shape_of};
+use super::chords::{Hull, curve_of, shape_of, shell_between};
 use super::steiner::Encroached;
 use super::{Gcdr, Origin};
 use crate::curve::End;
 use crate::geometry::exact::{CircleSide, in_diametral};
 use crate::geometry::{Point, Vec2, scaled};
-use crate::ids::{BallId, PieceId, PointId, TriangleId, VertexId};
+use crate::ids::{BallId, PieceId, TriangleId, VertexId};
 use crate::mesh::InsertionKind;
 use crate::plane::insert::{self, Location};
 use crate::plane::subcurves::{Piece, Standing};
@@ -58,7 +58,7 @@ impl Gcdr<'_> {
             return self.cut_fan(fan, why);
         }
         let Encroachers { free, others, type_c } = self.encroachers(id);
-        let t = match self.distance_to_sharp_end(&piece) {
+        let t = match shell_between(&self.domain, &self.sharp, &piece, self.ends_of(&piece)) {
             Some((end, radius)) => shape_of(&self.domain, &piece).leaves_ball(end, radius, 0.0, 1.0),
             None => self.choose(&piece, type_c),
         };
@@ -94,24 +94,6 @@ impl Gcdr<'_> {
         Some(found.first().copied().unwrap_or_else(|| shape.bisector_crossing(t0, t1)))
     }
 
-    /// On a curve that ends at a sharp corner: which end that is, and the distance from it at which a piece is split: the roundest binary
-    /// number in the middle third. Next to the corner that is a power of two (Ruppert's concentric shells); and wherever they are split, the
-    /// two curves of a narrow corner are split at the same distances.
-    fn distance_to_sharp_end(&self, piece: &Piece) -> Option<(End, f64)> {
-        let curve = &self.domain.curves()[curve_of(piece)];
-        let [x, y] = self.ends_of(piece);
-        let middle = x.midpoint(y);
-        let corners =
-            [(End::Start, curve.ends[0]), (End::Finish, curve.ends[1])].into_iter().filter(|&(_, p)| self.sharp[p]);
-        let away = |p: PointId| middle.distance(self.domain.points()[p]);
-        let (end, corner) = corners.min_by(|a, b| away(a.1).total_cmp(&away(b.1)))?;
-        let at = self.domain.points()[corner];
-        let (near, far) = (at.distance(x).min(at.distance(y)), at.distance(x).max(at.distance(y)));
-        let chord = x.distance(y);
-        let third = (far - near) / 3.0;
-        (far - near > 0.5 * chord).then(|| (end, roundest_between(near + third, far - third)))
-    }
-
     /// Rule 4 of Definition 2.5.
     fn nearest_seen(&self, v: VertexId, vertices: Vec<VertexId>) -> Option<VertexId> {
         let away = |w: &VertexId| self.mesh.point(*w).distance_squared(self.mesh.point(v));
@@ -119,18 +101,29 @@ impl Gcdr<'_> {
         seen.min_by(|a, b| away(a).total_cmp(&away(b)))
     }
 
-    fn encroachers(&self, id: PieceId) -> Encroachers {
+    fn encroachers(&mut self, id: PieceId) -> Encroachers {
         let mut found = Encroachers::default();
-        for side in self.side_of(id).into_iter().flat_map(|s| [s, self.mesh.topology().twin(s)]) {
-            let (of_side, rest): (Vec<VertexId>, Vec<VertexId>) =
-                self.mesh.in_half_circle(side).into_iter().partition(|&v| self.origins[v] == Origin::Free);
+        let Some(side) = self.side_of(id) else { return found };
+        for side in [side, self.mesh.topology().twin(side)] {
+            // The apex sees the segment, and if it lies outside the circle, so does whatever else sees it from there.
+            if !self.mesh.has_apex_in_half_circle(side) {
+                continue;
+            }
+            found.type_c = found.type_c || !self.is_free(self.mesh.topology().apex(side));
+            if self.free == 0 && !self.options.record {
+                continue;
+            }
+            let inside = self.mesh.in_half_circle(side);
+            let (of_side, rest): (Vec<VertexId>, Vec<VertexId>) = inside.into_iter().partition(|&v| self.is_free(v));
             found.free.extend(of_side.into_iter().filter(|&v| self.mesh.sees(v, side)));
-            found.type_c = found.type_c
-                || rest.contains(&self.mesh.topology().apex(side))
-                || rest.iter().any(|&v| self.mesh.sees(v, side));
+            found.type_c = found.type_c || rest.iter().any(|&v| self.mesh.sees(v, side));
             found.others.extend(rest);
         }
         found
+    }
+
+    fn is_free(&self, v: VertexId) -> bool {
+        self.origins[v] == Origin::Free
     }
 
     /// Deletes free vertices, some of which may be given twice.
@@ -138,6 +131,7 @@ impl Gcdr<'_> {
         vertices.sort_unstable();
         vertices.dedup();
         self.alive -= vertices.len();
+        self.free -= vertices.len();
         self.counters.add("vertices_deleted", vertices.len() as u64);
         vertices.into_iter().for_each(|v| self.mesh.remove(v));
     }
@@ -157,8 +151,9 @@ impl Gcdr<'_> {
     fn cut_fan(&mut self, id: BallId, why: &'static str) -> bool {
         let fan = &self.fans[id];
         let (corner, radius) = (VertexId(fan.corner.0), 0.5 * fan.radius);
-        let cuts = self.shells(corner, radius, &fan.spokes);
-        let free = fan.spokes.iter().flat_map(|&spoke| self.encroachers(spoke).free).collect();
+        let spokes = fan.spokes.clone();
+        let cuts = self.shells(corner, radius, &spokes);
+        let free = spokes.iter().flat_map(|&spoke| self.encroachers(spoke).free).collect();
         let Some(parts) = self.split_together(&cuts, free, why) else { return false };
         self.fans[id].radius = radius;
         self.fans[id].spokes.clear();
@@ -298,19 +293,5 @@ impl Gcdr<'_> {
     pub(super) fn stop_too_near(&mut self, at: Point) {
         self.too_near.push(at);
         self.reason = StopReason::Arithmetic;
-    }
-}
-
-/// The multiple of the largest power of two between two positive numbers.
-fn roundest_between(low: f64, high: f64) -> f64 {
-    let mut exponent = libm::ilogb(high);
-    // A step no longer than the interval has a multiple in it.
-    loop {
-        let step = libm::ldexp(1.0, exponent);
-        let multiple = (high / step).floor() * step;
-        if multiple >= low || step < 0.25 * (high - low) || high <= low {
-            return multiple;
-        }
-        exponent -= 1;
     }
 }

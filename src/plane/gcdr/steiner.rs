@@ -15,7 +15,7 @@ pub struct Skinny {
     pub across: [Option<Point>; 3],
     pub center: Point,
     pub radius: f64,
-    /// Radius of the disk around `center`: r(1−δ₂).
+    /// Radius of the disk around `center`, as the strategy's [`Disks`] say.
     pub reach: f64,
     /// The longest edge that is asked for there; infinite where none is.
     pub size: f64,
@@ -39,6 +39,21 @@ pub enum Order {
     SmallestCircle,
 }
 
+/// How large the selection disk of a skinny triangle is, of circumradius r and shortest edge l.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Disks {
+    /// r(1−δ₂), as printed (Definition 3.1).
+    Alike,
+    /// r − δ₂ρ̄l: the skinnier the triangle, the larger a part of its circle, as in the second kind of disk of Chernikov & Chrisochoides
+    /// (2009).
+    ///
+    /// That is Definition 3.1 with a δ₂ of the triangle's own, δ = δ₂ρ̄l/r, and Theorem 4.6 holds with the constants printed: case (1)
+    /// since R(p) ≥ δr = C₁l; case (2) since Lemma 4.5 needs no more than δ ≥ l/r, and δ₂ρ̄ ≥ 1 by (3.1); case (3) since half the segment,
+    /// √(r² − (r − δ₂ρ̄l)²) at least, grows with r, and for r = ρ̄l is what (4.5) says. So insertion radii are bounded, and refinement
+    /// ends, where C₁C₂ > 1. Densities are not bounded so: B₁ = (2−δ)/δ has no largest value.
+    ByShape,
+}
+
 /// F_A, F_B and F_C of Algorithm 2. What it answers is moved to the nearest place in the region, unless it is [free](Self::is_free).
 pub trait SteinerStrategy {
     /// F_A: a point of the selection disk. Triangles that are only too large are asked for, too, unless the strategy is free.
@@ -51,6 +66,11 @@ pub trait SteinerStrategy {
 
     fn order(&self) -> Order {
         Order::SmallestAngle
+    }
+
+    /// How large the disks are that its points of type A are kept in.
+    fn disks(&self) -> Disks {
+        Disks::Alike
     }
 
     /// Whether its points of type A are taken as they are, region or not. Then nothing is proven.
@@ -70,7 +90,7 @@ impl SteinerStrategy for Center {
 }
 
 /// The off-centre (Üngör 2004): on the way to the circumcenter, no farther from the shortest edge than makes a triangle with it that is
-/// not skinny.
+/// not skinny. It is never nearer than 0.95cos²(κ/2)/sin κ > ρ̄ edges, so it lies in its [disk](Disks::ByShape) as long as δ₂ ≤ 1.
 #[derive(Clone, Copy, Debug)]
 pub struct OffCenter {
     /// Length from the shortest edge, in units of it.
@@ -99,7 +119,11 @@ impl SteinerStrategy for OffCenter {
     }
 
     fn order(&self) -> Order {
-        if self.free { Order::ShortestEdge } else { Order::SmallestAngle }
+        Order::ShortestEdge
+    }
+
+    fn disks(&self) -> Disks {
+        Disks::ByShape
     }
 
     fn is_free(&self) -> bool {
@@ -150,7 +174,11 @@ impl SteinerStrategy for Optimal {
     }
 
     fn order(&self) -> Order {
-        if self.off_center.free { Order::SmallestCircle } else { Order::SmallestAngle }
+        if self.off_center.free { Order::SmallestCircle } else { Order::ShortestEdge }
+    }
+
+    fn disks(&self) -> Disks {
+        Disks::ByShape
     }
 
     fn is_free(&self) -> bool {

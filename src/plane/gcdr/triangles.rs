@@ -1,6 +1,7 @@
 //! Points of type A: which triangles miss a bound, whom a corner excuses, and what mends the others.
 
-use super::steiner::{Order, Skinny};
+use super::parameters::radius_edge_of;
+use super::steiner::{Disks, Order, Skinny};
 use super::{Gcdr, Origin, Suspect, suspects};
 use crate::geometry::{Point, scaled};
 use crate::ids::{CurveId, PieceId, RegionId, TriangleId, VertexId};
@@ -18,7 +19,8 @@ impl Gcdr<'_> {
 
     /// Judges the triangles made since the last time; where a piece has moved, they get their regions first.
     pub(super) fn settle(&mut self, carve: bool) {
-        let mut touched = self.mesh.take_touched();
+        let mut touched = std::mem::take(&mut self.touched);
+        self.mesh.take_touched(&mut touched);
         if carve {
             let kernel = self.mesh.kernel_mut();
             self.carver.carve(kernel, &self.subcurves, self.domain.curves(), &mut touched);
@@ -27,9 +29,8 @@ impl Gcdr<'_> {
             touched.dedup();
             touched.retain(|&t| self.mesh.topology().is_alive(t));
         }
-        for t in touched {
-            self.judge(t);
-        }
+        touched.drain(..).for_each(|t| self.judge(t));
+        self.touched = touched;
     }
 
     /// Queues a kept triangle that misses a bound.
@@ -39,7 +40,7 @@ impl Gcdr<'_> {
         let suspect = (t, self.mesh.topology().corners(t));
         let sin2 = sin2_smallest(corners);
         if sin2 < self.sin2_min {
-            return self.push_skinny(suspect);
+            return self.push_skinny(suspect, corners, sin2);
         }
         let excess = self.field.excess(region, corners);
         if excess > 1.0 {
@@ -47,14 +48,13 @@ impl Gcdr<'_> {
         }
     }
 
-    fn push_skinny(&mut self, suspect: Suspect) {
-        let corners = self.corners(suspect.0);
+    fn push_skinny(&mut self, suspect: Suspect, corners: [Point; 3], sin2: f64) {
         // Lengths by octaves below the unit to which the domain is scaled: 2^-40 is as short as it gets.
         let octaves = |length: f64| -libm::log2(length) / 40.0;
         let badness = match self.strategy.order() {
             _ if self.doomed(suspect.0).is_some() => 1.0,
             // By the sine: its square would crowd what is nearly good enough.
-            Order::SmallestAngle => 1.0 - (sin2_smallest(corners) / self.sin2_min).sqrt(),
+            Order::SmallestAngle => 1.0 - (sin2 / self.sin2_min).sqrt(),
             Order::ShortestEdge => octaves((0..3).map(|i| edge2(corners, i)).fold(f64::INFINITY, f64::min).sqrt()),
             Order::SmallestCircle => octaves(circumcircle(corners).1),
         };
@@ -87,9 +87,7 @@ impl Gcdr<'_> {
         if skinny && let Some(piece) = self.doomed(t) {
             return self.encroach(suspect, piece, parent);
         }
-        // A disk of no size leaves no choice.
-        let chosen = if self.strategy.is_free() { skinny } else { self.options.regions.delta2 < 1.0 };
-        let p = if chosen { self.choose_in_disk(t, region, center, radius) } else { center };
+        let p = self.choose_in_disk(t, region, (center, radius), skinny);
         self.kill(suspect, p, parent);
     }
 
@@ -141,7 +139,13 @@ impl Gcdr<'_> {
     }
 
     /// F_A, moved into the disk unless the strategy is free.
-    fn choose_in_disk(&mut self, t: TriangleId, region: RegionId, center: Point, radius: f64) -> Point {
+    fn choose_in_disk(&mut self, t: TriangleId, region: RegionId, circle: (Point, f64), skinny: bool) -> Point {
+        let (center, radius) = circle;
+        let reach = self.reach(t, radius);
+        let has_choice = if self.strategy.is_free() { skinny } else { reach > 0.0 };
+        if !has_choice {
+            return center;
+        }
         let topology = self.mesh.topology();
         let down = |p: Point| scaled(p, 1.0 / self.scale);
         let corners = self.corners(t);
@@ -151,7 +155,6 @@ impl Gcdr<'_> {
             let apex = topology.apex(topology.twin(s));
             (topology.piece(s).is_none() && apex != GHOST).then(|| down(self.mesh.point(apex)))
         });
-        let reach = radius * (1.0 - self.options.regions.delta2);
         let skinny = Skinny {
             corners: sides.map(|s| down(self.mesh.point(topology.origin(s)))),
             across,
@@ -169,6 +172,19 @@ impl Gcdr<'_> {
         } else {
             center
         }
+    }
+
+    /// The radius of a triangle's selection disk. What is only too large has no shorter edge than r/ρ̄: to it disks are alike.
+    fn reach(&self, t: TriangleId, radius: f64) -> f64 {
+        let spared = match self.strategy.disks() {
+            Disks::Alike => radius,
+            Disks::ByShape => {
+                let corners = self.corners(t);
+                let shortest = (0..3).map(|i| edge2(corners, i)).fold(f64::INFINITY, f64::min).sqrt();
+                radius.min(radius_edge_of(self.options.angle_min_rad) * shortest)
+            }
+        };
+        radius - self.options.regions.delta2 * spared
     }
 
     /// Inserts a point that removes a triangle, or splits the nearest segment that hides it from there.
@@ -194,6 +210,7 @@ impl Gcdr<'_> {
         let v = self.mesh.fill(p, &self.cavity);
         self.origins.push(Origin::Free);
         self.alive += 1;
+        self.free += 1;
         self.counters.add("vertices_free", 1);
         if self.options.record {
             self.record(v, InsertionKind::A, parent);

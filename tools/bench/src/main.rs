@@ -3,6 +3,7 @@
 mod complexes;
 mod corners;
 mod densities;
+mod engines;
 mod fig4;
 mod million;
 mod pslgs;
@@ -19,6 +20,7 @@ fn main() {
         Some("corners") if args.len() == 2 => corners::print(&args[1]),
         Some("million") => million::print(),
         Some("densities") if args.len() == 2 => told(densities::print(&args[1])),
+        Some("engines") if args.len() >= 2 => told(engines::print(&args[1..])),
         Some("pslgs") => {
             let number = |i: usize, default| args.get(i).and_then(|n| n.parse().ok()).unwrap_or(default);
             pslgs::print(number(1, 1000), number(2, 0));
@@ -28,7 +30,7 @@ fn main() {
         Some("wild") => wild::print(args.get(1).is_some_and(|word| word == "large")),
         _ => {
             eprintln!(
-                "usage: squinch-bench fig4 | complexes [N] | corners DIR | million | densities PSLG | pslgs [N] [FROM] | strategies PSLG… | thirty DIR… | wild [large]"
+                "usage: squinch-bench fig4 | complexes [N] | corners DIR | million | densities PSLG | engines PSLG… | pslgs [N] [FROM] | strategies PSLG… | thirty DIR… | wild [large]"
             );
             std::process::exit(2);
         }
