@@ -144,6 +144,10 @@ impl<'a> Healing<'a> {
         watch: &mut Watch,
     ) -> Result<Option<Domain>, FailureReport> {
         for tolerance in self.left.clone() {
+            if best.is_some() && tolerance < self.taken {
+                // What is finer than the best so far leaves more.
+                break;
+            }
             let mut domain = match self.arrange_within(Some(tolerance), watch) {
                 Ok(domain) if self.is_alike(&domain) => domain,
                 Ok(_) | Err(Unarranged::Invalid(_)) => continue,
@@ -159,10 +163,6 @@ impl<'a> Healing<'a> {
             if best.as_ref().is_none_or(|best| candidate.vertices <= WORTH * best.vertices) {
                 self.taken = tolerance;
                 best = Some(candidate);
-                if self.left.last().is_some_and(|&last| last < tolerance) {
-                    // What follows is finer, and leaves more.
-                    break;
-                }
             }
         }
         Ok(best.map(|best| best.domain))
