@@ -10,7 +10,11 @@ use crate::watch::{Progress, Watch};
 use std::f64::consts::TAU;
 
 /// Cuts of one round that are kept at most, two a crossing: some gigabytes with the pieces that they make.
-const CUTS_MAX: usize = 1 << 24;
+pub(super) const CUTS_MAX: usize = 1 << 24;
+
+/// After the first round pieces meet where they were moved to, seldom twice on a piece. Where it is so often in the mean, whole bundles of
+/// curves lie within the tolerance of each other, and each round finds more of them.
+pub(super) const CROWDED: usize = 32;
 
 /// Pairs of curves, or of a node and a curve, that are kept at most while it is looked for where they meet: half a gigabyte.
 const PAIRS_MAX: usize = 1 << 26;
@@ -428,8 +432,8 @@ impl<'a> Network<'a> {
 
 // ---- where pieces meet ----
 impl Network<'_> {
-    /// Every place where fresh pieces and nodes meet others.
-    pub fn meet(&mut self, watch: &mut Watch) -> Result<Found, Unarranged> {
+    /// Every place where fresh pieces and nodes meet others, as long as there are no more cuts than `most`.
+    pub fn meet(&mut self, most: usize, watch: &mut Watch) -> Result<Found, Unarranged> {
         let mut found = Found::default();
         let known = self.nodes.len();
         let grown = self.pieces.iter().map(|p| p.bounds.inflate(self.tolerances.weld, self.tolerances.weld));
@@ -440,8 +444,8 @@ impl Network<'_> {
         let count = pairs.len();
         for (k, (a, b)) in pairs.into_iter().enumerate() {
             self.progress("meeting", count - k).tell(watch)?;
-            if found.cuts.len() > CUTS_MAX {
-                return Err(too_many_cuts(self.pieces[a].bounds.center()).into());
+            if found.cuts.len() > most {
+                return Err(too_many_cuts(most, self.pieces[a].bounds.center()).into());
             }
             match (&self.pieces[a].curve, &self.pieces[b].curve) {
                 (Curve::Line(_), Curve::Line(_)) => self.cross_lines(a, b, &mut found),
@@ -486,7 +490,7 @@ impl Network<'_> {
     /// Asks the watch now and then while pairs are found, and refuses more than can be kept.
     fn keep_on(&self, pairs: usize, at: Point, watch: &mut Watch) -> Result<(), Unarranged> {
         if pairs > PAIRS_MAX {
-            return Err(too_many_cuts(at).into());
+            return Err(too_many_cuts(CUTS_MAX, at).into());
         }
         if pairs.is_multiple_of(1024) { Ok(self.progress("meeting", pairs).tell(watch)?) } else { Ok(()) }
     }
@@ -751,9 +755,13 @@ fn is_evenly_paced(curve: &Curve) -> bool {
     }
 }
 
-fn too_many_cuts(at: Point) -> ArrangeError {
-    let what = format!("the curves meet in more than {} places", CUTS_MAX / 2);
-    ArrangeError::near(what, at, "such a drawing is noise: leave out the curves that cross most of the others there")
+fn too_many_cuts(most: usize, at: Point) -> ArrangeError {
+    let what = format!("the curves meet in more than {} places", most / 2);
+    let help = match most {
+        CUTS_MAX => "such a drawing is noise: leave out the curves that cross most of the others there",
+        _ => "bundles of curves lie within the tolerance of each other: lower it, or leave out all but one of each",
+    };
+    ArrangeError::near(what, at, help)
 }
 
 #[derive(Clone, Copy, Debug)]

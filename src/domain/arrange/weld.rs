@@ -1,6 +1,6 @@
 //! Welding: nodes within the tolerance become one, pieces are cut and moved to end at their nodes, repeated pieces become one.
 
-use super::cut::{Cut, Found, Network, Node, Origin, Piece, extent};
+use super::cut::{CROWDED, CUTS_MAX, Cut, Found, Network, Node, Origin, Piece, extent};
 use super::{ArrangeError, RepairKind, Unarranged};
 use crate::curve::{Curve, End};
 use crate::geometry::boxes::BoxHierarchy;
@@ -31,8 +31,9 @@ impl Network<'_> {
     pub fn settle(&mut self, watch: &mut Watch) -> Result<(), Unarranged> {
         self.weld(Found::default());
         let mut at = Point::ORIGIN;
-        for _ in 0..ROUNDS {
-            let found = self.meet(watch)?;
+        for round in 0..ROUNDS {
+            let most = if round == 0 { CUTS_MAX } else { CUTS_MAX.min(CROWDED * self.pieces.len().max(CROWDED)) };
+            let found = self.meet(most, watch)?;
             if found.is_empty() {
                 return Ok(());
             }
