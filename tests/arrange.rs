@@ -888,6 +888,19 @@ fn splines_with_hairpins_about_as_wide_as_the_tolerance_have_no_flaw() {
     }
 }
 
+/// Each round of welding such a bundle would find more meetings than the one before, by the millions.
+#[test]
+fn a_bundle_of_curves_within_the_tolerance_is_refused_with_the_way_out() {
+    let mut number = numbers(5);
+    let mut place = |x: f64, y: f64| p(x + 0.02 * number(), y + 0.02 * number());
+    let mut stroke =
+        || Curve::bezier(vec![place(0.0, 0.0), place(0.3, 0.5), place(0.7, 0.5), place(1.0, 0.0)]).unwrap();
+    let strokes: Vec<Curve> = (0..120).map(|_| stroke()).collect();
+    let options = ArrangeOptions { tolerance: Some(0.005), ..ArrangeOptions::default() };
+    let error = drawing(strokes).arrange(&options).unwrap_err();
+    assert!(error.near && error.help.contains("bundles"), "{error}; {}", error.help);
+}
+
 // ---- files ----
 
 /// Points, segments and holes of a `.poly` file, as plainly as a test needs.
