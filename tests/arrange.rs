@@ -1126,3 +1126,30 @@ fn curves_that_part_slowly_are_ordered_beside_a_short_one() {
     let domain = regions(&drawing(curves));
     assert!(domain.regions().len() >= 4, "{:?}", areas(&domain));
 }
+
+/// Beside the tip of a leaf, where its two sides lie within one rounding of each other.
+#[test]
+fn a_speck_beside_the_tip_of_a_leaf_lies_outside_of_it() {
+    let side = |x: f64| Curve::bezier(vec![p(1.0, 0.0), p(1.0, 0.5), p(x, 1.0)]).unwrap();
+    for [first, second] in [[0.99, 1.01], [1.01, 0.99]] {
+        let leaf = [side(first), side(second), line((first, 1.0), (second, 1.0))];
+        let speck = square(1.5, 0.0, 1e-7);
+        let domain = regions(&drawing(leaf.into_iter().chain(speck)));
+        let outside = domain.curves().iter().filter(|c| c.sides.contains(&None)).count();
+        assert_eq!((domain.regions().len(), outside), (2, 7));
+    }
+}
+
+/// A line and a curve that is straight but for its beginning, where a circle of 1e-10 lies over both.
+#[test]
+fn a_speck_on_the_tip_of_a_sliver_is_named_by_its_own_shape() {
+    let [tip, far] = [(2.5, -1.25), (-3.999, -4.0)];
+    let (from, to) = (-0.75 * PI, -0.75 * PI - 4.4505895925855405);
+    let arc = Curve::arc(p(tip.0, tip.1), 1e-10, from, to - from).unwrap();
+    let chord = Curve::line(arc.end(), arc.start()).unwrap();
+    let bent = Curve::bezier(vec![p(tip.0, tip.1), arc.start(), p(far.0, far.1)]).unwrap();
+    let drawing = painted([("speck", true, vec![arc, chord]), ("sliver", false, vec![bent, line(far, tip)])]);
+    let domain = drawing.arrange(&ArrangeOptions { tolerance: Some(0.0), ..Default::default() }).unwrap();
+    assert_eq!(domain.flaws(), [""; 0]);
+    assert_eq!(domain.regions().len(), 2);
+}

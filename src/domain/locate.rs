@@ -103,7 +103,8 @@ impl<'a> Locator<'a> {
     }
 
     /// The crossings of a line with all curves at the coordinates of `range`, ascending; `None` where the line passes there within
-    /// `margin` of an end of a curve, or nearly along a curve, so that another line is to be tried.
+    /// `margin` of an end of a curve, or nearly along a curve, or where two crossings are so near to each other that their order is not
+    /// told, so that another line is to be tried.
     pub(super) fn hits(&self, axis: Axis, level: f64, range: [f64; 2], margin: f64) -> Option<Vec<Hit>> {
         let strip = match axis {
             Axis::Horizontal => Rect::new(range[0], level, range[1], level),
@@ -119,7 +120,8 @@ impl<'a> Locator<'a> {
         });
         hits.retain(|hit| range[0] <= hit.along && hit.along <= range[1]);
         hits.sort_by(|a, b| a.along.total_cmp(&b.along).then(a.curve.cmp(&b.curve)));
-        clear.then_some(hits)
+        let told = hits.windows(2).all(|pair| pair[1].along - pair[0].along > margin);
+        (clear && told).then_some(hits)
     }
 }
 

@@ -71,19 +71,25 @@ impl Repair {
     }
 }
 
-/// Square cells, wider than a repair moves anything.
+/// Square cells. What lies so far out that its cell has no number, as a drawn point may, is put into the last.
 #[derive(Clone, Copy)]
 pub(super) struct Cells {
     width: f64,
 }
 
 impl Cells {
+    pub fn as_wide_as(tolerance: f64) -> Self {
+        Self { width: tolerance }
+    }
+
+    /// Wider than a repair moves anything.
     pub fn wider_than(tolerance: f64) -> Self {
         Self { width: 4.0 * tolerance }
     }
 
-    fn of(self, at: [f64; 2]) -> [i64; 2] {
-        at.map(|x| (x / self.width).floor() as i64)
+    pub fn of(self, at: [f64; 2]) -> [i64; 2] {
+        const LAST: f64 = (1u64 << 62) as f64;
+        at.map(|x| (x / self.width).floor().clamp(-LAST, LAST) as i64)
     }
 
     /// The cell of a place and the ones around it.

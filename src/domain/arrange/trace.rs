@@ -138,8 +138,8 @@ struct View<'a> {
     margin: f64,
     /// By component.
     bounds: Vec<Rect>,
-    /// By component, once it is known: the first cycle that is seen from its leftmost crossing with some level line, looking left; of a
-    /// component without height, looking down from it. `Some(None)`: nothing is there.
+    /// By component, once it is known: the first cycle that is seen from its first crossing with some axis-parallel line, looking back
+    /// from there. `Some(None)`: nothing is there.
     seen: Vec<Option<Option<usize>>>,
     /// By component: the last line that met it.
     met: Vec<usize>,
@@ -160,17 +160,22 @@ impl<'a> View<'a> {
         Self { faces, locator: Locator::new(domain), margin, bounds, seen, met, lines: 0 }
     }
 
-    /// A level line cannot pass a height of a few margins clear of its ends.
-    fn axis(&self, component: usize) -> Axis {
-        if self.bounds[component].height() > 4.0 * self.margin { Axis::Horizontal } else { Axis::Vertical }
+    /// Lines to look along from a component. A level line cannot pass a height of a few margins clear of its ends; and where none is
+    /// clear, as at the tip of two curves that part slowly, upright ones may be.
+    fn lines_through(&self, component: usize) -> impl Iterator<Item = (Axis, f64)> + use<> {
+        let bounds = self.bounds[component];
+        let axes = [Axis::Horizontal, Axis::Vertical];
+        let is_flat = bounds.height() <= 4.0 * self.margin;
+        let in_order = axes.into_iter().cycle().skip(usize::from(is_flat)).take(axes.len());
+        in_order.flat_map(move |axis| levels(bounds, axis).map(move |level| (axis, level)))
     }
 
     /// Finds out what a component sees, if that is not known yet, and with it what others see that its line meets: rings in each other
     /// are passed a few times all together, not each by each.
     fn look_from(&mut self, component: usize) -> Result<(), ArrangeError> {
-        let (bounds, axis) = (self.bounds[component], self.axis(component));
-        let [low, high] = along(axis, bounds);
-        for level in levels(bounds, axis) {
+        let bounds = self.bounds[component];
+        for (axis, level) in self.lines_through(component) {
+            let [low, high] = along(axis, bounds);
             let mut reach = 4.0 * extent(bounds);
             // Looks ever further back: most components have a neighbour nearby. The unit frame ends within a few units.
             while self.seen[component].is_none() {
@@ -234,9 +239,8 @@ impl<'a> View<'a> {
 
     /// What the leftmost of a group sees on a line through one of them, which goes on to the end of the frame, all of them see.
     fn look_out_of(&mut self, component: usize, group: &[usize]) -> Result<(), ArrangeError> {
-        let (bounds, axis) = (self.bounds[component], self.axis(component));
-        let [low, high] = along(axis, bounds);
-        for level in levels(bounds, axis) {
+        for (axis, level) in self.lines_through(component) {
+            let [low, high] = along(axis, self.bounds[component]);
             let Some(hits) = self.locator.hits(axis, level, [low - 4.0 * FRAME, high], self.margin) else { continue };
             let is_in = |hit: &Hit| group[self.component_of(hit)] == group[component];
             if let Some(first) = hits.iter().position(is_in) {
@@ -272,7 +276,7 @@ impl<'a> View<'a> {
         for (k, hit) in hits.iter().enumerate() {
             let component = self.component_of(hit);
             let is_first = std::mem::replace(&mut self.met[component], self.lines) != self.lines;
-            let begins = from <= along(axis, self.bounds[component])[0] && self.axis(component) == axis;
+            let begins = from <= along(axis, self.bounds[component])[0];
             if is_first && begins && k > 0 {
                 let cycle = self.cycle_beyond(&hits[k - 1]);
                 self.seen[component].get_or_insert(Some(cycle));

@@ -1,6 +1,7 @@
 //! Welding: nodes within the tolerance become one, pieces are cut and moved to end at their nodes, repeated pieces become one.
 
 use super::cut::{CROWDED, CUTS_MAX, Cut, Found, Network, Node, Origin, Piece, extent};
+use super::repair::Cells;
 use super::{ArrangeError, RepairKind, Unarranged};
 use crate::curve::{Curve, End};
 use crate::geometry::boxes::BoxHierarchy;
@@ -131,10 +132,10 @@ impl Network<'_> {
         let weld = self.tolerances.weld;
         // The leaders by square cells as wide as the tolerance: none holds more than four, however many nodes crowd there.
         let mut leaders: BTreeMap<[i64; 2], Vec<PointId>> = BTreeMap::new();
-        let cell = |x: f64| (x / weld).floor() as i64;
+        let cells = Cells::as_wide_as(weld);
         for &id in order {
             let at = self.nodes[id].at;
-            let [i, j] = [cell(at.x), cell(at.y)];
+            let [i, j] = cells.of([at.x, at.y]);
             let near = (i - 1..=i + 1).flat_map(|i| leaders.range([i, j - 1]..=[i, j + 1])).flat_map(|(_, ids)| ids);
             let candidates = near.map(|&other| (at.distance(self.nodes[other].at), other)).filter(|c| c.0 <= weld);
             match candidates.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1))) {
