@@ -4,7 +4,7 @@
 //! Lee & Lin 1986), which is so exactly when every side without a piece is locally Delaunay. Storage and exact signs are those of
 //! [`Delaunay`]; cavities end at pieces, flips leave them alone. Every operation notes the triangles it makes, for whoever judges them.
 
-use super::insert::{Cavity, Degenerate, Delaunay, Location};
+use super::insert::{Cavity, Degenerate, Delaunay, Location, hull_side};
 use super::triangulation::{GHOST, Side, Triangulation};
 use crate::geometry::Point;
 use crate::geometry::exact::{CircleSide, Orientation, in_circle, in_diametral, orient};
@@ -32,19 +32,20 @@ pub struct Constrained {
     delaunay: Delaunay,
     /// Triangles made since they were last taken; some may be gone again, some stand twice.
     touched: Vec<TriangleId>,
-    /// Triangles visited by the search that is under way.
-    visited: Visited,
+    /// What the search that is under way has seen; kept for its memory.
+    search: Search,
 }
 
-/// A set of triangles that is emptied at no cost.
+/// A set of triangles that is emptied at no cost, and sides that lead to others.
 #[derive(Default)]
-struct Visited {
-    /// The round in which each was added last.
+struct Search {
+    /// The round in which each triangle was added last.
     rounds: Vec<u32>,
     round: u32,
+    open: Vec<Side>,
 }
 
-impl Visited {
+impl Search {
     fn clear(&mut self, capacity: usize) {
         if self.round == u32::MAX {
             *self = Self::default();
@@ -65,7 +66,7 @@ impl Constrained {
     /// # Errors
     /// As [`Delaunay::new`].
     pub fn new(points: Vec<Point>) -> Result<Self, Degenerate> {
-        Ok(Self { delaunay: Delaunay::new(points)?, touched: Vec::new(), visited: Visited::default() })
+        Ok(Self { delaunay: Delaunay::new(points)?, touched: Vec::new(), search: Search::default() })
     }
 
     pub fn topology(&self) -> &Triangulation {
@@ -105,10 +106,15 @@ impl Constrained {
 
     /// Acts: replaces the cavity of `p`, which must not lie on a piece, by the triangles that join `p` to its border.
     pub fn fill(&mut self, p: Point, cavity: &Cavity) -> VertexId {
-        let v = self.delaunay.points.push(p);
-        let last = self.delaunay.topology.star(v, &cavity.triangles, &cavity.border);
-        self.touched.extend(cavity.triangles.iter().chain(&last));
+        let v = self.star(p, &cavity.triangles, &cavity.border);
         self.check_slowly();
+        v
+    }
+
+    fn star(&mut self, p: Point, triangles: &[TriangleId], border: &[Side]) -> VertexId {
+        let v = self.delaunay.points.push(p);
+        let last = self.delaunay.topology.star(v, triangles, border);
+        self.touched.extend(triangles.iter().chain(&last));
         v
     }
 
@@ -143,6 +149,48 @@ impl Constrained {
         self.restore(&mut stack);
         self.check_slowly();
         Ok(self.topology().side_between(a, b).expect("a piece is never flipped"))
+    }
+
+    /// Whether a point beside or on a side may part the two triangles at it in four: it sees their other sides from within, and if one is
+    /// a ghost, the hull stays convex.
+    pub fn can_part(&self, s: Side, p: Point) -> bool {
+        let topology = self.topology();
+        let keeps_hull = |side: Side| {
+            let turn = |t: TriangleId| {
+                let [a, b] = hull_side(topology.corners(t)).map(|v| self.point(v));
+                orient(a, b, p)
+            };
+            turn(side.triangle()) != Orientation::Clockwise
+                && turn(topology.twin(side).triangle()) != Orientation::CounterClockwise
+        };
+        self.rim(s).into_iter().all(|side| match [topology.origin(side), topology.target(side)].contains(&GHOST) {
+            true => keeps_hull(side),
+            false => self.to_left(side, p) == Orientation::CounterClockwise,
+        })
+    }
+
+    /// Inserts a point that [may](Constrained::can_part) part the two triangles at a side, and lays two pieces for the one that was
+    /// there: the first at the end where the side begins. Comes to what [`Constrained::release`] and [`Constrained::join`] come to, which
+    /// insert any point.
+    pub fn part(&mut self, s: Side, p: Point, pieces: [PieceId; 2]) -> VertexId {
+        let topology = self.topology();
+        let (n, rim) = (topology.twin(s), self.rim(s));
+        let ends = [topology.origin(s), topology.target(s)];
+        let v = self.star(p, &[s.triangle(), n.triangle()], &rim);
+        for (end, piece) in ends.into_iter().zip(pieces) {
+            let side = self.topology().side_between(v, end).expect("both ends are on the rim");
+            self.delaunay.topology.set_piece(side, Some(piece));
+        }
+        let mut stack = self.topology().sides_from(v).flat_map(|spoke| [spoke, spoke.next()]).collect();
+        self.restore(&mut stack);
+        self.check_slowly();
+        v
+    }
+
+    /// The other sides of the two triangles at a side, counter-clockwise.
+    fn rim(&self, s: Side) -> [Side; 4] {
+        let n = self.topology().twin(s);
+        [s.next(), s.prev(), n.next(), n.prev()]
     }
 
     /// Takes the piece from a side; the triangulation is again constrained Delaunay.
@@ -395,15 +443,15 @@ impl Constrained {
         if !self.has_apex_in_half_circle(side) {
             return Vec::new();
         }
-        let mut visited = std::mem::take(&mut self.visited);
-        visited.clear(self.topology().triangle_capacity());
-        let found = self.search_half_circle(side, &mut visited);
-        self.visited = visited;
+        let mut search = std::mem::take(&mut self.search);
+        search.clear(self.topology().triangle_capacity());
+        let found = self.search_half_circle(side, &mut search);
+        self.search = search;
         found
     }
 
     /// [`Constrained::in_half_circle`], from an apex that lies in it on.
-    fn search_half_circle(&self, side: Side, visited: &mut Visited) -> Vec<VertexId> {
+    fn search_half_circle(&self, side: Side, search: &mut Search) -> Vec<VertexId> {
         let topology = self.topology();
         let [x, y] = [topology.origin(side), topology.target(side)].map(|v| self.point(v));
         let inside = |v: VertexId| in_diametral(x, y, self.point(v)) == CircleSide::Inside;
@@ -411,18 +459,18 @@ impl Constrained {
         // What a rounded distance leaves out is no vertex inside: those are told exactly.
         let (center, reach2) = (x.midpoint(y), 0.25 * x.distance_squared(y) * (1.0 + 1e-9));
         let mut found = vec![topology.apex(side)];
-        visited.insert(side.triangle());
-        let mut open = vec![side.next(), side.prev()];
-        while let Some(s) = open.pop() {
+        search.insert(side.triangle());
+        search.open.extend([side.next(), side.prev()]);
+        while let Some(s) = search.open.pop() {
             let beyond = topology.twin(s);
             if self.is_piece(s) || topology.is_ghost(beyond.triangle()) {
                 continue;
             }
             // A line of sight crosses only sides that reach to the left.
             let ends = [topology.origin(s), topology.target(s)];
-            let near = distance2_to_segment(center, ends.map(|v| self.point(v))) < reach2;
-            if near && ends.into_iter().any(left) && visited.insert(beyond.triangle()) {
-                open.extend([beyond.next(), beyond.prev()]);
+            let near = comes_near(ends.map(|v| self.point(v)), center, reach2);
+            if near && ends.into_iter().any(left) && search.insert(beyond.triangle()) {
+                search.open.extend([beyond.next(), beyond.prev()]);
                 // Its other corners were asked before.
                 found.extend(Some(topology.apex(beyond)).filter(|&v| inside(v) && left(v)));
             }
@@ -466,8 +514,12 @@ impl Constrained {
     }
 }
 
-fn distance2_to_segment(p: Point, ends: [Point; 2]) -> f64 {
-    p.distance_squared(ends[0].lerp(ends[1], share_along(p, ends).clamp(0.0, 1.0)))
+/// Whether a segment comes within a squared distance of a place.
+fn comes_near([a, b]: [Point; 2], p: Point, reach2: f64) -> bool {
+    let (ab, ap, bp) = (b - a, p - a, p - b);
+    let is_beside = ab.dot(ap) > 0.0 && ab.dot(bp) < 0.0;
+    let across = ab.cross(ap);
+    ap.hypot2() < reach2 || bp.hypot2() < reach2 || is_beside && across * across < reach2 * ab.hypot2()
 }
 
 /// The share of the way along a segment at which a place lies beside it.

@@ -270,7 +270,7 @@ impl<'a> Sight<'a> {
 
 /// The finite corners of a ghost triangle, in its own order: infinity lies on their left, the hull on their right.
 #[inline]
-fn hull_side([a, b, c]: [VertexId; 3]) -> [VertexId; 2] {
+pub(super) fn hull_side([a, b, c]: [VertexId; 3]) -> [VertexId; 2] {
     if a == GHOST {
         [b, c]
     } else if b == GHOST {

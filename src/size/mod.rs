@@ -214,6 +214,9 @@ impl SizeField {
     pub fn limit_at(&self, at: Point) -> f64 {
         let by_place = self.sizing.by_place.as_ref().map_or(f64::INFINITY, |b| b.at(at));
         let limit = self.flat.min(by_place);
+        if self.growing.is_empty() {
+            return limit;
+        }
         // A limit over the smallest grade is at least the distance, by which the search leaves boxes out.
         let least = self.grades.0;
         let nearest = self.boxes.nearest(at, limit / least, |i, _| self.growing[i].at(at) / least);

@@ -2,6 +2,7 @@
 //! segment for every line of sight.
 
 use super::*;
+use crate::geometry::Vec2;
 use crate::geometry::dice::Dice;
 use crate::ids::Id;
 use std::collections::BTreeSet;
@@ -135,6 +136,43 @@ fn whatever_the_way_there_the_triangulation_is_the_same() {
         }
         assert_eq!(triangles(&released), triangles(&left.build()), "seed {seed}: released");
     }
+}
+
+/// At places on a segment and beside it, on the hull and within it.
+#[test]
+fn a_parted_segment_leaves_what_is_built_with_its_parts() {
+    let (mut parted, mut on_hull) = (0, 0);
+    for (seed, mut scene) in scenes() {
+        let first = scene.points.len();
+        scene.points.extend([(-1.0, -1.0), (2.0, -1.0), (2.0, 2.0), (-1.0, 2.0)].map(|(x, y)| Point::new(x, y)));
+        scene.segments.extend([0, 1, 2, 3].map(|k| [first + k, first + (k + 1) % 4]));
+        let mut dice = Dice::new(seed);
+        for (i, &[a, b]) in scene.segments.iter().enumerate() {
+            let [x, y] = [scene.points[a], scene.points[b]];
+            let bulge = if dice.below(2) == 0 { 0.0 } else { dice.between(-0.2, 0.2) };
+            let p = x.lerp(y, dice.between(0.3, 0.7)) + bulge * Vec2::new(y.y - x.y, x.x - y.x);
+            let mut built = scene.build();
+            let side = built.topology().side_between(VertexId::from_index(a), VertexId::from_index(b)).unwrap();
+            if !built.can_part(side, p) {
+                continue;
+            }
+            let pieces = [i, scene.segments.len()].map(PieceId::from_index);
+            let v = built.part(side, p, pieces);
+            assert_eq!(built.flaws(), Vec::<String>::new(), "seed {seed}: segment {a} {b} at {p:?}");
+            let mut with = Scene { points: scene.points.clone(), segments: scene.segments.clone() };
+            with.points.push(p);
+            with.segments[i] = [a, v.index()];
+            with.segments.push([v.index(), b]);
+            assert_eq!(triangles(&built), triangles(&with.build()), "seed {seed}: segment {a} {b} at {p:?}");
+            for (end, piece) in [a, b].into_iter().zip(pieces) {
+                let part = built.topology().side_between(v, VertexId::from_index(end)).unwrap();
+                assert_eq!(built.topology().piece(part), Some(piece));
+            }
+            parted += 1;
+            on_hull += usize::from(a >= first);
+        }
+    }
+    assert!(parted > 500 && on_hull > 100, "{parted} parted, {on_hull} on the hull");
 }
 
 #[test]

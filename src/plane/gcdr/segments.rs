@@ -62,9 +62,7 @@ impl Gcdr<'_> {
             Some((end, radius)) => shape_of(&self.domain, &piece).leaves_ball(end, radius, 0.0, 1.0),
             None => self.choose(&piece, type_c),
         };
-        let cuts = [(id, vec![t.unwrap_or(f64::NAN)])];
-        let Some(parts) = self.split_together(&cuts, free, why) else { return false };
-        let v = self.subcurves.get(parts[0][0]).ends[1];
+        let Some(v) = self.split_at(id, t.unwrap_or(f64::NAN), free, why) else { return false };
         if self.options.record {
             let (kind, parent) =
                 if type_c { (InsertionKind::C, self.nearest_seen(v, others)) } else { (InsertionKind::B, latest) };
@@ -114,10 +112,14 @@ impl Gcdr<'_> {
                 continue;
             }
             let inside = self.mesh.in_half_circle(side);
-            let (of_side, rest): (Vec<VertexId>, Vec<VertexId>) = inside.into_iter().partition(|&v| self.is_free(v));
-            found.free.extend(of_side.into_iter().filter(|&v| self.mesh.sees(v, side)));
-            found.type_c = found.type_c || rest.iter().any(|&v| self.mesh.sees(v, side));
-            found.others.extend(rest);
+            for v in inside {
+                if !self.is_free(v) {
+                    found.type_c = found.type_c || self.mesh.sees(v, side);
+                    found.others.push(v);
+                } else if self.mesh.sees(v, side) {
+                    found.free.push(v);
+                }
+            }
         }
         found
     }
@@ -214,6 +216,30 @@ impl Gcdr<'_> {
         bounds.windows(2).map(|t| Hull::of(&self.domain, piece, [t[0], t[1]])).collect()
     }
 
+    /// Splits a piece at a parameter, after the deletion of `free` vertices that encroach it. `None` where coordinates cannot hold it.
+    fn split_at(&mut self, id: PieceId, t: f64, free: Vec<VertexId>, why: &'static str) -> Option<VertexId> {
+        let piece = *self.subcurves.get(id);
+        if !self.has_room(&piece, &[t]) {
+            self.too_near.push(self.mesh.point(piece.ends[0]));
+            return None;
+        }
+        self.delete(free);
+        let at = shape_of(&self.domain, &piece).point(t);
+        let side = self.side_of(id).expect("a piece is a side");
+        if !self.mesh.can_part(side, at) {
+            let parts = self.split_together(&[(id, vec![t])], Vec::new(), why)?;
+            return Some(self.subcurves.get(parts[0][0]).ends[1]);
+        }
+        let v = self.add_on(&piece, why);
+        self.subcurves.retire(id);
+        let parts = self.add_parts(&piece, &[(t, v)]);
+        self.mesh.part(side, at, [parts[0], parts[1]]);
+        parts.into_iter().for_each(|part| self.suspect(part));
+        // What lies to the left and right of a piece lies there of its parts.
+        self.settle(false);
+        Some(v)
+    }
+
     /// Splits pieces at ascending parameters, all at once: between two of a fan chords may cross. `free` vertices, those that encroach,
     /// are deleted first. `None` where coordinates cannot hold it: the place is owed; if that shows only half-way, the run is over.
     fn split_together(
@@ -238,14 +264,11 @@ impl Gcdr<'_> {
         for (id, ts) in cuts {
             let piece = *self.subcurves.get(*id);
             self.subcurves.retire(*id);
-            let (mut t, mut from, mut parts) = (piece.t[0], piece.ends[0], Vec::new());
-            for &next in ts {
-                let v = self.insert_on(&piece, next, why)?;
-                parts.push(self.subcurves.add(piece.carrier, [t, next], [from, v], Standing::Ordinary));
-                (t, from) = (next, v);
+            let mut at = Vec::with_capacity(ts.len());
+            for &t in ts {
+                at.push((t, self.insert_on(&piece, t, why)?));
             }
-            parts.push(self.subcurves.add(piece.carrier, [t, piece.t[1]], [from, piece.ends[1]], Standing::Ordinary));
-            all.push(parts);
+            all.push(self.add_parts(&piece, &at));
         }
         for &part in all.iter().flatten() {
             let [a, b] = self.subcurves.get(part).ends;
@@ -259,18 +282,30 @@ impl Gcdr<'_> {
         Some(all)
     }
 
+    /// The parts of a piece between vertices at ascending parameters.
+    fn add_parts(&mut self, piece: &Piece, at: &[(f64, VertexId)]) -> Vec<PieceId> {
+        let mut from = (piece.t[0], piece.ends[0]);
+        let mut add = |to: (f64, VertexId)| {
+            let from = std::mem::replace(&mut from, to);
+            self.subcurves.add(piece.carrier, [from.0, to.0], [from.1, to.1], Standing::Ordinary)
+        };
+        at.iter().copied().chain([(piece.t[1], piece.ends[1])]).map(&mut add).collect()
+    }
+
     /// Whether points of a piece can part it: coordinates tell them from each other and from the ends, and they lie in the diametral
     /// circle.
     fn has_room(&self, piece: &Piece, ts: &[f64]) -> bool {
         let [x, y] = self.ends_of(piece);
-        let bounds = [&piece.t[..1], ts, &piece.t[1..]].concat();
-        if !bounds.windows(2).all(|t| t[0] < t[1]) {
-            return false;
-        }
-        let places: Vec<Point> = ts.iter().map(|&t| shape_of(&self.domain, piece).point(t)).collect();
-        let chain: Vec<Point> = [x].into_iter().chain(places.iter().copied()).chain([y]).collect();
-        chain.windows(2).all(|p| p[0].distance(p[1]) >= self.resolution)
-            && places.iter().all(|&at| insert::in_range(at) && in_diametral(x, y, at) == CircleSide::Inside)
+        let shape = shape_of(&self.domain, piece);
+        let mut last = (piece.t[0], x);
+        let mut follows = |t: f64, at: Point| {
+            let before = std::mem::replace(&mut last, (t, at));
+            before.0 < t && before.1.distance(at) >= self.resolution
+        };
+        ts.iter()
+            .map(|&t| (t, shape.point(t)))
+            .all(|(t, at)| follows(t, at) && insert::in_range(at) && in_diametral(x, y, at) == CircleSide::Inside)
+            && follows(piece.t[1], y)
     }
 
     /// Inserts the point of a piece at a parameter; the piece lies on no side any more.
@@ -283,11 +318,15 @@ impl Gcdr<'_> {
             return None;
         }
         self.mesh.cavity(at, location, &mut self.cavity);
-        let v = self.mesh.fill(at, &self.cavity);
-        self.origins.push(Origin::OnCurve(curve_of(piece)));
+        self.mesh.fill(at, &self.cavity);
+        Some(self.add_on(piece, why))
+    }
+
+    /// Counts a vertex on a piece, the next of all.
+    fn add_on(&mut self, piece: &Piece, why: &'static str) -> VertexId {
         self.alive += 1;
         self.counters.add(why, 1);
-        Some(v)
+        self.origins.push(Origin::OnCurve(curve_of(piece)))
     }
 
     pub(super) fn stop_too_near(&mut self, at: Point) {

@@ -97,14 +97,15 @@ impl Gcdr<'_> {
     fn doomed(&self, t: TriangleId) -> Option<PieceId> {
         let topology = self.mesh.topology();
         let widest = libm::cos(2.0 * self.options.angle_min_rad);
+        let stays = |s: &Side| self.origins[topology.apex(*s)] != Origin::Free;
         let is_wide = |s: &Side| {
             let [u, v] = [topology.origin(*s), topology.target(*s)]
                 .map(|end| self.mesh.point(end) - self.mesh.point(topology.apex(*s)));
             -u.dot(v) > widest * u.hypot() * v.hypot()
         };
-        let stays = |s: &Side| self.origins[topology.apex(*s)] != Origin::Free;
-        let widest = [0, 1, 2].map(|i| t.side_of(i)).into_iter().find(|s| stays(s) && is_wide(s))?;
-        topology.piece(widest)
+        let sides = [0, 1, 2].map(|i| t.side_of(i)).into_iter();
+        let seen = sides.filter_map(|s| topology.piece(s).map(|piece| (s, piece)));
+        seen.filter(|(s, _)| stays(s) && is_wide(s)).map(|(_, piece)| piece).next()
     }
 
     /// The vertices of a triangle, the ends of its shortest edge first.
@@ -123,7 +124,8 @@ impl Gcdr<'_> {
     /// Whether the shortest edge of a triangle lies across a sharp corner, with its ends equally far from it: an angle that the input has.
     fn is_excused(&self, vertices: [VertexId; 3]) -> bool {
         let shortest = self.shortest_edge_first(vertices);
-        if shortest[..2].iter().any(|&v| self.origins[v] == Origin::Free) {
+        let [u, v] = [shortest[0], shortest[1]].map(|v| self.origins[v]);
+        if u == v || [u, v].contains(&Origin::Free) {
             return false;
         }
         let [a, b, c] = shortest.map(|v| self.curves_at(v));
