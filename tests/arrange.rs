@@ -436,6 +436,31 @@ fn nearly_closed_arcs_close_without_losing_their_shape() {
 }
 
 #[test]
+fn a_spline_that_touches_a_circle_at_its_joint_leaves_it_to_the_right_side() {
+    let joints = [
+        (0.0, 2.0),
+        (-0.9238795325112867, 2.38268343236509),
+        (0.28762989084145224, 1.3080142301490465),
+        (-3.999, -4.0),
+    ];
+    let spline = Curve::periodic_spline(&joints.map(|(x, y)| p(x, y))).unwrap();
+    let domain = regions(&drawing([circle(0.0, 2.0, 1.0), spline]));
+    let (faces, wanted) = euler(&domain);
+    assert_eq!(faces, wanted);
+}
+
+#[test]
+fn circles_that_were_pulled_open_cross_where_they_are_drawn() {
+    let whole = circle(0.0, -1.5, 2.5);
+    let pulled = whole.with_ends(whole.start() + Vec2::new(3.5e-6, 3.5e-6), whole.end());
+    let beside = pulled.transformed(kurbo::Affine::translate((1e-3, 7.5e-10)));
+    let found = regions(&drawing([whole, pulled, beside]));
+    assert!(found.flaws().is_empty(), "{:?}", found.flaws());
+    let total: f64 = areas(&found).iter().sum();
+    assert!((total - (PI * 6.25 + 5.0 * 1e-3)).abs() < 1e-4, "{total}");
+}
+
+#[test]
 fn a_handle_a_last_digit_from_its_end_makes_a_corner_not_a_hook() {
     // The curve leaves its start downwards and turns upwards at once.
     let start = p(92.0981, 265.88936);
@@ -1141,6 +1166,22 @@ fn a_speck_beside_the_tip_of_a_leaf_lies_outside_of_it() {
 }
 
 /// A line and a curve that is straight but for its beginning, where a circle of 1e-10 lies over both.
+#[test]
+fn a_circle_that_was_pulled_open_keeps_its_area_above_another() {
+    let below = circle(-0.25, -3.5, 1.0);
+    let pulled = below.with_ends(p(0.75000193, -3.5000005), below.end());
+    let closing = Curve::line(pulled.end(), pulled.start()).unwrap();
+    let ray = vec![line((1.75, -4.0), (-4.0, -4.0)), line((-4.0, -4.0), (1.75, -4.0))];
+    let drawing = painted([("below", true, vec![below]), ("pulled", false, vec![pulled, closing]), ("ray", true, ray)]);
+    let area = |fragments| {
+        let options = ArrangeOptions { tolerance: Some(0.0), fragments, ..Default::default() };
+        let domain = drawing.arrange(&options).unwrap();
+        assert_eq!(domain.flaws(), [""; 0]);
+        areas_by_name(&domain).iter().filter(|(name, _)| name.starts_with("pulled")).map(|(_, area)| area).sum::<f64>()
+    };
+    assert!((area(false) - area(true)).abs() < 1e-12, "{} {}", area(false), area(true));
+}
+
 #[test]
 fn a_speck_on_the_tip_of_a_sliver_is_named_by_its_own_shape() {
     let [tip, far] = [(2.5, -1.25), (-3.999, -4.0)];

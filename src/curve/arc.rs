@@ -116,7 +116,21 @@ impl CircularArc {
 
     pub(super) fn part(&self, t0: f64, t1: f64, ends: [Point; 2]) -> Self {
         let start_rad = self.start_rad + self.sweep_rad * t0;
-        CircularArc { start_rad, sweep_rad: self.sweep_rad * (t1 - t0), ends, ..*self }
+        let part = CircularArc { start_rad, sweep_rad: self.sweep_rad * (t1 - t0), ends, ..*self };
+        if part.sweep_rad.abs() > PI || !part.is_spiral() {
+            return part;
+        }
+        Self::over_chord(ends[0], ends[1], part.sweep_rad).unwrap_or(part)
+    }
+
+    /// Whether the ends lie off the circle by more than rounding explains, as an arc of more than half a circle is left where its ends
+    /// were moved ([`Curve::with_ends`](super::Curve::with_ends)): the rest of it winds from one to the other. Its parts of up to half
+    /// a circle are arcs of circles of their own.
+    pub(crate) fn is_spiral(&self) -> bool {
+        let slack = 64.0 * f64::EPSILON * (self.center.x.abs() + self.center.y.abs() + self.radius);
+        let angles = [self.start_rad, self.start_rad + self.sweep_rad];
+        let is_off = |(end, angle): (Point, f64)| length(end - self.center - on_circle(angle).0 * self.radius) > slack;
+        self.ends.into_iter().zip(angles).any(is_off)
     }
 
     pub(super) fn as_ellipse(&self) -> EllipticArc {

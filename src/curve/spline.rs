@@ -162,11 +162,12 @@ impl Spline {
         let mut knots = vec![t0];
         let mut spans = Vec::new();
         let pieces: Vec<_> = self.spans_in(t0, t1).collect();
-        // A cut meant for a joint may miss it by rounding. The sliver that it leaves has no direction of its own: its neighbour takes
-        // its place. Searches for cuts end within some tens of units in the last place of a parameter or of the coordinates.
+        // A cut meant for a joint may miss it by rounding, and by more where the curves meet at a small angle. The sliver that it leaves
+        // has no direction of its own: its neighbour takes its place. Three legs of some thousand units in the last place together tell
+        // their direction to a thousandth.
         let is_sliver = |&(i, from, to): &(usize, f64, f64)| {
             let reach = self.spans[i].points.iter().map(|p| p.x.abs().max(p.y.abs())).fold(0.0, f64::max);
-            to - from <= 64.0 * f64::EPSILON || net_of(&self.spans[i], from, to) <= 32.0 * f64::EPSILON * reach
+            to - from <= 64.0 * f64::EPSILON || net_of(&self.spans[i], from, to) <= 4096.0 * f64::EPSILON * reach
         };
         let first = usize::from(pieces.len() > 1 && is_sliver(&pieces[0]));
         let last = pieces.len() - 1;

@@ -418,10 +418,11 @@ impl<'a> Network<'a> {
         })
     }
 
-    /// Adds a part, halved where its ends are one point.
+    /// Adds a part, halved where its ends are one point, and where only its halves are arcs of circles.
     fn open_up(&self, part: Part, origin: Origin, source: u32, parts: &mut Vec<(Part, Origin)>) {
         let weld = self.tolerances.weld;
-        if part.curve.start().distance(part.curve.end()) <= weld && extent(part.curve.bounds()) > weld {
+        let is_closed = part.curve.start().distance(part.curve.end()) <= weld && extent(part.curve.bounds()) > weld;
+        if is_closed || is_spiral(&part.curve) {
             parts.push((part.between(0.0, 0.5), Origin::Curve(source)));
             parts.push((part.between(0.5, 1.0), origin));
         } else {
@@ -739,6 +740,12 @@ impl Network<'_> {
             _ => Site::Inside(t, at),
         }
     }
+}
+
+/// Whether a curve is an arc that winds off its circle: only parts of it are arcs of circles, and those on both sides of a cut are of
+/// different ones.
+pub(super) fn is_spiral(curve: &Curve) -> bool {
+    matches!(curve, Curve::Arc(arc) if arc.is_spiral())
 }
 
 /// Whether the speed of a curve varies so little that no bend in it can be a hook.

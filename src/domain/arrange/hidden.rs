@@ -5,7 +5,7 @@
 //! settled once more after that, as what was split had been moved by up to a tolerance.
 
 use super::RepairKind;
-use super::cut::{Network, Part, Piece, extent};
+use super::cut::{Network, Part, Piece, extent, is_spiral};
 use super::fill::{drawn_along, topmost};
 use super::trace::{Faces, Half};
 use crate::curve::End;
@@ -96,6 +96,9 @@ impl Network<'_> {
             return false;
         }
         let source = &self.drawing.curves[piece.source as usize].curve;
+        if is_spiral(source) {
+            return false;
+        }
         let (before, after) = (source.tangent(from, End::Finish), source.tangent(to, End::Start));
         let turns =
             before.cross(after).abs() > STRAIGHT_ON * before.hypot() * after.hypot() || before.dot(after) <= 0.0;
