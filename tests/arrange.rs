@@ -450,6 +450,18 @@ fn a_spline_that_touches_a_circle_at_its_joint_leaves_it_to_the_right_side() {
 }
 
 #[test]
+fn a_loop_that_became_a_line_does_not_fold_back() {
+    let beside = (-2.750000000000259, -2.750000000000966);
+    let joints = [(-2.75, -2.75), beside, (-2.75, -0.25), (beside.0 + 1e-3, beside.1)];
+    let mut drawing = drawing([Curve::periodic_spline(&joints.map(|(x, y)| p(x, y))).unwrap()]);
+    drawing.points.push(DrawnPoint { at: p(joints[3].0, joints[3].1), name: None, entity: "point".into() });
+    let options = ArrangeOptions { tolerance: Some(0.0), fill: Some(FillRule::Regions), ..Default::default() };
+    let domain = drawing.arrange(&options).unwrap();
+    assert_eq!(domain.flaws(), [""; 0]);
+    assert_eq!(repairs(&domain, RepairKind::Collapsed), 1);
+}
+
+#[test]
 fn circles_that_were_pulled_open_cross_where_they_are_drawn() {
     let whole = circle(0.0, -1.5, 2.5);
     let pulled = whole.with_ends(whole.start() + Vec2::new(3.5e-6, 3.5e-6), whole.end());

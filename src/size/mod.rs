@@ -257,11 +257,11 @@ impl SizeField {
     /// How many times a triangle is over its limits (1 and below: within them): by its longest edge and its area.
     pub fn excess(&self, region: RegionId, corners: [Point; 3]) -> f64 {
         let [a, b, c] = corners;
-        let longest = a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a)).sqrt();
+        let longest2 = a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a));
         let area = 0.5 * (b - a).cross(c - a);
         let centroid = a + ((b - a) + (c - a)) / 3.0;
-        let by_edge = longest / self.edge_in(region, centroid);
-        by_edge.max((area / self.area_in(region)).sqrt())
+        let edge = self.edge_in(region, centroid);
+        (longest2 / (edge * edge)).max(area / self.area_in(region)).sqrt()
     }
 
     /// The largest ball at a corner, up to `most`, in which cells meet the limits though nothing inside it is ever refined.

@@ -327,6 +327,7 @@ impl Network<'_> {
         let at = gone.curve.point(0.5);
         if gone.source == self.pieces[kept].source {
             self.loops.push((gone.source, at, gap));
+            self.straighten(kept);
         } else if gone.is_whole() && self.pieces[kept].is_whole() {
             self.repair(RepairKind::Duplicate, at, gap, format!("{second} repeats {first} and was dropped"));
         } else {
@@ -336,6 +337,16 @@ impl Network<'_> {
         let piece = &mut self.pieces[kept];
         piece.merged.push((gone.source, against));
         piece.merged.extend(gone.merged.iter().map(|&(source, reversed)| (source, reversed != against)));
+    }
+
+    /// Makes one side of a loop that became a line straight, where it was cut beside the loop's tip and so folds back.
+    fn straighten(&mut self, id: CurveId) {
+        let piece = &mut self.pieces[id];
+        if !piece.curve.breaks().is_empty()
+            && let Ok(chord) = Curve::line(piece.curve.start(), piece.curve.end())
+        {
+            (piece.bounds, piece.curve, piece.fresh) = (chord.bounds(), chord, true);
+        }
     }
 
     /// Itemises drawn curves of which nothing is left although they had a size, and loops of others that became lines.

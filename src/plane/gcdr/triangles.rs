@@ -96,7 +96,7 @@ impl Gcdr<'_> {
     /// is of type C, which needs no rejected point to be proven.
     fn doomed(&self, t: TriangleId) -> Option<PieceId> {
         let topology = self.mesh.topology();
-        let widest = libm::cos(2.0 * self.options.angle_min_rad);
+        let widest = 1.0 - 2.0 * self.sin2_min;
         let stays = |s: &Side| self.origins[topology.apex(*s)] != Origin::Free;
         let is_wide = |s: &Side| {
             let [u, v] = [topology.origin(*s), topology.target(*s)]
