@@ -316,6 +316,20 @@ fn a_curve_lies_in_the_cones_from_its_ends() {
 }
 
 #[test]
+fn the_nearest_point_is_found_beside_a_slow_end() {
+    // The curve starts at a ten-millionth of its speed, and passes q before it has gained any.
+    let points =
+        [(3.7500000000000826, 3.250000000000102), (3.7499994, 3.2499996), (-3.999, -3.9999998), (-3.999, -4.0)];
+    let curve = Curve::bezier(points.map(|(x, y)| Point::new(x, y)).to_vec()).unwrap();
+    for t in [1e-9, 3e-8, 1e-7, 1e-6] {
+        let q = curve.point(t);
+        let noise = 8.0 * f64::EPSILON;
+        assert!(curve.nearest(q, 0.0, 1.0).1 <= noise, "{t}: {:?}", curve.nearest(q, 0.0, 1.0));
+        assert!(curve.reversed().nearest(q, 0.0, 1.0).1 <= noise, "{t}");
+    }
+}
+
+#[test]
 fn the_nearest_point_is_nearest() {
     for Case { name, curve, size, grain } in cases() {
         let center = curve.bounds().center();

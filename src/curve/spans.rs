@@ -143,7 +143,30 @@ pub(super) fn nearest(curve: &Curve, p: Point, t0: f64, t1: f64) -> f64 {
             }
         }
     }
-    best.1
+    let is_end = [t0, t1].contains(&best.1) || pieces.iter().any(|span| span.t(0.0) == best.1);
+    if is_end { descended(curve, p, best, [t0, t1]) } else { best.1 }
+}
+
+/// From an end that seems nearest to p along the curve, as far as it comes nearer: where it sets out slowly, the noise of the slope's
+/// coefficients hides that. Newton's steps, of Gauss's kind where the distance is not convex; each is halved until it helps.
+fn descended(curve: &Curve, p: Point, (mut distance, mut t): (f64, f64), [t0, t1]: [f64; 2]) -> f64 {
+    const BUDGET: usize = 40;
+    let mut share = 1.0;
+    for _ in 0..BUDGET {
+        let (offset, d, dd) = (curve.point(t) - p, curve.derivative(t), curve.second_derivative(t));
+        let step = offset.dot(d) / (d.dot(d) + offset.dot(dd).max(0.0));
+        let stepped = (t - share * step).clamp(t0, t1);
+        if stepped == t || stepped.is_nan() {
+            break;
+        }
+        let nearer = length(curve.point(stepped) - p);
+        if nearer < distance {
+            (distance, t, share) = (nearer, stepped, 1.0);
+        } else {
+            share *= 0.5;
+        }
+    }
+    t
 }
 
 /// Where the part crosses the line, strictly inside: sign changes of the distance from it.

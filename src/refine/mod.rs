@@ -6,6 +6,9 @@ use std::collections::{BTreeMap, VecDeque};
 /// Buckets of a [`WorstFirst`] queue: fine enough that "worst" means within a few percent.
 const BUCKETS: usize = 256;
 
+/// Items that a bucket keeps room for while it is empty: few are filled only once.
+const SMALL: usize = 64;
+
 /// A queue that hands out the worst first, first come first served within about 1/256 of badness.
 ///
 /// Flat buckets instead of a heap: 10⁷ entries cost a push and a pop each, and the order does not depend on the sizes of others.
@@ -38,7 +41,9 @@ impl<T> WorstFirst<T> {
                 return Some(item);
             }
             // An emptied bucket gives its memory back, so that a queue that was once long does not stay large.
-            self.buckets[self.top] = VecDeque::new();
+            if self.buckets[self.top].capacity() > SMALL {
+                self.buckets[self.top] = VecDeque::new();
+            }
             self.top = self.top.checked_sub(1)?;
         }
     }
