@@ -167,7 +167,7 @@ mod tests {
     use crate::import::Format;
 
     fn source(bytes: &[u8]) -> Source<'_> {
-        Source { path: "folder/wing.dat", bytes, format: Some(Format::Airfoil), nodes: None }
+        Source { path: "folder/wing.dat", bytes, format: Some(Format::Airfoil), nodes: None, of_many: false }
     }
 
     #[test]

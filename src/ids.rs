@@ -48,6 +48,8 @@ ids! {
     NameId,
     /// A filled shape of a picture.
     ShapeId,
+    /// A layer of a drawing.
+    LayerId,
     /// A protecting ball around an acute corner.
     BallId,
 }

@@ -2,10 +2,12 @@
 
 mod healing;
 
-use crate::domain::{ArrangeError, Domain, DomainCurve, Drawing, DrawnCurve, Repair, SizeRequest, Unarranged};
+use crate::domain::{
+    ArrangeError, Domain, DomainCurve, Drawing, DrawnCurve, Repair, SizeRequest, Unarranged, Unmatched,
+};
 use crate::geometry::{Point, metres};
 use crate::ids::{Id, PointId, VertexId};
-use crate::import::{self, AirfoilOptions, Format, ImportError, SvgOptions};
+use crate::import::{self, AirfoilOptions, Format, ImportError, Selection, SvgOptions};
 use crate::mesh::elevate::elevate;
 use crate::mesh::quality::Quality;
 use crate::mesh::verify::{self, Check, Promise, Status, Verdict, verify};
@@ -36,6 +38,8 @@ pub struct Source<'a> {
     pub format: Option<Format>,
     /// The `.node` file beside a `.poly` file, where there is one.
     pub nodes: Option<&'a [u8]>,
+    /// Whether it is one of many inputs that share a request: names of the request that it does not have are noted then, and no error.
+    pub of_many: bool,
 }
 
 /// How a run ended, as an exit code (contract of the command line).
@@ -144,8 +148,10 @@ impl Outcome {
         let arranged = healing.arrange(watch);
         self.report.input.unhealed = unhealed(drawing, request, &mut self.report.input.notes, watch);
         let mut arranged = arranged?;
+        let read = self.report.input.notes.len();
         let (domain, plan, refined) = loop {
             self.report.input.repairs = arranged.repairs().to_vec();
+            self.report.input.notes.splice(read.., arranged.notes().iter().cloned());
             let (domain, plan) = Plan::new(drawing, &arranged, request, watch)?;
             self.report.request.note_use(drawing, &arranged, &plan);
             self.report.seconds.arrange += clock.lap();
@@ -295,10 +301,12 @@ pub fn read(source: &Source, request: &Request) -> Result<Drawing, FailureReport
             dpi: request.dpi,
         },
         face: request.face.clone(),
+        selection: Selection { only: request.layers.clone(), skip: request.skip_layers.clone() },
     };
     let mut drawing = import::read(source.bytes, format, stem, &options)?;
     drawing.notes.extend(unused_options(format, request));
     drawing.notes.extend(unused_face(format, request));
+    tell_unmatched(&mut drawing, source.of_many)?;
     in_units(drawing, request)
 }
 
@@ -318,6 +326,22 @@ fn unused_options(format: Format, request: &Request) -> Option<String> {
 /// Says that a drawing of this format has no faces to choose from.
 fn unused_face(format: Format, request: &Request) -> Option<String> {
     (format != Format::Step && request.face.is_some()).then(|| "--face: only for solids, and not used here".into())
+}
+
+/// Names of layers that the file does not have: an error, or a note where the request is that of many inputs.
+fn tell_unmatched(drawing: &mut Drawing, of_many: bool) -> Result<(), FailureReport> {
+    let Some(Unmatched { asked, near }) = drawing.unmatched.first() else { return Ok(()) };
+    let what = |asked: &str| format!("{asked}: no layer has this name");
+    if !of_many {
+        let help = match near.is_empty() {
+            true => "the file has no layers".to_owned(),
+            false => format!("layers: {}", near.join(", ")),
+        };
+        return Err(FailureReport::new(FailureKind::Request, what(asked), help));
+    }
+    let notes: Vec<String> = drawing.unmatched.iter().map(|unmatched| what(&unmatched.asked)).collect();
+    drawing.notes.extend(notes);
+    Ok(())
 }
 
 impl From<ImportError> for FailureReport {
@@ -356,8 +380,9 @@ fn scaled(mut drawing: Drawing, factor: f64) -> Drawing {
     for face in &mut drawing.faces {
         face.area = face.area.map(|area| area * factor * factor);
     }
-    for DrawnCurve { curve, .. } in &mut drawing.curves {
+    for DrawnCurve { curve, last_decimal, .. } in &mut drawing.curves {
         *curve = curve.transformed(Affine::scale(factor));
+        *last_decimal *= factor;
     }
     for drawn in &mut drawing.points {
         drawn.at = point(drawn.at);

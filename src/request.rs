@@ -5,6 +5,7 @@
 
 use crate::curve::Curve;
 use crate::domain::FillRule;
+use crate::import::Glob;
 use crate::mesh::verify::guaranteed_angle;
 use crate::plane::gcdr::Regions;
 use crate::plane::gcdr::parameters::radius_edge_of;
@@ -56,6 +57,11 @@ pub struct Request {
     pub strokes: Strokes,
     pub overlap: Overlap,
     pub keep: Keep,
+    /// Layers that are read, and layers that are not; patterns.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub layers: Vec<Glob>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub skip_layers: Vec<Glob>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub unit: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -115,6 +121,8 @@ impl Default for Request {
             strokes: Strokes::Auto,
             overlap: Overlap::Paint,
             keep: Keep::Inside,
+            layers: Vec::new(),
+            skip_layers: Vec::new(),
             unit: None,
             scale: None,
             dpi: 96.0, // CSS

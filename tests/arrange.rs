@@ -473,6 +473,19 @@ fn circles_that_were_pulled_open_cross_where_they_are_drawn() {
 }
 
 #[test]
+fn ellipses_that_were_pulled_open_cross_where_they_are_drawn() {
+    let (sin, cos) = libm::sincos(PI / 12.0);
+    let (u, v) = (Vec2::new(4.0 * cos, 4.0 * sin), Vec2::new(-0.004 * sin, 0.004 * cos));
+    let around = Curve::ellipse(p(-4.0, -4.0), u, v, -2.0 * PI / 3.0, -2.0 * PI / 3.0).unwrap();
+    let pulled = around.with_ends(around.start() + Vec2::new(1.9e-6, 5e-7), around.end());
+    let closed: Vec<Curve> =
+        [around, pulled].into_iter().flat_map(|arc| [Curve::line(arc.end(), arc.start()).unwrap(), arc]).collect();
+    let domain = regions(&drawing(closed));
+    let (faces, wanted) = euler(&domain);
+    assert_eq!(faces, wanted);
+}
+
+#[test]
 fn a_handle_a_last_digit_from_its_end_makes_a_corner_not_a_hook() {
     // The curve leaves its start downwards and turns upwards at once.
     let start = p(92.0981, 265.88936);

@@ -18,7 +18,7 @@ fn every_case_ends_with_a_mesh_at_a_limit_or_with_a_located_refusal() {
         let case = Case::from_toml(&text).unwrap_or_else(|e| panic!("{name}: {e}"));
         let (bytes, nodes) = case.bytes().unwrap_or_else(|e| panic!("{name}: {e}"));
         let format = case.input.format.as_deref().and_then(Format::from_name);
-        let source = Source { path: &case.input.name, bytes: &bytes, format, nodes: nodes.as_deref() };
+        let source = Source { path: &case.input.name, bytes: &bytes, format, nodes: nodes.as_deref(), of_many: false };
         let outcome = run(&source, &case.request, Extent::Whole(&mut |_| true));
         assert_ne!(outcome.exit, Exit::Bug, "{name}: {:?}", outcome.report.failure);
         match &outcome.report.failure {

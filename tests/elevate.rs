@@ -10,7 +10,13 @@ use squinch::request::{Order, Request};
 
 /// A run of an outline to order 2.
 fn meshed(outline: &str, request: Request) -> Outcome {
-    let source = Source { path: "test.json", bytes: outline.as_bytes(), format: Some(Format::Outline), nodes: None };
+    let source = Source {
+        path: "test.json",
+        bytes: outline.as_bytes(),
+        format: Some(Format::Outline),
+        nodes: None,
+        of_many: false,
+    };
     let outcome = pipeline::run(&source, &request, Extent::Whole(&mut |_| true));
     assert_eq!(outcome.exit, Exit::Done, "{:?}", outcome.report.promise);
     outcome

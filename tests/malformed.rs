@@ -36,7 +36,7 @@ fn soon<T>(what: &str, work: impl FnOnce() -> T) -> T {
 
 fn meshed(name: &str, bytes: &[u8], format: Option<Format>) -> Outcome {
     let request = Request { max_vertices: 2000, timeout: Some(10.0), far_field: 2.0, ..Request::default() };
-    let source = Source { path: name, bytes, format, nodes: None };
+    let source = Source { path: name, bytes, format, nodes: None, of_many: false };
     soon(name, || run(&source, &request, Extent::Whole(&mut |_| true)))
 }
 

@@ -107,7 +107,7 @@ impl Face {
             for (curve, index) in curves {
                 let edge = &edges[*index];
                 let name = drawing.names.intern(&edge.name);
-                drawing.curves.push(DrawnCurve { curve: curve.clone(), name, entity: edge.entity.clone(), shape });
+                drawing.curves.push(DrawnCurve { shape, ..DrawnCurve::new(curve.clone(), name, edge.entity.clone()) });
             }
         }
         if flat.off_plane > ROUNDING * flat.diagonal {

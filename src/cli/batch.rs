@@ -11,7 +11,7 @@ use record::{Desk, Line, Record};
 use squinch::case;
 use squinch::export::Format;
 use squinch::import;
-use squinch::pipeline::{self, Exit, Extent, Outcome};
+use squinch::pipeline::{self, Exit, Extent, Outcome, Source};
 use squinch::report::{FailureKind, FailureReport};
 use squinch::request::Request;
 use std::collections::BTreeMap;
@@ -162,7 +162,7 @@ impl Batch {
 
     fn mesh(&self, job: &Job, request: &Request, format: Option<import::Format>) -> Result<Line, FailureReport> {
         let input = open(job, format)?;
-        let outcome = pipeline::run(&input.source(), request, Extent::Whole(&mut |_| true));
+        let outcome = pipeline::run(&Source { of_many: true, ..input.source() }, request, Extent::Whole(&mut |_| true));
         if outcome.exit == Exit::Bug {
             self.keep_case(job, request, format, &pipeline::ending(&outcome));
         }

@@ -33,7 +33,13 @@ impl Input {
     }
 
     pub fn source(&self) -> Source<'_> {
-        Source { path: &self.path, bytes: &self.bytes, format: self.format, nodes: self.nodes.as_deref() }
+        Source {
+            path: &self.path,
+            bytes: &self.bytes,
+            format: self.format,
+            nodes: self.nodes.as_deref(),
+            of_many: false,
+        }
     }
 
     pub fn case(&self, outcome: &str, request: &Request) -> Case {

@@ -4,7 +4,7 @@ use super::Halt;
 use super::say;
 use clap::Args;
 use serde::{Deserialize, Serialize};
-use squinch::import::Format;
+use squinch::import::{Format, Glob};
 use squinch::pipeline::Exit;
 use squinch::request::{
     BallShrinking, ChordError, EdgeTurning, Engine, FillChoice, Keep, MaxTurning, Midpoint, Order, Overlap, Request,
@@ -75,6 +75,12 @@ pub struct Options {
     /// all: adds a box named `box` and keeps every bounded face [default: inside]
     #[arg(long, value_enum, value_name = "WHAT", help_heading = "Input")]
     keep: Option<Keep>,
+    /// Only these layers (DXF) or layers and ids (SVG) are read: names or patterns as PART*, with commas or repeated
+    #[arg(long, value_name = "A,B", value_delimiter = ',', help_heading = "Input")]
+    layers: Option<Vec<Glob>>,
+    /// These layers or ids are not read: names or patterns as in --layers
+    #[arg(long, value_name = "A,B", value_delimiter = ',', help_heading = "Input")]
+    skip_layers: Option<Vec<Glob>>,
     /// Unit of the mesh; the drawing's coordinates are converted where their unit is known
     #[arg(long, value_name = "UNIT", help_heading = "Input")]
     unit: Option<String>,
@@ -278,6 +284,8 @@ mod tests {
             grade: Some(1.0),
             size_of: vec!["a=1".parse().unwrap()],
             tolerance: Some(0.0),
+            layers: vec!["a".parse().unwrap()],
+            skip_layers: vec!["a".parse().unwrap()],
             unit: Some("mm".into()),
             scale: Some(1.0),
             timeout: Some(1.0),

@@ -2,7 +2,8 @@
 
 use crate::curve::Curve;
 use crate::geometry::{Frame, Point, Rect};
-use crate::ids::{IdVec, NameId, Names, ShapeId};
+use crate::ids::{IdVec, LayerId, NameId, Names, ShapeId};
+use std::collections::BTreeMap;
 
 /// A drawing as found.
 #[derive(Clone, Debug, Default)]
@@ -17,6 +18,8 @@ pub struct Drawing {
     pub seeds: Vec<Seed>,
     /// The filled shapes of a picture, in the order in which they are painted.
     pub shapes: IdVec<ShapeId, Shape>,
+    /// The layers of the file, in its order.
+    pub layers: IdVec<LayerId, Layer>,
     pub fill: FillRule,
     /// A picture whose numbers have the digits of a picture: what is hardly to be seen was hardly meant.
     pub sketch: bool,
@@ -28,6 +31,8 @@ pub struct Drawing {
     pub faces: Vec<FaceInfo>,
     /// What the reader left out, counted.
     pub skipped: Vec<Skipped>,
+    /// Layers that were asked for and that the file does not have.
+    pub unmatched: Vec<Unmatched>,
     /// What the reader noticed or mended (format quirks), one sentence each.
     pub notes: Vec<String>,
     /// Size requests that came with the drawing (see `size::Source`): name or point sources.
@@ -56,6 +61,37 @@ pub struct DrawnCurve {
     pub entity: String,
     /// The shape whose outline it is a part of. The curves of a shape are closed outlines, end to end.
     pub shape: Option<ShapeId>,
+    /// The layer that it is drawn on, where the file has layers.
+    pub layer: Option<LayerId>,
+    /// The number by which the file knows its entity (group 5 of a DXF entity).
+    pub handle: Option<u64>,
+    /// One unit of the last decimal in which the file writes its ends, as a length; 0 where they are exact: whole numbers, or bits of
+    /// binary files. Ends that are computed (of arcs, by transforms) have the unit that their numbers come to.
+    pub last_decimal: f64,
+}
+
+impl DrawnCurve {
+    /// A curve of which no more is known than its name and where it came from; its ends are exact.
+    pub fn new(curve: Curve, name: NameId, entity: impl Into<String>) -> Self {
+        Self { curve, name, entity: entity.into(), shape: None, layer: None, handle: None, last_decimal: 0.0 }
+    }
+}
+
+/// A layer of a drawing.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Layer {
+    pub name: String,
+    /// How many entities are drawn on it, by their line type; by the empty text where the format has none.
+    pub line_types: BTreeMap<String, usize>,
+}
+
+/// A layer that was asked for, by its name or a pattern, and that the file does not have.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Unmatched {
+    /// The option with its value, as typed: `--layers PRAT`.
+    pub asked: String,
+    /// Layers of the file, the most alike first.
+    pub near: Vec<String>,
 }
 
 /// A filled shape of a picture. A later shape lies on top of an earlier one.
@@ -139,6 +175,6 @@ impl Drawing {
     /// Adds a curve of the named boundary.
     pub fn add(&mut self, curve: Curve, name: &str, entity: impl Into<String>) {
         let name = self.names.intern(name);
-        self.curves.push(DrawnCurve { curve, name, entity: entity.into(), shape: None });
+        self.curves.push(DrawnCurve::new(curve, name, entity));
     }
 }

@@ -8,7 +8,9 @@ mod locate;
 mod planar;
 
 pub use arrange::{ArrangeError, ArrangeOptions, Repair, RepairKind, Unarranged};
-pub use drawing::{Drawing, DrawnCurve, DrawnPoint, FaceInfo, FillRule, Seed, SeedKind, Shape, SizeRequest, Skipped};
+pub use drawing::{
+    Drawing, DrawnCurve, DrawnPoint, FaceInfo, FillRule, Layer, Seed, SeedKind, Shape, SizeRequest, Skipped, Unmatched,
+};
 pub use features::Features;
 pub use locate::Locator;
 pub use planar::{Corner, Domain, DomainCurve, Incident, Region};

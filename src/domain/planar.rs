@@ -23,6 +23,8 @@ pub struct Domain {
     /// Name of a point, where the drawing gave one.
     pub(super) point_names: std::collections::BTreeMap<PointId, NameId>,
     pub(super) repairs: Vec<Repair>,
+    /// What arranging noticed of the drawing as a whole, one sentence each.
+    pub(super) notes: Vec<String>,
     /// The welding distance that was used: how far a curve may have been moved at its ends.
     pub(super) tolerance: f64,
     /// Curves incident to each point, counter-clockwise by the direction in which they leave (ties: as they lie a little way off).
@@ -84,6 +86,9 @@ impl Domain {
     }
     pub fn repairs(&self) -> &[Repair] {
         &self.repairs
+    }
+    pub fn notes(&self) -> &[String] {
+        &self.notes
     }
     pub fn tolerance(&self) -> f64 {
         self.tolerance

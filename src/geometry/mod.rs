@@ -20,6 +20,22 @@ pub fn unit_scale(magnitude: f64) -> f64 {
     libm::ldexp(1.0, -exponent)
 }
 
+/// One unit of the last decimal of a number that was read from text: 0.001 of 1.275, 0.1 of 3.0e1 + 0.5, 0 of a whole number.
+///
+/// The shortest text that reads as the same number is what was written, but for zeros at its end.
+pub fn last_decimal(x: f64) -> f64 {
+    let text = format!("{:e}", x.abs());
+    let Some((digits, exponent)) = text.split_once('e') else { return 0.0 };
+    let decimals = digits.len().saturating_sub(2) as i32 - exponent.parse().unwrap_or(0);
+    if decimals > 0 { libm::pow(10.0, -f64::from(decimals)) } else { 0.0 }
+}
+
+/// The unit of the last decimal of several numbers: of the one that has the most; 0 where all are whole.
+pub fn finest_decimal(numbers: impl IntoIterator<Item = f64>) -> f64 {
+    let units = numbers.into_iter().map(last_decimal).filter(|&unit| unit > 0.0);
+    units.reduce(f64::min).unwrap_or(0.0)
+}
+
 /// The largest absolute coordinate of a box.
 pub fn magnitude(bounds: Rect) -> f64 {
     bounds.x0.abs().max(bounds.x1.abs()).max(bounds.y0.abs()).max(bounds.y1.abs())

@@ -6,11 +6,14 @@ pub mod dxf;
 pub mod mesh;
 pub mod outline;
 pub mod poly;
+#[allow(dead_code, reason = "readers take it up one after the other")]
+mod selection;
 #[cfg(feature = "cad")]
 pub mod step;
 pub mod svg;
 
 pub use airfoil::{AirfoilOptions, TrailingEdge};
+pub use selection::{Glob, Selection};
 pub use svg::{Strokes, SvgOptions};
 
 use crate::domain::Drawing;
@@ -138,6 +141,8 @@ pub struct Options {
     pub svg: SvgOptions,
     /// The face of a solid: its number or name, or `largest`; `None`: the largest.
     pub face: Option<String>,
+    /// Of formats that have layers.
+    pub selection: Selection,
 }
 
 /// Reads a drawing. `stem` (the file's name without its suffix) is the title where the file gives none.

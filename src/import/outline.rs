@@ -419,7 +419,7 @@ impl File {
             let several = entry.curves.len() > 1;
             for (k, curve) in entry.curves.into_iter().enumerate() {
                 let entity = if several { format!("{whole}, edge {k}") } else { whole.clone() };
-                d.curves.push(DrawnCurve { curve, name, entity, shape: entry.shape.map(ShapeId) });
+                d.curves.push(DrawnCurve { shape: entry.shape.map(ShapeId), ..DrawnCurve::new(curve, name, entity) });
             }
         }
         for (i, p) in self.points.into_iter().enumerate() {

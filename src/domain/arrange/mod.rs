@@ -360,6 +360,7 @@ fn bare_domain(network: &Network, watch: &mut Watch) -> Result<Domain, Unarrange
         names: drawing.names.clone(),
         point_names,
         repairs: Vec::new(),
+        notes: Vec::new(),
         tolerance: network.tolerances.weld,
         stars,
     })

@@ -247,7 +247,7 @@ impl<'f, 'a> Sketch<'f, 'a> {
                     let entity = if parts.is_empty() { label.clone() } else { format!("{label}, {parts} {}", i + 1) };
                     let curve = self.placed(curve, setting, &label)?;
                     match curve {
-                        Some(curve) => self.drawing.curves.push(DrawnCurve { curve, name, entity, shape: None }),
+                        Some(curve) => self.drawing.curves.push(DrawnCurve::new(curve, name, entity)),
                         None => self.skip("curve", "too small for numbers once it is inserted"),
                     }
                 }

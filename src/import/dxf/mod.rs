@@ -61,12 +61,9 @@ fn add_fills(fills: Vec<Fill>, drawing: &mut Drawing) {
         drawing.fill = FillRule::Shapes;
         for Fill { name, outlines, entity } in fills {
             let shape = drawing.shapes.push(Shape { name, even_odd: true, entity: entity.clone() });
-            let curves = outlines.into_iter().map(|curve| DrawnCurve {
-                curve,
-                name,
-                entity: entity.clone(),
-                shape: Some(shape),
-            });
+            let curves = outlines
+                .into_iter()
+                .map(|curve| DrawnCurve { shape: Some(shape), ..DrawnCurve::new(curve, name, entity.clone()) });
             drawing.curves.extend(curves);
         }
         return;

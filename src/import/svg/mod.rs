@@ -625,7 +625,7 @@ impl<'a> Reader<'a> {
         });
         for (curve, k) in curves.zip(1..) {
             let entity = format!("{entity}, curve {k}");
-            self.drawing.curves.push(DrawnCurve { curve, name, entity, shape: Some(shape) });
+            self.drawing.curves.push(DrawnCurve { shape: Some(shape), ..DrawnCurve::new(curve, name, entity) });
         }
     }
 

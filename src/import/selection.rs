@@ -1,0 +1,143 @@
+//! Which layers of a file are read: all but those that are named, or those that are named.
+
+use crate::domain::Unmatched;
+use glob::{MatchOptions, Pattern};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeSet;
+use std::fmt;
+use std::str::FromStr;
+
+/// A name, or a pattern with `*`, `?` and `[…]`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "String", into = "String")]
+pub struct Glob {
+    text: String,
+    pattern: Pattern,
+}
+
+impl Glob {
+    fn matches(&self, name: &str, case: MatchOptions) -> bool {
+        let same = if case.case_sensitive { name == self.text } else { name.eq_ignore_ascii_case(&self.text) };
+        same || self.pattern.matches_with(name, case)
+    }
+}
+
+impl FromStr for Glob {
+    type Err = String;
+    fn from_str(text: &str) -> Result<Self, String> {
+        // A name may hold brackets that are no pattern: it matches itself then.
+        let pattern = Pattern::new(text).or_else(|_| Pattern::new(&Pattern::escape(text)));
+        Ok(Self { text: text.into(), pattern: pattern.map_err(|e| e.to_string())? })
+    }
+}
+
+impl TryFrom<String> for Glob {
+    type Error = String;
+    fn try_from(text: String) -> Result<Self, String> {
+        text.parse()
+    }
+}
+
+impl From<Glob> for String {
+    fn from(glob: Glob) -> Self {
+        glob.text
+    }
+}
+
+impl fmt::Display for Glob {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.text)
+    }
+}
+
+/// The layers that a reader is asked for.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Selection {
+    /// Where there are any: only layers that one of them matches.
+    pub only: Vec<Glob>,
+    pub skip: Vec<Glob>,
+}
+
+/// Asks for each entity whether it is selected, and remembers which patterns matched.
+pub(super) struct Chooser<'a> {
+    selection: &'a Selection,
+    case: MatchOptions,
+    names: BTreeSet<String>,
+    matched: BTreeSet<&'a str>,
+}
+
+/// Names that are offered in the place of one that does not exist.
+const NEAR: usize = 5;
+
+impl<'a> Chooser<'a> {
+    pub fn new(selection: &'a Selection, case_sensitive: bool) -> Self {
+        let case = MatchOptions { case_sensitive, ..MatchOptions::default() };
+        Self { selection, case, names: BTreeSet::new(), matched: BTreeSet::new() }
+    }
+
+    /// Whether an entity is read that all of these names stand for: its layer, or in SVG its own names and those of all groups around it.
+    pub fn takes<'n>(&mut self, names: impl IntoIterator<Item = &'n str> + Clone) -> bool {
+        for name in names.clone() {
+            if !self.names.contains(name) {
+                self.learn(name);
+            }
+        }
+        let any =
+            |globs: &[Glob]| names.clone().into_iter().any(|name| globs.iter().any(|g| g.matches(name, self.case)));
+        (self.selection.only.is_empty() || any(&self.selection.only)) && !any(&self.selection.skip)
+    }
+
+    /// Takes note of a layer, also one on which nothing is drawn.
+    pub fn learn(&mut self, name: &str) {
+        let globs = self.selection.only.iter().chain(&self.selection.skip);
+        self.matched.extend(globs.filter(|glob| glob.matches(name, self.case)).map(|glob| glob.text.as_str()));
+        self.names.insert(name.into());
+    }
+
+    /// The patterns that matched nothing.
+    pub fn unmatched(self) -> Vec<Unmatched> {
+        let options = [("--layers", &self.selection.only), ("--skip-layers", &self.selection.skip)];
+        let globs = options.into_iter().flat_map(|(option, globs)| globs.iter().map(move |glob| (option, glob)));
+        let missed = globs.filter(|(_, glob)| !self.matched.contains(glob.text.as_str()));
+        let near = |glob: &Glob| {
+            let wanted = glob.text.to_lowercase();
+            let mut names: Vec<&String> = self.names.iter().collect();
+            let likeness = |name: &str| strsim::jaro_winkler(&name.to_lowercase(), &wanted);
+            names.sort_by(|a, b| likeness(b).total_cmp(&likeness(a)));
+            names.into_iter().take(NEAR).cloned().collect()
+        };
+        missed.map(|(option, glob)| Unmatched { asked: format!("{option} {glob}"), near: near(glob) }).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn globs(texts: &[&str]) -> Vec<Glob> {
+        texts.iter().map(|text| text.parse().unwrap()).collect()
+    }
+
+    #[test]
+    fn names_and_patterns_select() {
+        let selection = Selection { only: globs(&["PART*", "[odd"]), skip: globs(&["*-old"]) };
+        let mut chooser = Chooser::new(&selection, false);
+        assert!(chooser.takes(["part 1"]));
+        assert!(chooser.takes(["[odd"]));
+        assert!(!chooser.takes(["frame"]));
+        assert!(!chooser.takes(["PART-OLD"]), "in any case of letters");
+        assert!(chooser.takes(["frame", "PART"]), "one of several names");
+        assert_eq!(chooser.unmatched(), []);
+    }
+
+    #[test]
+    fn what_matches_nothing_is_told_with_what_is_near() {
+        let selection = Selection { only: vec![], skip: globs(&["FRMAE", "CENTER"]) };
+        let mut chooser = Chooser::new(&selection, true);
+        ["PART", "FRAME", "CENTER"].into_iter().for_each(|name| chooser.learn(name));
+        let unmatched = chooser.unmatched();
+        assert_eq!(unmatched.len(), 1);
+        assert_eq!(unmatched[0].asked, "--skip-layers FRMAE");
+        assert_eq!(unmatched[0].near[0], "FRAME");
+    }
+}
