@@ -387,6 +387,9 @@ fn scaled(mut drawing: Drawing, factor: f64) -> Drawing {
     for drawn in &mut drawing.points {
         drawn.at = point(drawn.at);
     }
+    for entity in &mut drawing.off_plane {
+        entity.ends = entity.ends.map(point);
+    }
     for seed in &mut drawing.seeds {
         seed.at = point(seed.at);
         if let crate::domain::SeedKind::Region { max_area: Some(area), .. } = &mut seed.kind {

@@ -37,9 +37,21 @@ struct Windings<'a> {
     faces: &'a Faces,
     domain: &'a Domain,
     rule: FillRule,
-    /// How often each curve counts, in its own direction; 0 where the same face lies on both sides.
+    /// How often each curve counts: in its own direction, or by the odd-even rule in any; 0 where the same face lies on both sides, and of
+    /// open lines.
     weight: Vec<i32>,
     winding: Vec<Option<i32>>,
+    /// Curves that count once, however many drawn ones run along them.
+    once: Vec<bool>,
+}
+
+/// How often a curve counts that several drawn ones run along.
+enum Count {
+    Once,
+    /// As often as it is drawn, over the number of times that all is drawn.
+    Copies {
+        divided_by: i32,
+    },
 }
 
 fn is_inside(rule: FillRule, winding: i32) -> bool {
@@ -81,19 +93,47 @@ impl Windings<'_> {
             // Nothing but open curves that enclose something by crossing: filled where nothing around them is.
             let within = if is_inside(self.rule, around) { around } else { around + 1 };
             bounded.iter().for_each(|&face| self.winding[face] = Some(within));
-        } else if self.is_balanced(sides.copied()) {
-            self.spread(outer, around);
-        } else {
-            bounded.iter().for_each(|&face| self.winding[face] = Some(around + 1));
+            return;
+        }
+        let curves: Vec<CurveId> = sides.filter(|half| half.side == Side::Left).map(|half| half.curve).collect();
+        match self.counts(&curves).into_iter().find(|count| self.is_balanced(&curves, count)) {
+            Some(count) => {
+                if matches!(count, Count::Once) {
+                    curves.iter().for_each(|id| self.once[id.index()] = true);
+                }
+                self.spread(outer, around, &count);
+            }
+            None => bounded.iter().for_each(|&face| self.winding[face] = Some(around + 1)),
+        }
+    }
+
+    /// The ways to count the curves of a component, the first one first that comes out even at every point.
+    ///
+    /// By the odd-even rule what is drawn several times at one place is one contour, and counts once. Where that leaves an odd number of
+    /// curves at some point, contours that share a wall were drawn each for itself (two rooms): then every copy counts, but where all is
+    /// drawn an even number of times half of them does.
+    fn counts(&self, curves: &[CurveId]) -> Vec<Count> {
+        if self.rule != FillRule::EvenOdd {
+            return vec![Count::Copies { divided_by: 1 }];
+        }
+        let common = curves.iter().map(|id| self.weight[id.index()].unsigned_abs()).fold(0, |a, b| a | b);
+        vec![Count::Once, Count::Copies { divided_by: 1 << common.trailing_zeros().min(30) }]
+    }
+
+    fn weight(&self, id: CurveId, count: &Count) -> i32 {
+        let weight = self.weight[id.index()];
+        match count {
+            Count::Once => weight.signum(),
+            Count::Copies { divided_by } => weight / divided_by,
         }
     }
 
     /// Whether as many curves arrive as leave, at every point: only then is the winding number the same along every way.
-    fn is_balanced(&self, sides: impl Iterator<Item = Half>) -> bool {
+    fn is_balanced(&self, curves: &[CurveId], count: &Count) -> bool {
         let mut flow: Vec<(PointId, i32)> = Vec::new();
-        for half in sides.filter(|h| h.side == Side::Left) {
-            let weight = self.weight[half.curve.index()];
-            let ends = self.domain.curves[half.curve].ends;
+        for &id in curves {
+            let weight = self.weight(id, count);
+            let ends = self.domain.curves[id].ends;
             flow.extend([(ends[0], weight), (ends[1], -weight)]);
         }
         flow.sort_unstable();
@@ -104,7 +144,7 @@ impl Windings<'_> {
     }
 
     /// From the face around a component across its curves to all its faces.
-    fn spread(&mut self, outer: usize, around: i32) {
+    fn spread(&mut self, outer: usize, around: i32, count: &Count) {
         let mut stack = vec![(outer, around)];
         while let Some((cycle, winding)) = stack.pop() {
             for &half in &self.faces.cycles[cycle].halves {
@@ -112,7 +152,7 @@ impl Windings<'_> {
                 if beyond == outer || beyond == cycle || self.winding[beyond].is_some() {
                     continue;
                 }
-                let weight = self.weight[half.curve.index()];
+                let weight = self.weight(half.curve, count);
                 // The left of a curve that counts once winds once more than its right.
                 let there = if half.side == Side::Left { winding - weight } else { winding + weight };
                 self.winding[beyond] = Some(there);
@@ -144,7 +184,7 @@ fn closed_outlines(network: &Network) -> Vec<bool> {
     closed
 }
 
-fn windings(network: &Network, domain: &Domain, faces: &Faces, rule: FillRule) -> Vec<i32> {
+fn windings(network: &Network, domain: &mut Domain, faces: &Faces, rule: FillRule) -> Vec<i32> {
     let closed = closed_outlines(network);
     let same_face = |id: CurveId| {
         let [left, right] = [Side::Left, Side::Right].map(|side| faces.cycle_of[Half { curve: id, side }.index()]);
@@ -153,17 +193,32 @@ fn windings(network: &Network, domain: &Domain, faces: &Faces, rule: FillRule) -
     let drawn = |id: CurveId| drawn_along(network, id);
     let count = |(source, against): (u32, bool)| match closed[source as usize] {
         false => 0,
-        true if against => -1,
+        true if against && rule == FillRule::NonZero => -1,
         true => 1,
     };
     let weight = domain.curves.ids().map(|id| if same_face(id) { 0 } else { drawn(id).map(count).sum() });
     let counted: Vec<bool> = (domain.curves.ids())
         .map(|id| !same_face(id) && drawn(id).any(|(source, _)| closed[source as usize]))
         .collect();
-    let winding = vec![None; faces.cycles.len()];
-    let mut windings = Windings { faces, domain, rule, weight: weight.collect(), winding };
+    let (winding, once) = (vec![None; faces.cycles.len()], vec![false; domain.curves.len()]);
+    let mut windings = Windings { faces, domain, rule, weight: weight.collect(), winding, once };
     windings.settle(&counted);
-    windings.winding.into_iter().map(|w| w.unwrap_or(0)).collect()
+    let Windings { winding, once, .. } = windings;
+    let once = domain.curves.ids().filter(|id| once[id.index()]);
+    let copies: BTreeSet<u32> =
+        once.flat_map(|id| network.pieces[id].merged.iter().map(|&(source, _)| source)).collect();
+    domain.notes.extend(tell_copies(copies.len()));
+    winding.into_iter().map(|w| w.unwrap_or(0)).collect()
+}
+
+/// Says how many curves are drawn over others.
+fn tell_copies(count: usize) -> Option<String> {
+    let curves = match count {
+        0 => return None,
+        1 => "1 curve is".into(),
+        _ => format!("{count} curves are"),
+    };
+    Some(format!("{curves} drawn twice, in whole or in part: what lies over another curve is a copy, and counts once."))
 }
 
 /// The drawn curves that run along a piece of the domain, and whether each runs against it.
