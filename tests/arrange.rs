@@ -2,8 +2,8 @@
 
 use squinch::curve::Curve;
 use squinch::domain::{
-    ArrangeError, ArrangeOptions, Domain, Drawing, DrawnPoint, FillRule, Loose, OffPlane, RepairKind, Seed, SeedKind,
-    Shape,
+    ArrangeError, ArrangeOptions, Domain, Drawing, DrawnPoint, FillRule, Layer, Loose, OffPlane, RepairKind, Seed,
+    SeedKind, Shape,
 };
 use squinch::geometry::{Point, Vec2};
 use squinch::ids::{CurveId, Id};
@@ -1347,4 +1347,56 @@ fn a_speck_on_the_tip_of_a_sliver_is_named_by_its_own_shape() {
     let domain = drawing.arrange(&ArrangeOptions { tolerance: Some(0.0), ..Default::default() }).unwrap();
     assert_eq!(domain.flaws(), [""; 0]);
     assert_eq!(domain.regions().len(), 2);
+}
+
+// ---- auxiliary linework ----
+
+/// Curves on layers, by name.
+fn layered(layers: &[(&str, Vec<Curve>)]) -> Drawing {
+    let mut drawing = Drawing::default();
+    for (name, curves) in layers {
+        let line_types = [("CONTINUOUS".to_owned(), curves.len())].into();
+        let layer = Some(drawing.layers.push(Layer { name: (*name).into(), line_types }));
+        for curve in curves {
+            drawing.add(curve.clone(), name, format!("curve on {name}"));
+            drawing.curves.last_mut().unwrap().layer = layer;
+        }
+    }
+    drawing
+}
+
+fn notes_of(layers: &[(&str, Vec<Curve>)]) -> String {
+    filled(&layered(layers), FillRule::EvenOdd).notes().join("\n")
+}
+
+#[test]
+fn a_frame_around_a_part_is_told() {
+    let part = ("PART", square(2.0, 2.0, 6.0));
+    let holes = ("HOLES", vec![circle(4.0, 4.0, 0.5), circle(6.0, 6.0, 0.5)]);
+    let sheet = ("A4", square(0.0, 0.0, 10.0));
+    let double = ("A4", [square(0.0, 0.0, 10.0), square(1.0, 1.0, 8.0)].concat());
+    for frame in [sheet.clone(), double] {
+        let notes = notes_of(&[frame, part.clone(), holes.clone()]);
+        assert!(notes.contains("Layer A4") && notes.contains("--skip-layers A4"), "{notes}");
+    }
+    // A plate with holes is no frame, unless it is called one; nor is what holds nothing.
+    assert_eq!(notes_of(&[sheet.clone(), part.clone()]), "");
+    assert_eq!(notes_of(&[part.clone(), holes.clone()]), "");
+    assert!(notes_of(&[("Title frame", square(0.0, 0.0, 10.0)), part]).contains("--skip-layers 'Title frame'"));
+}
+
+#[test]
+fn outlines_that_cross_those_of_another_layer_are_told() {
+    let disk =
+        ("0", vec![circle(0.0, 0.0, 10.0), circle(6.0, 0.0, 1.0), circle(-6.0, 0.0, 1.0), circle(0.0, 6.0, 1.0)]);
+    let bolts = ("CENTER", vec![circle(0.0, 0.0, 6.0)]);
+    let notes = notes_of(&[disk.clone(), bolts]);
+    assert!(notes.contains("layer CENTER cross those of layer 0") && notes.contains("5 places more"), "{notes}");
+    assert!(notes.contains("--skip-layers CENTER"), "{notes}");
+    // What only touches, shares a wall, or is open, crosses nothing.
+    let beside = ("SIDE", vec![circle(12.0, 0.0, 2.0)]);
+    assert_eq!(notes_of(&[disk, beside]), "");
+    assert_eq!(notes_of(&[("A", square(0.0, 0.0, 2.0)), ("B", square(2.0, 0.0, 2.0))]), "");
+    let open = notes_of(&[("A", square(0.0, 0.0, 2.0)), ("B", vec![line((-1.0, 1.0), (3.0, 1.0))])]);
+    assert!(!open.contains("cross"), "{open}");
 }

@@ -163,7 +163,7 @@ impl Windings<'_> {
 }
 
 /// Which drawn curves are parts of closed outlines, by their own ends: a curve at a free end is none, nor what is left free without it.
-fn closed_outlines(network: &Network) -> Vec<bool> {
+pub(super) fn closed_outlines(network: &Network) -> Vec<bool> {
     let mut at: IdVec<PointId, Vec<usize>> = vec![Vec::new(); network.nodes.len()].into();
     for (i, ends) in network.drawn_ends.iter().enumerate() {
         ends.iter().flatten().for_each(|&end| at[end].push(i));

@@ -36,6 +36,7 @@
 //!
 //! All of it happens in a frame scaled by a power of two, so that the same drawing at another such scale gives the same bits.
 
+mod auxiliary;
 mod cut;
 mod fill;
 mod hidden;
@@ -359,6 +360,9 @@ fn arrange_in_unit_frame(
     }
     domain.repairs.append(&mut network.repairs);
     domain.notes.append(&mut notes);
+    if matches!(rule, FillRule::EvenOdd | FillRule::NonZero) {
+        domain.notes.append(&mut auxiliary::remarks(&network, &domain, &faces));
+    }
     trace::keep(&network, &mut domain, &faces, rule, options, watch)?;
     Ok(domain)
 }
