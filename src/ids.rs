@@ -179,3 +179,30 @@ impl Names {
         self.texts.enumerate().map(|(id, text)| (id, text.as_str()))
     }
 }
+
+/// Sets of things that are numbered from 0, joined two by two. The least of each set stands for it.
+pub struct Forest {
+    parent: Vec<usize>,
+}
+
+impl Forest {
+    /// `n` sets of one each.
+    pub fn new(n: usize) -> Self {
+        Self { parent: (0..n).collect() }
+    }
+
+    /// What stands for the set of `i`.
+    pub fn root(&mut self, mut i: usize) -> usize {
+        while self.parent[i] != i {
+            self.parent[i] = self.parent[self.parent[i]];
+            i = self.parent[i];
+        }
+        i
+    }
+
+    /// Makes one set of two.
+    pub fn join(&mut self, a: usize, b: usize) {
+        let (a, b) = (self.root(a), self.root(b));
+        self.parent[a.max(b)] = a.min(b);
+    }
+}

@@ -3,7 +3,7 @@
 mod healing;
 
 use crate::domain::{
-    ArrangeError, Domain, DomainCurve, Drawing, DrawnCurve, Repair, SizeRequest, Unarranged, Unmatched,
+    ArrangeError, Domain, DomainCurve, Drawing, DrawnCurve, Repair, SizeRequest, Target, Unarranged, Unmatched,
 };
 use crate::geometry::{Point, metres};
 use crate::ids::{Id, PointId, VertexId};
@@ -152,6 +152,7 @@ impl Outcome {
         let (domain, plan, refined) = loop {
             self.report.input.repairs = arranged.repairs().to_vec();
             self.report.input.notes.splice(read.., arranged.notes().iter().cloned());
+            check_named_regions(&arranged, request)?;
             let (domain, plan) = Plan::new(drawing, &arranged, request, watch)?;
             self.report.request.note_use(drawing, &arranged, &plan);
             self.report.seconds.arrange += clock.lap();
@@ -307,7 +308,38 @@ pub fn read(source: &Source, request: &Request) -> Result<Drawing, FailureReport
     drawing.notes.extend(unused_options(format, request));
     drawing.notes.extend(unused_face(format, request));
     tell_unmatched(&mut drawing, source.of_many)?;
-    in_units(drawing, request)
+    let mut drawing = in_units(drawing, request)?;
+    give_names(&mut drawing, request, source.of_many)?;
+    Ok(drawing)
+}
+
+/// Names that the request gives. What is not there is an error, or a note where the request is that of many inputs.
+fn give_names(drawing: &mut Drawing, request: &Request, of_many: bool) -> Result<(), FailureReport> {
+    drawing.name_each(request.names.rule());
+    for name in &request.name {
+        match drawing.give_name(name) {
+            Ok(what) => drawing.notes.push(what),
+            Err(why) if of_many => drawing.notes.push(format!("--name {name}: {why}")),
+            Err(why) => return Err(FailureReport::new(FailureKind::Request, format!("--name {name}: {why}"), "")),
+        }
+    }
+    Ok(())
+}
+
+/// Refuses the name of a region at a place that is in none.
+fn check_named_regions(domain: &Domain, request: &Request) -> Result<(), FailureReport> {
+    let is_there = |name: &str| domain.regions().iter().any(|region| domain.name(region.name) == name);
+    for name in &request.name {
+        if let Target::Region(at) = name.target
+            && !is_there(&name.name)
+        {
+            let help = "name a place well within a region: squinch draw shows them";
+            return Err(
+                FailureReport::new(FailureKind::Request, format!("--name {name}: no region is there"), help).at(at)
+            );
+        }
+    }
+    Ok(())
 }
 
 /// Says which options a drawing of this format has no use for.

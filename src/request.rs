@@ -4,7 +4,7 @@
 //! lengths are in the units of the mesh: the file's own, unless `unit` or `scale` asks for another.
 
 use crate::curve::Curve;
-use crate::domain::{FillRule, Loose};
+use crate::domain::{FillRule, Loose, NameBy, Naming};
 use crate::import::Glob;
 use crate::mesh::verify::guaranteed_angle;
 use crate::plane::gcdr::Regions;
@@ -66,6 +66,10 @@ pub struct Request {
     pub layers: Vec<Glob>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub skip_layers: Vec<Glob>,
+    /// Names given by hand, and what has a name of its own without that.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub name: Vec<NameBy>,
+    pub names: NamesOf,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub unit: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -129,6 +133,8 @@ impl Default for Request {
             keep: Keep::Inside,
             layers: Vec::new(),
             skip_layers: Vec::new(),
+            name: Vec::new(),
+            names: NamesOf::Layer,
             unit: None,
             scale: None,
             dpi: 96.0, // CSS
@@ -512,6 +518,28 @@ impl FillChoice {
             Self::NonZero => Some(FillRule::NonZero),
             Self::EvenOdd => Some(FillRule::EvenOdd),
             Self::Regions => Some(FillRule::Regions),
+        }
+    }
+}
+
+/// What has a name of its own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum NamesOf {
+    /// Every layer, or what else the file names.
+    Layer,
+    /// Every closed outline: HOLES-1, HOLES-2.
+    Outline,
+    /// Every entity, by its handle where it has one: HOLES-2F.
+    Entity,
+}
+
+impl NamesOf {
+    pub fn rule(self) -> Naming {
+        match self {
+            Self::Layer => Naming::Layer,
+            Self::Outline => Naming::Outline,
+            Self::Entity => Naming::Entity,
         }
     }
 }

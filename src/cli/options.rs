@@ -4,11 +4,12 @@ use super::Halt;
 use super::say;
 use clap::Args;
 use serde::{Deserialize, Serialize};
+use squinch::domain::NameBy;
 use squinch::import::{Format, Glob};
 use squinch::pipeline::Exit;
 use squinch::request::{
-    BallShrinking, ChordError, EdgeTurning, Engine, FillChoice, Keep, LooseEnds, MaxTurning, Midpoint, Order, Overlap,
-    Request, SizeOf, SnapTo, Steiner, Strokes, Switch, TrailingEdge,
+    BallShrinking, ChordError, EdgeTurning, Engine, FillChoice, Keep, LooseEnds, MaxTurning, Midpoint, NamesOf, Order,
+    Overlap, Request, SizeOf, SnapTo, Steiner, Strokes, Switch, TrailingEdge,
 };
 use squinch::size::Given;
 use std::path::{Path, PathBuf};
@@ -87,6 +88,12 @@ pub struct Options {
     /// These layers or ids are not read: names or patterns as in --layers
     #[arg(long, value_name = "A,B", value_delimiter = ',', help_heading = "Input")]
     skip_layers: Option<Vec<Glob>>,
+    /// A name for the curve nearest to a place, for the region at a place (in:), or for a DXF entity (handle:); may be repeated
+    #[arg(long, value_name = "NAME=X,Y|in:X,Y|handle:H", help_heading = "Input")]
+    name: Option<Vec<NameBy>>,
+    /// What has a name of its own: each layer, each closed outline (HOLES-1, HOLES-2) or each entity [default: layer]
+    #[arg(long, value_enum, value_name = "WHAT", help_heading = "Input")]
+    names: Option<NamesOf>,
     /// Unit of the mesh; the drawing's coordinates are converted where their unit is known
     #[arg(long, value_name = "UNIT", help_heading = "Input")]
     unit: Option<String>,
@@ -293,6 +300,7 @@ mod tests {
             close: Some(1.0),
             layers: vec!["a".parse().unwrap()],
             skip_layers: vec!["a".parse().unwrap()],
+            name: vec!["a=1,2".parse().unwrap()],
             unit: Some("mm".into()),
             scale: Some(1.0),
             timeout: Some(1.0),

@@ -5,6 +5,7 @@ mod drawing;
 mod features;
 mod flaws;
 mod locate;
+mod naming;
 mod planar;
 
 pub use arrange::{ArrangeError, ArrangeOptions, Loose, Repair, RepairKind, Unarranged};
@@ -14,4 +15,5 @@ pub use drawing::{
 };
 pub use features::Features;
 pub use locate::Locator;
+pub use naming::{NameBy, Naming, Target};
 pub use planar::{Corner, Domain, DomainCurve, Incident, Region};

@@ -10,9 +10,8 @@
 use super::ArrangeError;
 use super::cut::{Network, extent};
 use super::loose::{FreeEnd, Gap, Owner, nearest_ends};
-use super::weld::Forest;
 use crate::geometry::Point;
-use crate::ids::{CurveId, Id, PointId};
+use crate::ids::{CurveId, Forest, Id, PointId};
 use std::collections::{BTreeSet, VecDeque};
 
 /// An outline misses closing where each gap is below this part of the shorter chain at it.
@@ -183,17 +182,16 @@ impl Network<'_> {
         }
         let mut ways = Ways::new(self, ends);
         let mut parts = Forest::new(ways.from.len());
-        let part = PointId::from_index;
         for (here, ways) in ways.from.iter().enumerate() {
-            ways.iter().for_each(|&(there, _)| parts.join(part(here), part(there)));
+            ways.iter().for_each(|&(there, _)| parts.join(here, there));
         }
         let mut rings = Vec::new();
         for gap in links {
             let [a, b] = ways.places(&gap);
-            if parts.root(part(a)) == parts.root(part(b)) {
+            if parts.root(a) == parts.root(b) {
                 rings.extend(ways.ring(gap));
             }
-            parts.join(part(a), part(b));
+            parts.join(a, b);
             ways.add([a, b], Via::Gap(gap));
         }
         self.missed(&rings, ends)

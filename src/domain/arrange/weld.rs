@@ -5,7 +5,7 @@ use super::repair::Cells;
 use super::{ArrangeError, RepairKind, Unarranged};
 use crate::curve::{Curve, End};
 use crate::geometry::{Point, Vec2};
-use crate::ids::{CurveId, Id, IdVec, PointId};
+use crate::ids::{CurveId, Forest, Id, IdVec, PointId};
 use crate::watch::Watch;
 use std::collections::BTreeMap;
 
@@ -60,21 +60,21 @@ impl Network<'_> {
     /// The node that stands for each node.
     fn clusters(&self, links: &[[PointId; 2]], cuts: &[Cut]) -> IdVec<PointId, PointId> {
         let mut forest = Forest::new(self.nodes.len());
-        links.iter().for_each(|&[a, b]| forest.join(a, b));
+        links.iter().for_each(|&[a, b]| forest.join(a.index(), b.index()));
         for pair in cuts.windows(2) {
             // Cuts next to each other on one piece and in space are one, lest a piece falls between them.
             if pair[0].piece == pair[1].piece && pair[0].at.distance(pair[1].at) <= self.tolerances.weld {
-                forest.join(pair[0].node, pair[1].node);
+                forest.join(pair[0].node.index(), pair[1].node.index());
             }
         }
         let order = self.by_rank();
         self.join_near(&order, &mut forest);
         // The first by rank in each cluster stands for it.
-        let mut standing: IdVec<PointId, Option<PointId>> = vec![None; self.nodes.len()].into();
+        let mut standing: Vec<Option<PointId>> = vec![None; self.nodes.len()];
         for &id in &order {
-            standing[forest.root(id)].get_or_insert(id);
+            standing[forest.root(id.index())].get_or_insert(id);
         }
-        self.nodes.ids().map(|id| standing[forest.root(id)].unwrap_or(id)).collect()
+        self.nodes.ids().map(|id| standing[forest.root(id.index())].unwrap_or(id)).collect()
     }
 
     /// Drawn nodes first, then computed ones, each in order.
@@ -97,7 +97,7 @@ impl Network<'_> {
             let near = (i - 1..=i + 1).flat_map(|i| leaders.range([i, j - 1]..=[i, j + 1])).flat_map(|(_, ids)| ids);
             let candidates = near.map(|&other| (at.distance(self.nodes[other].at), other)).filter(|c| c.0 <= weld);
             match candidates.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1))) {
-                Some((_, leader)) => forest.join(id, leader),
+                Some((_, leader)) => forest.join(id.index(), leader.index()),
                 None => leaders.entry([i, j]).or_default().push(id),
             }
         }
@@ -338,29 +338,4 @@ fn gap_across(from: &Curve, t: f64, to: &Curve) -> f64 {
     let across = to.line_crossings(at, Vec2::new(-tangent.y, tangent.x), 0.0, 1.0);
     let widths = across.into_iter().map(|u| to.point(u).distance(at));
     widths.reduce(f64::min).unwrap_or_else(|| to.nearest(at, 0.0, 1.0).1)
-}
-
-/// Sets of nodes, joined.
-pub(super) struct Forest {
-    parent: IdVec<PointId, PointId>,
-}
-
-impl Forest {
-    pub fn new(n: usize) -> Self {
-        Self { parent: (0..n).map(PointId::from_index).collect() }
-    }
-
-    pub fn root(&mut self, mut id: PointId) -> PointId {
-        while self.parent[id] != id {
-            self.parent[id] = self.parent[self.parent[id]];
-            id = self.parent[id];
-        }
-        id
-    }
-
-    pub fn join(&mut self, a: PointId, b: PointId) {
-        let (a, b) = (self.root(a), self.root(b));
-        let (low, high) = (a.min(b), a.max(b));
-        self.parent[high] = low;
-    }
 }
