@@ -6,7 +6,6 @@ pub mod dxf;
 pub mod mesh;
 pub mod outline;
 pub mod poly;
-#[allow(dead_code, reason = "readers take it up one after the other")]
 mod selection;
 #[cfg(feature = "cad")]
 pub mod step;
@@ -155,7 +154,7 @@ pub fn read(bytes: &[u8], format: Format, stem: &str, options: &Options) -> Resu
         Format::Poly => poly::read_poly(bytes, stem, options.nodes.as_deref()),
         Format::Node => poly::read_node(bytes, stem),
         Format::Outline => outline::read(bytes, stem),
-        Format::Dxf => dxf::read(bytes, stem),
+        Format::Dxf => dxf::read(bytes, stem, &options.selection),
         Format::Svg => svg::read(bytes, stem, &options.svg),
         #[cfg(feature = "cad")]
         Format::Step => step::read(bytes, stem, options.face.as_deref()),

@@ -2,13 +2,14 @@
 
 use super::entities::{Figure, Insert, Notices, Refusal, figure};
 use super::header::Header;
+use super::layers::{CONTINUOUS, Hidden, LAYER_0, Layers, LineType, key};
 use super::pairs::shown;
 use super::sections::{Record, Sections};
 use crate::curve::Curve;
 use crate::domain::{Drawing, DrawnCurve, DrawnPoint, Skipped};
 use crate::geometry::{Point, Vec2};
-use crate::ids::NameId;
-use crate::import::ImportError;
+use crate::ids::{LayerId, NameId};
+use crate::import::{ImportError, Selection};
 use kurbo::Affine;
 use std::collections::BTreeMap;
 use std::rc::Rc;
@@ -25,6 +26,9 @@ const SCALES: std::ops::Range<f64> = 1e-150..1e150;
 /// The hatched area of one entity.
 pub(super) struct Fill {
     pub name: NameId,
+    pub layer: LayerId,
+    pub handle: Option<u64>,
+    pub last_decimal: f64,
     pub outlines: Vec<Curve>,
     pub entity: String,
 }
@@ -33,38 +37,12 @@ pub(super) struct Fill {
 struct Entity<'a> {
     kind: String,
     label: String,
-    layer: usize,
+    handle: Option<u64>,
+    layer: LayerId,
+    line_type: LineType,
     /// The block that an INSERT draws, where the file defines it.
     block: Option<usize>,
     figure: Result<Figure<'a>, &'static str>,
-}
-
-struct Layer {
-    /// As the file spells it first.
-    text: String,
-    /// Once something is drawn on it.
-    name: Option<NameId>,
-    hidden: Option<Hidden>,
-}
-
-/// The place of layer 0, whose entities in a block take the layer of the block.
-const LAYER_0: usize = 0;
-
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Hidden {
-    Frozen,
-    Off,
-    Defpoints,
-}
-
-impl Hidden {
-    fn why(self) -> &'static str {
-        match self {
-            Self::Frozen => "on a frozen layer",
-            Self::Off => "on a layer that is off",
-            Self::Defpoints => "on the layer Defpoints, of construction points",
-        }
-    }
 }
 
 /// Where and how the entities of a block are drawn.
@@ -72,8 +50,12 @@ struct Setting {
     map: Option<Affine>,
     z: f64,
     z_scale: f64,
+    /// What a length in the block counts, at most.
+    scale: f64,
     /// The layer that entities on layer 0 take.
-    layer: Option<usize>,
+    layer: Option<LayerId>,
+    /// What entities of the block's line type take.
+    line_type: Rc<str>,
     /// `INSERT "BOLT" (line 12) > `
     path: String,
     /// Blocks that it stands in, to tell a block that holds itself.
@@ -85,8 +67,7 @@ pub(super) struct Sketch<'f, 'a> {
     file: &'f Sections<'a>,
     header: &'f Header,
     drawing: &'f mut Drawing,
-    layers: Vec<Layer>,
-    layer_of: BTreeMap<String, usize>,
+    layers: Layers<'f>,
     block_of: BTreeMap<String, usize>,
     /// Entities of the blocks that were drawn already.
     read: BTreeMap<usize, Rc<Vec<Entity<'a>>>>,
@@ -99,15 +80,14 @@ pub(super) struct Sketch<'f, 'a> {
 }
 
 impl<'f, 'a> Sketch<'f, 'a> {
-    pub fn new(file: &'f Sections<'a>, header: &'f Header, drawing: &'f mut Drawing) -> Self {
+    pub fn new(file: &'f Sections<'a>, header: &'f Header, selection: &'f Selection, drawing: &'f mut Drawing) -> Self {
         // The first block of a name counts.
         let blocks = file.blocks.iter().enumerate().rev();
-        let mut sketch = Self {
+        Self {
             file,
             header,
             drawing,
-            layers: Vec::new(),
-            layer_of: BTreeMap::new(),
+            layers: Layers::new(&file.layers, header, selection),
             block_of: blocks.map(|(i, (name, _))| (key(&header.name(name)), i)).collect(),
             read: BTreeMap::new(),
             fills: Vec::new(),
@@ -115,17 +95,21 @@ impl<'f, 'a> Sketch<'f, 'a> {
             notices: Notices::default(),
             heights: None,
             left: UNFOLDED,
-        };
-        sketch.layer("0");
-        for record in &file.layers {
-            sketch.add_layer(record);
         }
-        sketch
     }
 
     /// Draws the entities of model space; hands back their hatches.
     pub fn draw(mut self) -> Result<Vec<Fill>, ImportError> {
-        let setting = Setting { map: None, z: 0.0, z_scale: 1.0, layer: None, path: String::new(), within: Vec::new() };
+        let setting = Setting {
+            map: None,
+            z: 0.0,
+            z_scale: 1.0,
+            scale: 1.0,
+            layer: None,
+            line_type: CONTINUOUS.into(),
+            path: String::new(),
+            within: Vec::new(),
+        };
         for entity in self.entities(&self.file.entities)? {
             self.draw_entity(&entity, &setting)?;
         }
@@ -139,42 +123,12 @@ impl<'f, 'a> Sketch<'f, 'a> {
         self.drawing.notes.extend(self.notices.into_notes());
         let skipped = |((entity, why), count): ((String, &str), usize)| Skipped { entity, count, why: why.into() };
         self.drawing.skipped.extend(self.skipped.into_iter().map(skipped));
+        self.layers.hand_over(self.drawing);
         Ok(self.fills)
     }
 
     fn skip(&mut self, kind: &str, why: &'static str) {
         *self.skipped.entry((kind.to_owned(), why)).or_insert(0) += 1;
-    }
-
-    // ---- layers ----
-
-    fn add_layer(&mut self, record: &Record) {
-        let name = self.header.name(record.text(2).unwrap_or_default());
-        let flag = |code| record.find(code).and_then(|pair| pair.integer()).unwrap_or(0);
-        let hidden = if flag(70) & 1 != 0 {
-            Some(Hidden::Frozen)
-        } else if flag(62) < 0 {
-            Some(Hidden::Off)
-        } else {
-            None
-        };
-        let layer = self.layer(&name);
-        self.layers[layer].hidden = self.layers[layer].hidden.or(hidden);
-    }
-
-    /// The layer of this name, in the table from now on.
-    fn layer(&mut self, name: &str) -> usize {
-        let key = key(name);
-        let hidden = (key == "defpoints").then_some(Hidden::Defpoints);
-        *self.layer_of.entry(key).or_insert_with(|| {
-            self.layers.push(Layer { text: name.to_owned(), name: None, hidden });
-            self.layers.len() - 1
-        })
-    }
-
-    fn name_of(&mut self, layer: usize) -> NameId {
-        let Layer { text, name, .. } = &mut self.layers[layer];
-        *name.get_or_insert_with(|| self.drawing.names.intern(text))
     }
 
     // ---- reading ----
@@ -199,14 +153,13 @@ impl<'f, 'a> Sketch<'f, 'a> {
 
     fn entity(&mut self, record: &Record<'a>, followers: &[Record<'a>]) -> Result<Entity<'a>, ImportError> {
         let name = self.header.name(record.text(8).filter(|n| !n.is_empty()).unwrap_or(b"0"));
-        let layer = self.layer(&name);
-        let hidden = self.layers[layer].hidden;
+        let layer = self.layers.id(&name);
         let is_set = |code| record.find(code).and_then(|pair| pair.integer()).is_some_and(|flag| flag != 0);
-        let figure = match hidden {
+        let figure = match self.layers.why_not(layer) {
             _ if is_set(67) => Err("in paper space"),
             _ if is_set(60) => Err("invisible"),
             // On layer 0 of a block an entity is as visible as the block, and a block may hold what is not on its layer.
-            Some(hidden) if layer != LAYER_0 && record.kind != "INSERT" => Err(hidden.why()),
+            Some(why) if layer != LAYER_0 && record.kind != "INSERT" => Err(why),
             _ => match figure(record, followers, &mut self.notices) {
                 Ok(figure) => Ok(figure),
                 Err(Refusal::Skip(why)) => Err(why),
@@ -217,7 +170,9 @@ impl<'f, 'a> Sketch<'f, 'a> {
             Ok(Figure::Insert(insert)) => self.block_of.get(&key(&self.header.name(insert.block))).copied(),
             _ => None,
         };
-        Ok(Entity { kind: record.kind.clone(), label: record.label(), layer, block, figure })
+        let line_type = LineType::of(record, self.header);
+        let (kind, label, handle) = (record.kind.clone(), record.label(), record.handle());
+        Ok(Entity { kind, label, handle, layer, line_type, block, figure })
     }
 
     // ---- drawing ----
@@ -232,22 +187,35 @@ impl<'f, 'a> Sketch<'f, 'a> {
         };
         let inherited = setting.layer.filter(|_| entity.layer == LAYER_0);
         let layer = inherited.unwrap_or(entity.layer);
-        let hidden = self.layers[layer].hidden;
-        let insert_of_shown = matches!(figure, Figure::Insert(_)) && hidden != Some(Hidden::Frozen);
-        if let Some(hidden) = hidden.filter(|_| !insert_of_shown) {
-            self.skip(&entity.kind, hidden.why());
+        let why_not = match figure {
+            // A block may hold what is on other layers: only a frozen one hides these, too.
+            Figure::Insert(_) => self.layers.hidden(layer).filter(|h| *h == Hidden::Frozen).map(Hidden::why),
+            Figure::Curves { .. } | Figure::Point { .. } | Figure::Fill { .. } => self.layers.why_not(layer),
+        };
+        if let Some(why) = why_not {
+            self.skip(&entity.kind, why);
             return Ok(());
         }
+        let line_type = self.layers.line_type(&entity.line_type, layer, &setting.line_type);
         let label = format!("{}{}", setting.path, entity.label);
+        if let Figure::Insert(insert) = figure {
+            return self.draw_insert(insert, entity, layer, line_type, setting);
+        }
+        self.layers.count(layer, line_type);
         match figure {
-            Figure::Curves { curves, z, parts } => {
+            Figure::Curves { curves, z, parts, last_decimal } => {
                 self.rise(setting, *z);
-                let name = self.name_of(layer);
+                let name = self.layers.name(layer, self.drawing);
                 for (i, curve) in curves.iter().enumerate() {
-                    let entity = if parts.is_empty() { label.clone() } else { format!("{label}, {parts} {}", i + 1) };
+                    let text = if parts.is_empty() { label.clone() } else { format!("{label}, {parts} {}", i + 1) };
                     let curve = self.placed(curve, setting, &label)?;
                     match curve {
-                        Some(curve) => self.drawing.curves.push(DrawnCurve::new(curve, name, entity)),
+                        Some(curve) => self.drawing.curves.push(DrawnCurve {
+                            layer: Some(layer),
+                            handle: entity.handle,
+                            last_decimal: last_decimal * setting.scale,
+                            ..DrawnCurve::new(curve, name, text)
+                        }),
                         None => self.skip("curve", "too small for numbers once it is inserted"),
                     }
                 }
@@ -255,21 +223,29 @@ impl<'f, 'a> Sketch<'f, 'a> {
             Figure::Point { at, z } => {
                 self.rise(setting, *z);
                 let at = setting.map.map_or(*at, |map| map * *at);
-                let name = Some(self.name_of(layer));
+                let name = Some(self.layers.name(layer, self.drawing));
                 self.drawing.points.push(DrawnPoint { at, name, entity: label });
             }
-            Figure::Fill { outlines } => {
+            Figure::Fill { outlines, last_decimal } => {
                 let placed: Result<Option<Vec<Curve>>, _> =
                     outlines.iter().map(|curve| self.placed(curve, setting, &label)).collect();
                 match placed? {
                     Some(outlines) => {
-                        let name = self.name_of(layer);
-                        self.fills.push(Fill { name, outlines, entity: label });
+                        let name = self.layers.name(layer, self.drawing);
+                        let last_decimal = last_decimal * setting.scale;
+                        self.fills.push(Fill {
+                            name,
+                            layer,
+                            handle: entity.handle,
+                            last_decimal,
+                            outlines,
+                            entity: label,
+                        });
                     }
                     None => self.skip("HATCH", "too small for numbers once it is inserted"),
                 }
             }
-            Figure::Insert(insert) => self.draw_insert(insert, entity, layer, setting)?,
+            Figure::Insert(_) => {}
         }
         Ok(())
     }
@@ -306,7 +282,8 @@ impl<'f, 'a> Sketch<'f, 'a> {
         &mut self,
         insert: &Insert<'a>,
         entity: &Entity<'a>,
-        layer: usize,
+        layer: LayerId,
+        line_type: Rc<str>,
         setting: &Setting,
     ) -> Result<(), ImportError> {
         let Some(place) = entity.block else {
@@ -334,7 +311,9 @@ impl<'f, 'a> Sketch<'f, 'a> {
             map: None,
             z: setting.z + setting.z_scale * insert.z,
             z_scale: setting.z_scale * insert.z_scale,
+            scale: 1.0,
             layer: Some(layer),
+            line_type,
             path,
             within,
         };
@@ -347,6 +326,8 @@ impl<'f, 'a> Sketch<'f, 'a> {
                 return Err(ImportError::new(what, "correct the scales of the blocks"));
             }
             inner.map = Some(map);
+            let [along, across] = columns(map);
+            inner.scale = along.max(across);
             for entity in entities.iter() {
                 self.spend(1, &inner.path)?;
                 self.draw_entity(entity, &inner)?;
@@ -376,11 +357,6 @@ impl<'f, 'a> Sketch<'f, 'a> {
     }
 }
 
-/// Names of layers and blocks are the same in upper and lower case.
-fn key(name: &str) -> String {
-    name.to_lowercase()
-}
-
 /// What a curve costs in memory, where a line costs 1.
 fn weight(curve: &Curve) -> usize {
     match curve {
@@ -390,9 +366,14 @@ fn weight(curve: &Curve) -> usize {
     }
 }
 
+/// What the map makes of the unit lengths along both axes.
+fn columns(map: Affine) -> [f64; 2] {
+    let [a, b, c, d, _, _] = map.as_coeffs();
+    [libm::hypot(a, b), libm::hypot(c, d)]
+}
+
 fn is_usable(map: Affine) -> bool {
-    let [a, b, c, d, x, y] = map.as_coeffs();
-    let columns = [libm::hypot(a, b), libm::hypot(c, d)];
+    let [.., x, y] = map.as_coeffs();
     let at = Point::new(x, y);
-    columns.iter().all(|scale| SCALES.contains(scale)) && at.is_finite() && x.abs().max(y.abs()) < SCALES.end
+    columns(map).iter().all(|scale| SCALES.contains(scale)) && at.is_finite() && x.abs().max(y.abs()) < SCALES.end
 }

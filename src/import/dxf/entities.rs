@@ -1,7 +1,7 @@
 //! One entity → its curves, in the coordinates of the drawing or of the block that it stands in.
 
 use super::hatch;
-use super::sections::Record;
+use super::sections::{Record, finest};
 use crate::curve::{Curve, CurveError};
 use crate::geometry::{Point, Vec2};
 use crate::import::ImportError;
@@ -46,6 +46,8 @@ pub(super) enum Figure<'a> {
         curves: Vec<Curve>,
         z: f64,
         parts: &'static str,
+        /// See [`DrawnCurve::last_decimal`](crate::domain::DrawnCurve::last_decimal).
+        last_decimal: f64,
     },
     Point {
         at: Point,
@@ -54,6 +56,7 @@ pub(super) enum Figure<'a> {
     /// A filled area within closed outlines, by the odd-even rule.
     Fill {
         outlines: Vec<Curve>,
+        last_decimal: f64,
     },
     Insert(Insert<'a>),
 }
@@ -108,7 +111,7 @@ pub(super) fn figure<'a>(
         "HATCH" => {
             let map = Plane::of(record)?.map();
             let outlines = hatch::outlines(record, notices)?.into_iter().map(|curve| map.place(curve)).collect();
-            Ok(Figure::Fill { outlines })
+            Ok(Figure::Fill { outlines, last_decimal: record.last_decimal(&[10, 20, 11, 21]) })
         }
         "INSERT" => insert(record),
         kind => Err(Refusal::Skip(why_not(kind))),
@@ -206,15 +209,15 @@ fn built(record: &Record, curve: Result<Curve, CurveError>) -> Result<Curve, Ref
     })
 }
 
-fn single(curve: Curve, z: f64) -> Figure<'static> {
-    Figure::Curves { curves: vec![curve], z, parts: "" }
+fn single(curve: Curve, z: f64, last_decimal: f64) -> Figure<'static> {
+    Figure::Curves { curves: vec![curve], z, parts: "", last_decimal }
 }
 
 // ---- lines, circles, ellipses ----
 
 fn line(record: &Record) -> Result<Figure<'static>, Refusal> {
     let (ends, z) = flat(&[record.point(10)?, record.point(11)?])?;
-    Ok(single(built(record, Curve::line(ends[0], ends[1]))?, z))
+    Ok(single(built(record, Curve::line(ends[0], ends[1]))?, z, record.last_decimal(&[10, 20, 11, 21])))
 }
 
 /// A way counter-clockwise from one angle to another, as a positive part of a full turn; all of it where they are the same.
@@ -234,7 +237,10 @@ fn arc(record: &Record) -> Result<Figure<'static>, Refusal> {
         let (from, to) = (record.required(50)?, record.required(51)?);
         Curve::arc(center, radius, from.to_radians(), sweep(from, to, 360.0).to_radians())
     };
-    Ok(single(map.place(built(record, curve)?), map.height(z)))
+    // The ends lie at the angles as they were rounded.
+    let angle = radius * record.last_decimal(&[50, 51]).to_radians();
+    let last_decimal = record.last_decimal(&[10, 20, 40]).max(angle);
+    Ok(single(map.place(built(record, curve)?), map.height(z), last_decimal))
 }
 
 /// Center and axis of an ellipse are coordinates of the drawing; its extrusion direction says where the minor axis points.
@@ -249,7 +255,9 @@ fn ellipse(record: &Record) -> Result<Figure<'static>, Refusal> {
     let minor = Vec2::new(-major.y, major.x) * ratio;
     let (from, to) = (record.real(41, 0.0)?, record.real(42, TAU)?);
     let curve = Curve::ellipse(Point::new(x, y), major, minor, from, sweep(from, to, TAU));
-    Ok(single(built(record, curve)?, z))
+    let rounded = record.last_decimal(&[40]).max(record.last_decimal(&[41, 42]));
+    let last_decimal = record.last_decimal(&[10, 20, 11, 21]).max(major.hypot() * rounded);
+    Ok(single(built(record, curve)?, z, last_decimal))
 }
 
 // ---- polylines ----
@@ -297,7 +305,8 @@ fn light_polyline(record: &Record, notices: &mut Notices) -> Result<Figure<'stat
     }
     let closed = record.integer(70, 0)? & 1 != 0;
     let curves = chain(record, &vertices, closed)?.into_iter().map(|c| map.place(c)).collect();
-    Ok(Figure::Curves { curves, z: map.height(record.real(38, 0.0)?), parts: "segment" })
+    let last_decimal = record.last_decimal(&[10, 20]);
+    Ok(Figure::Curves { curves, z: map.height(record.real(38, 0.0)?), parts: "segment", last_decimal })
 }
 
 /// Vertices of groups 10 and 20, with bulges of group 42.
@@ -350,19 +359,20 @@ fn polyline(record: &Record, followers: &[Record], notices: &mut Notices) -> Res
             }
         }
     }
+    let last_decimal = finest(followers.iter().map(|vertex| vertex.last_decimal(&[10, 20])));
     if flags & flag::GRID != 0 {
-        return grid(record, flags, &points);
+        return grid(record, flags, &points, last_decimal);
     }
     let closed = flags & flag::CLOSED != 0;
     if flags & flag::IN_SPACE != 0 {
         let (_, z) = flat(&points)?;
         vertices.iter_mut().for_each(|v| v.bulge = 0.0);
-        return Ok(Figure::Curves { curves: chain(record, &vertices, closed)?, z, parts: "segment" });
+        return Ok(Figure::Curves { curves: chain(record, &vertices, closed)?, z, parts: "segment", last_decimal });
     }
     let map = Plane::of(record)?.map();
     let z = map.height(record.real(30, 0.0)?);
     let curves = chain(record, &vertices, closed)?.into_iter().map(|c| map.place(c)).collect();
-    Ok(Figure::Curves { curves, z, parts: "segment" })
+    Ok(Figure::Curves { curves, z, parts: "segment", last_decimal })
 }
 
 // ---- faces ----
@@ -383,7 +393,8 @@ fn face(record: &Record) -> Result<Figure<'static>, Refusal> {
         return Err(Refusal::Skip(DEGENERATE));
     }
     let curves = segments(record, &vertices, true)?.into_iter().map(|c| map.place(c)).collect();
-    Ok(Figure::Curves { curves, z: map.height(z), parts: "edge" })
+    let last_decimal = record.last_decimal(&[10, 20, 11, 21, 12, 22, 13, 23]);
+    Ok(Figure::Curves { curves, z: map.height(z), parts: "edge", last_decimal })
 }
 
 /// Lines between vertices by their numbers, each drawn once.
@@ -403,7 +414,7 @@ fn edges(
 }
 
 /// A mesh of M by N vertices, closed along M or N where its flags say so.
-fn grid(record: &Record, flags: i64, points: &[[f64; 3]]) -> Result<Figure<'static>, Refusal> {
+fn grid(record: &Record, flags: i64, points: &[[f64; 3]], last_decimal: f64) -> Result<Figure<'static>, Refusal> {
     let (points, z) = flat(points)?;
     let sizes = if record.integer(75, 0)? == 0 { [71, 72] } else { [73, 74] };
     let [m, n] = [record.integer(sizes[0], 0)?, record.integer(sizes[1], 0)?];
@@ -417,7 +428,7 @@ fn grid(record: &Record, flags: i64, points: &[[f64; 3]]) -> Result<Figure<'stat
         let right = (j + 1 < n || along_n).then_some((i * n + j, i * n + (j + 1) % n));
         down.into_iter().chain(right)
     });
-    Ok(Figure::Curves { curves: edges(record, &points, pairs)?, z, parts: "edge" })
+    Ok(Figure::Curves { curves: edges(record, &points, pairs)?, z, parts: "edge", last_decimal })
 }
 
 /// A mesh of faces, each by the numbers of up to four vertices; a negative number starts an edge that is not shown.
@@ -442,7 +453,8 @@ fn polyface(record: &Record, followers: &[Record]) -> Result<Figure<'static>, Re
     }
     let (points, z) = flat(&points)?;
     let pairs = pairs.into_iter().map(|(a, b)| (a as usize - 1, b as usize - 1));
-    Ok(Figure::Curves { curves: edges(record, &points, pairs)?, z, parts: "edge" })
+    let last_decimal = finest(followers.iter().map(|vertex| vertex.last_decimal(&[10, 20])));
+    Ok(Figure::Curves { curves: edges(record, &points, pairs)?, z, parts: "edge", last_decimal })
 }
 
 // ---- splines ----
@@ -472,7 +484,8 @@ fn spline(record: &Record, notices: &mut Notices) -> Result<Figure<'static>, Ref
     if record.find(12).or(record.find(13)).is_some() && data.control.is_empty() {
         notices.add("End tangents of splines through fit points were not used.");
     }
-    Ok(single(data.curve(record, notices)?, z))
+    let codes = if data.control.is_empty() { [11, 21] } else { [10, 20] };
+    Ok(single(data.curve(record, notices)?, z, record.last_decimal(&codes)))
 }
 
 impl SplineData {

@@ -16,10 +16,11 @@ mod blocks;
 mod entities;
 mod hatch;
 mod header;
+mod layers;
 mod pairs;
 mod sections;
 
-use super::ImportError;
+use super::{ImportError, Selection};
 use crate::curve::Curve;
 use crate::domain::{Drawing, DrawnCurve, FillRule, Seed, SeedKind, Shape};
 use crate::geometry::{Point, Vec2};
@@ -32,12 +33,12 @@ pub(super) fn sniff(bytes: &[u8]) -> bool {
     pairs::sniff(bytes)
 }
 
-/// Reads a drawing; `stem` is its title.
+/// Reads a drawing, of the layers that `selection` asks for; `stem` is its title.
 ///
 /// # Errors
 /// With the line and the entity: where the file is no DXF file or is cut short before the end of its entities, where a number of a
 /// drawn entity is none or its data contradict each other, and where blocks unfold to more than a million curves.
-pub fn read(bytes: &[u8], stem: &str) -> Result<Drawing, ImportError> {
+pub fn read(bytes: &[u8], stem: &str, selection: &Selection) -> Result<Drawing, ImportError> {
     let mut file = Sections::read(bytes)?;
     let header = Header::read(&file);
     let format = match file.is_binary {
@@ -47,7 +48,7 @@ pub fn read(bytes: &[u8], stem: &str) -> Result<Drawing, ImportError> {
     let mut drawing =
         Drawing { format, title: stem.into(), notes: std::mem::take(&mut file.notes), ..Drawing::default() };
     header.tell_unit(&mut drawing);
-    let fills = Sketch::new(&file, &header, &mut drawing).draw()?;
+    let fills = Sketch::new(&file, &header, selection, &mut drawing).draw()?;
     add_fills(fills, &mut drawing);
     Ok(drawing)
 }
@@ -59,11 +60,15 @@ fn add_fills(fills: Vec<Fill>, drawing: &mut Drawing) {
     }
     if drawing.curves.is_empty() {
         drawing.fill = FillRule::Shapes;
-        for Fill { name, outlines, entity } in fills {
+        for Fill { name, layer, handle, last_decimal, outlines, entity } in fills {
             let shape = drawing.shapes.push(Shape { name, even_odd: true, entity: entity.clone() });
-            let curves = outlines
-                .into_iter()
-                .map(|curve| DrawnCurve { shape: Some(shape), ..DrawnCurve::new(curve, name, entity.clone()) });
+            let curves = outlines.into_iter().map(|curve| DrawnCurve {
+                shape: Some(shape),
+                layer: Some(layer),
+                handle,
+                last_decimal,
+                ..DrawnCurve::new(curve, name, entity.clone())
+            });
             drawing.curves.extend(curves);
         }
         return;
@@ -72,7 +77,7 @@ fn add_fills(fills: Vec<Fill>, drawing: &mut Drawing) {
         "Hatches name the regions that they lie in; what is inside is said by the other outlines, which they repeat."
             .into(),
     );
-    for Fill { name, outlines, entity } in fills {
+    for Fill { name, outlines, entity, .. } in fills {
         if let Some(at) = inner_point(&outlines) {
             drawing.seeds.push(Seed { at, kind: SeedKind::Region { name, max_area: None }, entity });
         }
