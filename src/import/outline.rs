@@ -725,7 +725,8 @@ fn fill_word(fill: FillRule) -> &'static str {
         FillRule::NonZero => "nonzero",
         FillRule::EvenOdd => "evenodd",
         FillRule::Regions => "regions",
-        FillRule::Shapes => "shapes",
+        // An outline that lists shapes and other curves: those of shapes are painted, as `shapes` says.
+        FillRule::Shapes | FillRule::EvenOddAndShapes => "shapes",
     }
 }
 

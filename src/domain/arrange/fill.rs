@@ -26,6 +26,10 @@ impl Fill {
                 let winding = windings(network, domain, faces, rule);
                 winding.into_iter().map(|w| is_inside(rule, w)).collect()
             }
+            FillRule::EvenOddAndShapes => {
+                let winding = windings(network, domain, faces, rule);
+                winding.into_iter().zip(&painted).map(|(w, paint)| is_inside(rule, w) || paint.is_some()).collect()
+            }
         };
         let inside = inside.into_iter().enumerate().map(|(cycle, inside)| inside && is_bounded(cycle)).collect();
         Self { inside, painted }
@@ -45,7 +49,7 @@ struct Windings<'a> {
 fn is_inside(rule: FillRule, winding: i32) -> bool {
     match rule {
         FillRule::NonZero => winding != 0,
-        FillRule::EvenOdd => winding % 2 != 0,
+        FillRule::EvenOdd | FillRule::EvenOddAndShapes => winding % 2 != 0,
         FillRule::Regions | FillRule::Shapes => true,
     }
 }
@@ -99,7 +103,8 @@ impl Windings<'_> {
         flow.sort_unstable();
         flow.chunk_by(|a, b| a.0 == b.0).all(|chunk| {
             let net: i32 = chunk.iter().map(|f| f.1).sum();
-            if self.rule == FillRule::EvenOdd { net % 2 == 0 } else { net == 0 }
+            let by_parity = matches!(self.rule, FillRule::EvenOdd | FillRule::EvenOddAndShapes);
+            if by_parity { net % 2 == 0 } else { net == 0 }
         })
     }
 
@@ -151,7 +156,10 @@ fn windings(network: &Network, domain: &Domain, faces: &Faces, rule: FillRule) -
         left == right
     };
     let drawn = |id: CurveId| drawn_along(network, id);
-    let count = |(source, against): (u32, bool)| match closed[source as usize] {
+    // Outlines of shapes bound what they fill, and turn nothing inside out.
+    let of_shapes =
+        |source: u32| rule == FillRule::EvenOddAndShapes && network.drawing.curves[source as usize].shape.is_some();
+    let count = |(source, against): (u32, bool)| match closed[source as usize] && !of_shapes(source) {
         false => 0,
         true if against => -1,
         true => 1,

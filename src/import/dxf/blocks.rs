@@ -1,6 +1,7 @@
 //! Entities put where they belong: on layers that are seen or not, and in blocks, as often as these are inserted.
 
 use super::entities::{Figure, Insert, Notices, Refusal, figure};
+use super::fills::Fill;
 use super::header::Header;
 use super::layers::{CONTINUOUS, Hidden, LAYER_0, Layers, LineType, key};
 use super::pairs::shown;
@@ -8,7 +9,7 @@ use super::sections::{Record, Sections};
 use crate::curve::Curve;
 use crate::domain::{Drawing, DrawnCurve, DrawnPoint, Skipped};
 use crate::geometry::{Point, Vec2};
-use crate::ids::{LayerId, NameId};
+use crate::ids::LayerId;
 use crate::import::{ImportError, Selection};
 use kurbo::Affine;
 use std::collections::BTreeMap;
@@ -22,16 +23,6 @@ const DEPTH: usize = 32;
 const LONGEST_PATH: usize = 200;
 /// The scales of an insertion that leave numbers to work with.
 const SCALES: std::ops::Range<f64> = 1e-150..1e150;
-
-/// The hatched area of one entity.
-pub(super) struct Fill {
-    pub name: NameId,
-    pub layer: LayerId,
-    pub handle: Option<u64>,
-    pub last_decimal: f64,
-    pub outlines: Vec<Curve>,
-    pub entity: String,
-}
 
 /// An entity, read once and drawn as often as its block. Layers and blocks are places in their tables: names may be long.
 struct Entity<'a> {
@@ -226,23 +217,17 @@ impl<'f, 'a> Sketch<'f, 'a> {
                 let name = Some(self.layers.name(layer, self.drawing));
                 self.drawing.points.push(DrawnPoint { at, name, entity: label });
             }
-            Figure::Fill { outlines, last_decimal } => {
-                let placed: Result<Option<Vec<Curve>>, _> =
-                    outlines.iter().map(|curve| self.placed(curve, setting, &label)).collect();
+            Figure::Fill { loops, last_decimal } => {
+                let placed: Result<Option<Vec<Vec<Curve>>>, _> = (loops.iter())
+                    .map(|outline| outline.iter().map(|curve| self.placed(curve, setting, &label)).collect())
+                    .collect();
                 match placed? {
-                    Some(outlines) => {
+                    Some(loops) => {
                         let name = self.layers.name(layer, self.drawing);
-                        let last_decimal = last_decimal * setting.scale;
-                        self.fills.push(Fill {
-                            name,
-                            layer,
-                            handle: entity.handle,
-                            last_decimal,
-                            outlines,
-                            entity: label,
-                        });
+                        let (handle, last_decimal) = (entity.handle, last_decimal * setting.scale);
+                        self.fills.push(Fill { name, layer, handle, last_decimal, loops, entity: label });
                     }
-                    None => self.skip("HATCH", "too small for numbers once it is inserted"),
+                    None => self.skip(&entity.kind, "too small for numbers once it is inserted"),
                 }
             }
             Figure::Insert(_) => {}

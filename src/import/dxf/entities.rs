@@ -55,7 +55,7 @@ pub(super) enum Figure<'a> {
     },
     /// A filled area within closed outlines, by the odd-even rule.
     Fill {
-        outlines: Vec<Curve>,
+        loops: Vec<Vec<Curve>>,
         last_decimal: f64,
     },
     Insert(Insert<'a>),
@@ -108,10 +108,11 @@ pub(super) fn figure<'a>(
             let [x, y, z] = record.point(10)?;
             Ok(Figure::Point { at: Point::new(x, y), z })
         }
-        "HATCH" => {
+        "HATCH" | "MPOLYGON" => {
             let map = Plane::of(record)?.map();
-            let outlines = hatch::outlines(record, notices)?.into_iter().map(|curve| map.place(curve)).collect();
-            Ok(Figure::Fill { outlines, last_decimal: record.last_decimal(&[10, 20, 11, 21]) })
+            let placed = |outline: Vec<Curve>| outline.into_iter().map(|curve| map.place(curve)).collect();
+            let loops = hatch::outlines(record, notices)?.into_iter().map(placed).collect();
+            Ok(Figure::Fill { loops, last_decimal: record.last_decimal(&[10, 20, 11, 21]) })
         }
         "INSERT" => insert(record),
         kind => Err(Refusal::Skip(why_not(kind))),

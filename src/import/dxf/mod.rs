@@ -3,9 +3,10 @@
 //! - *Curves*: LINE, LWPOLYLINE and POLYLINE (bulges become arcs), ARC, CIRCLE, ELLIPSE, SPLINE, the outlines of SOLID, TRACE and
 //!   3DFACE and flat meshes, and all of these in blocks, as INSERT draws them. A curve's name is its layer. POINT is a point.
 //! - *Regions*: closed outlines are filled by the odd-even rule, so that an outline within an outline is a hole.
-//! - *Hatches*: a drawing of nothing but HATCH entities is a picture of filled shapes, whose regions are named after their layers.
-//!   Beside other curves a hatch repeats what they draw, rounded or as a polygon: there its boundary is no curve, and its layer
-//!   names the region at a point well within it. Where that point is in a hole or outside, the hatch says nothing.
+//! - *Hatches* (and MPOLYGON): a drawing of nothing else is a picture of filled shapes, whose regions are named after their layers.
+//!   Beside other curves, a boundary that repeats what they draw, rounded or as a polygon, is no curve: the layer of the hatch names the
+//!   region in which it lies. A boundary that repeats nothing is an outline like the others of its layer. A hatch on a layer without
+//!   other curves is a region of that name and of its own extent.
 //! - *Left out and counted*: what is not in model space, not visible (layers that are off or frozen, and `Defpoints`), not parallel to the XY
 //!   plane, and every entity that is no curve. Heights are dropped.
 //! - *Unit*: `$INSUNITS`, else what `$MEASUREMENT` suggests, else none.
@@ -14,6 +15,7 @@
 
 mod blocks;
 mod entities;
+mod fills;
 mod hatch;
 mod header;
 mod layers;
@@ -21,10 +23,8 @@ mod pairs;
 mod sections;
 
 use super::{ImportError, Selection};
-use crate::curve::Curve;
-use crate::domain::{Drawing, DrawnCurve, FillRule, Seed, SeedKind, Shape};
-use crate::geometry::{Point, Vec2};
-use blocks::{Fill, Sketch};
+use crate::domain::Drawing;
+use blocks::Sketch;
 use header::Header;
 use sections::Sections;
 
@@ -49,68 +49,6 @@ pub fn read(bytes: &[u8], stem: &str, selection: &Selection) -> Result<Drawing, 
         Drawing { format, title: stem.into(), notes: std::mem::take(&mut file.notes), ..Drawing::default() };
     header.tell_unit(&mut drawing);
     let fills = Sketch::new(&file, &header, selection, &mut drawing).draw()?;
-    add_fills(fills, &mut drawing);
+    fills::add(&fills, &mut drawing);
     Ok(drawing)
-}
-
-/// Hatches as shapes where nothing else is drawn, else as names of regions.
-fn add_fills(fills: Vec<Fill>, drawing: &mut Drawing) {
-    if fills.is_empty() {
-        return;
-    }
-    if drawing.curves.is_empty() {
-        drawing.fill = FillRule::Shapes;
-        for Fill { name, layer, handle, last_decimal, outlines, entity } in fills {
-            let shape = drawing.shapes.push(Shape { name, even_odd: true, entity: entity.clone() });
-            let curves = outlines.into_iter().map(|curve| DrawnCurve {
-                shape: Some(shape),
-                layer: Some(layer),
-                handle,
-                last_decimal,
-                ..DrawnCurve::new(curve, name, entity.clone())
-            });
-            drawing.curves.extend(curves);
-        }
-        return;
-    }
-    drawing.notes.push(
-        "Hatches name the regions that they lie in; what is inside is said by the other outlines, which they repeat."
-            .into(),
-    );
-    for Fill { name, outlines, entity, .. } in fills {
-        if let Some(at) = inner_point(&outlines) {
-            drawing.seeds.push(Seed { at, kind: SeedKind::Region { name, max_area: None }, entity });
-        }
-    }
-}
-
-/// A point within closed outlines by the odd-even rule: the middle of the longest stretch inside, on a few lines across.
-fn inner_point(outlines: &[Curve]) -> Option<Point> {
-    /// Heights of the lines, shares of the whole that no drawing has its corners at.
-    const LINES: [f64; 5] = [0.5037, 0.2963, 0.7193, 0.1043, 0.8989];
-    let bounds = outlines.iter().map(Curve::bounds).reduce(|a, b| a.union(b))?;
-    let mut best: Option<(f64, Point)> = None;
-    for share in LINES {
-        let y = bounds.y0 + share * bounds.height();
-        let from = Point::new(bounds.x0, y);
-        let places = |curve: &Curve| {
-            curve
-                .line_crossings(from, Vec2::new(1.0, 0.0), 0.0, 1.0)
-                .into_iter()
-                .map(|t| curve.point(t).x)
-                .collect::<Vec<_>>()
-        };
-        let mut crossings: Vec<f64> = outlines.iter().flat_map(places).collect();
-        crossings.sort_by(f64::total_cmp);
-        // A line that passes through a joint may miss it, and cannot tell inside from outside.
-        if crossings.len().is_multiple_of(2) {
-            for stretch in crossings.chunks_exact(2) {
-                let width = stretch[1] - stretch[0];
-                if best.is_none_or(|(widest, _)| width > widest) {
-                    best = Some((width, Point::new(0.5 * (stretch[0] + stretch[1]), y)));
-                }
-            }
-        }
-    }
-    best.map(|(_, at)| at)
 }
