@@ -31,6 +31,8 @@ pub struct Drawing {
     pub faces: Vec<FaceInfo>,
     /// What the reader left out, counted.
     pub skipped: Vec<Skipped>,
+    /// Of what the reader left out: entities that leave the XY plane. A gap in an outline may be where they belong.
+    pub off_plane: Vec<OffPlane>,
     /// Layers that were asked for and that the file does not have.
     pub unmatched: Vec<Unmatched>,
     /// What the reader noticed or mended (format quirks), one sentence each.
@@ -83,6 +85,15 @@ pub struct Layer {
     pub name: String,
     /// How many entities are drawn on it, by their line type; by the empty text where the format has none.
     pub line_types: BTreeMap<String, usize>,
+}
+
+/// An entity that leaves the XY plane and was left out.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OffPlane {
+    /// As [`DrawnCurve::entity`].
+    pub entity: String,
+    /// Where it starts and ends, seen along z.
+    pub ends: [Point; 2],
 }
 
 /// A layer that was asked for, by its name or a pattern, and that the file does not have.

@@ -1,13 +1,14 @@
 //! Entities put where they belong: on layers that are seen or not, and in blocks, as often as these are inserted.
 
-use super::entities::{Figure, Insert, Notices, Refusal, figure};
+use super::DxfOptions;
+use super::entities::{DEGENERATE, Figure, Insert, Level, Notices, Refusal, TILTED, figure};
 use super::fills::Fill;
 use super::header::Header;
-use super::layers::{CONTINUOUS, Hidden, LAYER_0, Layers, LineType, key};
+use super::layers::{AUXILIARY, CONTINUOUS, Hidden, LAYER_0, Layers, LineType, key};
 use super::pairs::shown;
 use super::sections::{Record, Sections};
 use crate::curve::Curve;
-use crate::domain::{Drawing, DrawnCurve, DrawnPoint, Skipped};
+use crate::domain::{Drawing, DrawnCurve, DrawnPoint, OffPlane, Skipped};
 use crate::geometry::{Point, Vec2};
 use crate::ids::LayerId;
 use crate::import::{ImportError, Selection};
@@ -57,6 +58,7 @@ struct Setting {
 pub(super) struct Sketch<'f, 'a> {
     file: &'f Sections<'a>,
     header: &'f Header,
+    options: &'f DxfOptions,
     drawing: &'f mut Drawing,
     layers: Layers<'f>,
     block_of: BTreeMap<String, usize>,
@@ -67,24 +69,34 @@ pub(super) struct Sketch<'f, 'a> {
     notices: Notices,
     /// Lowest and highest height of what is drawn.
     heights: Option<[f64; 2]>,
+    /// How many entities were projected onto the plane.
+    flattened: usize,
     left: usize,
 }
 
 impl<'f, 'a> Sketch<'f, 'a> {
-    pub fn new(file: &'f Sections<'a>, header: &'f Header, selection: &'f Selection, drawing: &'f mut Drawing) -> Self {
+    pub fn new(
+        file: &'f Sections<'a>,
+        header: &'f Header,
+        options: &'f DxfOptions,
+        selection: &'f Selection,
+        drawing: &'f mut Drawing,
+    ) -> Self {
         // The first block of a name counts.
         let blocks = file.blocks.iter().enumerate().rev();
         Self {
             file,
             header,
+            options,
             drawing,
-            layers: Layers::new(&file.layers, header, selection),
+            layers: Layers::new(&file.layers, header, selection, options.line_types),
             block_of: blocks.map(|(i, (name, _))| (key(&header.name(name)), i)).collect(),
             read: BTreeMap::new(),
             fills: Vec::new(),
             skipped: BTreeMap::new(),
             notices: Notices::default(),
             heights: None,
+            flattened: 0,
             left: UNFOLDED,
         }
     }
@@ -110,6 +122,10 @@ impl<'f, 'a> Sketch<'f, 'a> {
             self.drawing
                 .notes
                 .push(format!("Curves lie at heights from {low} to {high}: all were laid into one plane."));
+        }
+        if self.flattened > 0 {
+            let note = format!("{} entities leave the XY plane: they were projected onto it.", self.flattened);
+            self.drawing.notes.push(note);
         }
         self.drawing.notes.extend(self.notices.into_notes());
         let skipped = |((entity, why), count): ((String, &str), usize)| Skipped { entity, count, why: why.into() };
@@ -154,6 +170,7 @@ impl<'f, 'a> Sketch<'f, 'a> {
             _ => match figure(record, followers, &mut self.notices) {
                 Ok(figure) => Ok(figure),
                 Err(Refusal::Skip(why)) => Err(why),
+                Err(Refusal::Degenerate) => Err(DEGENERATE),
                 Err(Refusal::Broken(error)) => return Err(error),
             },
         };
@@ -188,18 +205,32 @@ impl<'f, 'a> Sketch<'f, 'a> {
             return Ok(());
         }
         let line_type = self.layers.line_type(&entity.line_type, layer, &setting.line_type);
+        if !matches!(figure, Figure::Insert(_)) && self.layers.is_auxiliary(&line_type) {
+            self.skip(&entity.kind, AUXILIARY);
+            return Ok(());
+        }
         let label = format!("{}{}", setting.path, entity.label);
         if let Figure::Insert(insert) = figure {
             return self.draw_insert(insert, entity, layer, line_type, setting);
         }
-        self.layers.count(layer, line_type);
         match figure {
-            Figure::Curves { curves, z, parts, last_decimal } => {
-                self.rise(setting, *z);
+            Figure::Curves { curves, level, parts, last_decimal } => {
+                let placed: Result<Vec<Option<Curve>>, _> =
+                    curves.iter().map(|curve| self.placed(curve, setting, &label)).collect();
+                let placed = placed?;
+                match level {
+                    Level::At(z) => self.rise(setting, *z),
+                    Level::Leaves if self.options.flatten_z => self.flattened += 1,
+                    Level::Leaves => {
+                        self.leave_out(label, &placed);
+                        self.skip(&entity.kind, TILTED);
+                        return Ok(());
+                    }
+                }
                 let name = self.layers.name(layer, self.drawing);
-                for (i, curve) in curves.iter().enumerate() {
+                self.layers.count(layer, line_type);
+                for (i, curve) in placed.into_iter().enumerate() {
                     let text = if parts.is_empty() { label.clone() } else { format!("{label}, {parts} {}", i + 1) };
-                    let curve = self.placed(curve, setting, &label)?;
                     match curve {
                         Some(curve) => self.drawing.curves.push(DrawnCurve {
                             layer: Some(layer),
@@ -207,12 +238,14 @@ impl<'f, 'a> Sketch<'f, 'a> {
                             last_decimal: last_decimal * setting.scale,
                             ..DrawnCurve::new(curve, name, text)
                         }),
+                        None if matches!(level, Level::Leaves) => self.skip("curve", "seen from its side"),
                         None => self.skip("curve", "too small for numbers once it is inserted"),
                     }
                 }
             }
             Figure::Point { at, z } => {
                 self.rise(setting, *z);
+                self.layers.count(layer, line_type);
                 let at = setting.map.map_or(*at, |map| map * *at);
                 let name = Some(self.layers.name(layer, self.drawing));
                 self.drawing.points.push(DrawnPoint { at, name, entity: label });
@@ -223,6 +256,7 @@ impl<'f, 'a> Sketch<'f, 'a> {
                     .collect();
                 match placed? {
                     Some(loops) => {
+                        self.layers.count(layer, line_type);
                         let name = self.layers.name(layer, self.drawing);
                         let (handle, last_decimal) = (entity.handle, last_decimal * setting.scale);
                         self.fills.push(Fill { name, layer, handle, last_decimal, loops, entity: label });
@@ -237,15 +271,27 @@ impl<'f, 'a> Sketch<'f, 'a> {
 
     /// A curve where the setting puts it; `None` where it shrinks to nothing.
     fn placed(&mut self, curve: &Curve, setting: &Setting, label: &str) -> Result<Option<Curve>, ImportError> {
-        let Some(map) = setting.map else { return Ok(Some(curve.clone())) };
-        self.spend(weight(curve), label)?;
-        let curve = curve.transformed(map);
+        let curve = match setting.map {
+            None => curve.clone(),
+            Some(map) => {
+                self.spend(weight(curve), label)?;
+                curve.transformed(map)
+            }
+        };
         let is_sound = match &curve {
             Curve::Arc(arc) => arc.radius > 0.0,
             Curve::Ellipse(ellipse) => ellipse.u.cross(ellipse.v) != 0.0,
             Curve::Line(_) | Curve::Bezier(_) | Curve::Spline(_) => true,
         };
         Ok(is_sound.then_some(curve))
+    }
+
+    /// Takes note of an entity that is left out because it leaves the plane.
+    fn leave_out(&mut self, entity: String, curves: &[Option<Curve>]) {
+        let (mut drawn, mut from_end) = (curves.iter().flatten(), curves.iter().flatten().rev());
+        if let (Some(first), Some(last)) = (drawn.next(), from_end.next()) {
+            self.drawing.off_plane.push(OffPlane { entity, ends: [first.start(), last.end()] });
+        }
     }
 
     /// Takes note of a height.

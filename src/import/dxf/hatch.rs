@@ -1,8 +1,9 @@
 //! The boundary of a HATCH: paths of polylines or of lines, arcs, elliptic arcs and splines.
 
-use super::entities::{Notices, Refusal, SplineData, bulged_vertices, segments, sweep};
+use super::entities::{Notices, Refusal, bulged_vertices, segments, sweep};
 use super::pairs::Pair;
 use super::sections::Record;
+use super::spline::SplineData;
 use crate::curve::{Curve, CurveError};
 use crate::geometry::{Point, Rect, Vec2, direction};
 use crate::import::ImportError;
@@ -118,10 +119,10 @@ fn edges(record: &Record, pairs: &[Pair], notices: &mut Notices) -> Result<Vec<C
         let edge = record.part(handle, &pairs[start + 1..end]);
         let curve = match record.integer_of(&pairs[start])? {
             1 => Curve::line(at(&edge, 10)?, at(&edge, 11)?),
-            2 => arc(&edge)?,
-            3 => ellipse(&edge)?,
+            2 => arc(&edge, notices)?,
+            3 => ellipse(&edge, notices)?,
             4 => {
-                curves.push(spline(&edge)?.curve(record, notices)?);
+                curves.push(SplineData::of_edge(&edge)?.curve(record, notices)?);
                 continue;
             }
             other => return Err(record.broken(format!("a boundary edge of type {other}")).into()),
@@ -142,21 +143,21 @@ fn at(edge: &Record, code: i32) -> Result<Point, ImportError> {
 }
 
 /// Start and sweep in degrees. Clockwise edges have their angles measured clockwise.
-fn angles(edge: &Record) -> Result<(f64, f64), ImportError> {
+fn angles(edge: &Record, notices: &mut Notices) -> Result<(f64, f64), ImportError> {
     let (from, to) = (edge.required(50)?, edge.required(51)?);
-    let sweep = sweep(from, to, 360.0);
+    let sweep = sweep(from, to, 360.0, edge.last_decimal(&[50, 51]), notices);
     Ok(if edge.integer(73, 1)? == 0 { (-from, -sweep) } else { (from, sweep) })
 }
 
-fn arc(edge: &Record) -> Result<Result<Curve, CurveError>, ImportError> {
-    let (start, sweep) = angles(edge)?;
+fn arc(edge: &Record, notices: &mut Notices) -> Result<Result<Curve, CurveError>, ImportError> {
+    let (start, sweep) = angles(edge, notices)?;
     Ok(Curve::arc(at(edge, 10)?, edge.required(40)?, start.to_radians(), sweep.to_radians()))
 }
 
 /// Unlike those of an ELLIPSE, the angles are those of the rays to the ends, not parameters.
-fn ellipse(edge: &Record) -> Result<Result<Curve, CurveError>, ImportError> {
+fn ellipse(edge: &Record, notices: &mut Notices) -> Result<Result<Curve, CurveError>, ImportError> {
     let (major, ratio) = (at(edge, 11)?.to_vec2(), edge.required(40)?);
-    let (start, sweep) = angles(edge)?;
+    let (start, sweep) = angles(edge, notices)?;
     let parameter = |degrees: f64| {
         let (sin, cos) = libm::sincos(degrees.to_radians());
         libm::atan2(sin, cos * ratio.abs())
@@ -170,18 +171,6 @@ fn ellipse(edge: &Record) -> Result<Result<Curve, CurveError>, ImportError> {
     };
     let minor = Vec2::new(-major.y, major.x) * ratio;
     Ok(Curve::ellipse(at(edge, 10)?, major, minor, from, turn))
-}
-
-fn spline(edge: &Record) -> Result<SplineData, ImportError> {
-    let plain = |points: Vec<[f64; 3]>| points.into_iter().map(|p| Point::new(p[0], p[1])).collect();
-    Ok(SplineData {
-        degree: edge.integer(94, 3)?,
-        knots: edge.reals(40)?,
-        control: plain(edge.points(10)?),
-        weights: edge.reals(42)?,
-        fit: plain(edge.points(11)?),
-        closed: edge.integer(74, 0)? != 0,
-    })
 }
 
 /// A gap in a boundary wider than this share of its size is drawn: arranging heals up to the same share of the whole drawing.

@@ -1,5 +1,6 @@
 //! Layers: which are seen, which were asked for, and what is drawn on them in which line types.
 
+use super::LineTypes;
 use super::header::Header;
 use super::sections::Record;
 use crate::domain::{Drawing, Layer};
@@ -17,6 +18,8 @@ pub(super) const CONTINUOUS: &str = "CONTINUOUS";
 const FROZEN: &str = "on a frozen layer";
 const OFF: &str = "on a layer that is off";
 const DEFPOINTS: &str = "on the layer Defpoints, of construction points";
+/// Why what is drawn in a line type of drafting standards is left out.
+pub(super) const AUXILIARY: &str = "of a line type that draws no edge (--line-types all keeps it)";
 const NOT_SELECTED: &str = "on a layer that was not asked for";
 
 /// Why nothing on a layer is seen.
@@ -76,11 +79,13 @@ pub(super) struct Layers<'s> {
     rows: IdVec<LayerId, Row>,
     id_of: BTreeMap<String, LayerId>,
     chooser: Chooser<'s>,
+    line_types: LineTypes,
 }
 
 impl<'s> Layers<'s> {
-    pub fn new(table: &[Record], header: &Header, selection: &'s Selection) -> Self {
-        let mut layers = Self { rows: IdVec::new(), id_of: BTreeMap::new(), chooser: Chooser::new(selection, false) };
+    pub fn new(table: &[Record], header: &Header, selection: &'s Selection, line_types: LineTypes) -> Self {
+        let mut layers =
+            Self { rows: IdVec::new(), id_of: BTreeMap::new(), chooser: Chooser::new(selection, false), line_types };
         layers.id("0");
         for record in table {
             layers.add(record, header);
@@ -144,6 +149,11 @@ impl<'s> Layers<'s> {
         }
     }
 
+    /// Whether what is drawn in this line type is no edge, and is left out.
+    pub fn is_auxiliary(&self, line_type: &str) -> bool {
+        self.line_types == LineTypes::Edges && is_auxiliary(line_type)
+    }
+
     /// Counts an entity that is drawn.
     pub fn count(&mut self, layer: LayerId, line_type: Rc<str>) {
         *self.rows[layer].drawn.entry(line_type).or_insert(0) += 1;
@@ -162,6 +172,22 @@ impl<'s> Layers<'s> {
         drawing.layers = self.rows.iter().map(layer).collect();
         drawing.unmatched = self.chooser.unmatched();
     }
+}
+
+/// Whether a line type, in upper case, is one that drafting standards use for centre lines, for what is hidden, or for borders.
+///
+/// The names are those of `acad.lin` and `acadiso.lin`: groups of the standard types, of which `CENTER2` and `CENTERX2` are finer and coarser
+/// ones, and those of ISO 128 by their numbers, 02 dashed, 03 dashed spaced, 04 to 15 with dots or double dashes.
+fn is_auxiliary(line_type: &str) -> bool {
+    const GROUPS: [&str; 7] = ["CENTER", "CENTRE", "PHANTOM", "HIDDEN", "DASHDOT", "DIVIDE", "BORDER"];
+    const ISO: [&str; 3] = ["ACAD_ISO", "ISO", "DIN_ISO"];
+    let is_iso = |rest: &str| {
+        let digits = rest.trim_start_matches(['_', '-', ' ']);
+        let end = digits.find(|c: char| !c.is_ascii_digit()).unwrap_or(digits.len());
+        digits[..end].len() == 2 && digits[end..].starts_with('W') && matches!(digits[..end].parse(), Ok(4..=15))
+    };
+    GROUPS.iter().any(|group| line_type.starts_with(group))
+        || ISO.iter().filter_map(|iso| line_type.strip_prefix(iso)).any(is_iso)
 }
 
 /// Names of layers and blocks are the same in upper and lower case.

@@ -7,8 +7,8 @@
 //!   Beside other curves, a boundary that repeats what they draw, rounded or as a polygon, is no curve: the layer of the hatch names the
 //!   region in which it lies. A boundary that repeats nothing is an outline like the others of its layer. A hatch on a layer without
 //!   other curves is a region of that name and of its own extent.
-//! - *Left out and counted*: what is not in model space, not visible (layers that are off or frozen, and `Defpoints`), not parallel to the XY
-//!   plane, and every entity that is no curve. Heights are dropped.
+//! - *Left out and counted*: what is not in model space, not visible (layers that are off or frozen, and `Defpoints`), not on a layer that is
+//!   asked for, not of a line type for edges, not parallel to the XY plane, and every entity that is no curve. Heights are dropped.
 //! - *Unit*: `$INSUNITS`, else what `$MEASUREMENT` suggests, else none.
 //!
 //! The format: Autodesk, *DXF Reference*, with the arbitrary axis algorithm of its chapter "Object Coordinate Systems".
@@ -21,6 +21,7 @@ mod header;
 mod layers;
 mod pairs;
 mod sections;
+mod spline;
 
 use super::{ImportError, Selection};
 use crate::domain::Drawing;
@@ -33,22 +34,56 @@ pub(super) fn sniff(bytes: &[u8]) -> bool {
     pairs::sniff(bytes)
 }
 
+/// Which line types are read.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum LineTypes {
+    /// Not those that drafting standards use for what is no edge, as centre lines; where nothing else is drawn, all.
+    #[default]
+    Edges,
+    All,
+}
+
+/// How a drawing is read.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct DxfOptions {
+    pub line_types: LineTypes,
+    /// What leaves the XY plane is projected onto it; else it is left out.
+    pub flatten_z: bool,
+}
+
 /// Reads a drawing, of the layers that `selection` asks for; `stem` is its title.
 ///
 /// # Errors
 /// With the line and the entity: where the file is no DXF file or is cut short before the end of its entities, where a number of a
 /// drawn entity is none or its data contradict each other, and where blocks unfold to more than a million curves.
-pub fn read(bytes: &[u8], stem: &str, selection: &Selection) -> Result<Drawing, ImportError> {
-    let mut file = Sections::read(bytes)?;
+pub fn read(bytes: &[u8], stem: &str, options: &DxfOptions, selection: &Selection) -> Result<Drawing, ImportError> {
+    let file = Sections::read(bytes)?;
     let header = Header::read(&file);
+    let mut drawing = read_sections(&file, &header, stem, options, selection)?;
+    let left_out = drawing.skipped.iter().any(|skipped| skipped.why == layers::AUXILIARY);
+    if drawing.curves.is_empty() && left_out {
+        let options = DxfOptions { line_types: LineTypes::All, ..*options };
+        drawing = read_sections(&file, &header, stem, &options, selection)?;
+        let note = "All is drawn in line types for centre, hidden or phantom lines, which were read as edges.";
+        drawing.notes.push(note.into());
+    }
+    Ok(drawing)
+}
+
+fn read_sections(
+    file: &Sections,
+    header: &Header,
+    stem: &str,
+    options: &DxfOptions,
+    selection: &Selection,
+) -> Result<Drawing, ImportError> {
     let format = match file.is_binary {
         true => format!("dxf ({}, binary)", header.version),
         false => format!("dxf ({})", header.version),
     };
-    let mut drawing =
-        Drawing { format, title: stem.into(), notes: std::mem::take(&mut file.notes), ..Drawing::default() };
+    let mut drawing = Drawing { format, title: stem.into(), notes: file.notes.clone(), ..Drawing::default() };
     header.tell_unit(&mut drawing);
-    let fills = Sketch::new(&file, &header, selection, &mut drawing).draw()?;
+    let fills = Sketch::new(file, header, options, selection, &mut drawing).draw()?;
     fills::add(&fills, &mut drawing);
     Ok(drawing)
 }
