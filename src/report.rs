@@ -100,6 +100,8 @@ pub struct RequestReport {
     pub order: u64,
     /// Welding distance as used; `null` where the run did not come so far.
     pub tolerance: Option<f64>,
+    pub close: Option<f64>,
+    pub loose: String,
     pub fill_rule: String,
     pub strokes: String,
     pub overlap: String,
@@ -152,6 +154,8 @@ impl RequestReport {
             size_of: request.size_of.iter().map(|s| (s.name.clone(), s.edge)).collect(),
             order: request.order.into(),
             tolerance: None,
+            close: request.close,
+            loose: word(&request.loose),
             fill_rule: word(&request.fill_rule),
             strokes: word(&request.strokes),
             overlap: word(&request.overlap),

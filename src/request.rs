@@ -4,7 +4,7 @@
 //! lengths are in the units of the mesh: the file's own, unless `unit` or `scale` asks for another.
 
 use crate::curve::Curve;
-use crate::domain::FillRule;
+use crate::domain::{FillRule, Loose};
 use crate::import::Glob;
 use crate::mesh::verify::guaranteed_angle;
 use crate::plane::gcdr::Regions;
@@ -53,6 +53,10 @@ pub struct Request {
     pub order: Order,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tolerance: Option<f64>,
+    /// Free ends nearer than this are joined; nothing else is welded by it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub close: Option<f64>,
+    pub loose: LooseEnds,
     pub fill_rule: FillChoice,
     pub strokes: Strokes,
     pub overlap: Overlap,
@@ -121,6 +125,8 @@ impl Default for Request {
             size_of: Vec::new(),
             order: Order::First,
             tolerance: None,
+            close: None,
+            loose: LooseEnds::Auto,
             fill_rule: FillChoice::Auto,
             strokes: Strokes::Auto,
             overlap: Overlap::Paint,
@@ -172,6 +178,7 @@ impl Request {
             ("scale", self.scale),
             ("dpi", Some(self.dpi)),
             ("timeout", self.timeout),
+            ("close", self.close),
         ];
         for (option, value) in positive {
             if let Some(value) = value.filter(|v| !(v.is_finite() && *v > 0.0)) {
@@ -520,6 +527,31 @@ impl FillChoice {
             Self::NonZero => Some(FillRule::NonZero),
             Self::EvenOdd => Some(FillRule::EvenOdd),
             Self::Regions => Some(FillRule::Regions),
+        }
+    }
+}
+
+/// What becomes of lines that bound nothing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum LooseEnds {
+    /// Plainly open lines are kept, outlines that miss closing refused.
+    Auto,
+    /// All are mesh edges where they lie in a region.
+    Keep,
+    /// All are left out.
+    Drop,
+    /// All are refused.
+    Error,
+}
+
+impl LooseEnds {
+    pub fn rule(self) -> Loose {
+        match self {
+            Self::Auto => Loose::Auto,
+            Self::Keep => Loose::Keep,
+            Self::Drop => Loose::Drop,
+            Self::Error => Loose::Error,
         }
     }
 }

@@ -2,7 +2,8 @@
 
 use squinch::curve::Curve;
 use squinch::domain::{
-    ArrangeError, ArrangeOptions, Domain, Drawing, DrawnPoint, FillRule, RepairKind, Seed, SeedKind, Shape,
+    ArrangeError, ArrangeOptions, Domain, Drawing, DrawnPoint, FillRule, Layer, Loose, OffPlane, RepairKind, Seed,
+    SeedKind, Shape,
 };
 use squinch::geometry::{Point, Vec2};
 use squinch::ids::{CurveId, Id};
@@ -111,17 +112,39 @@ fn fill_rules_tell_a_ring_from_a_disk() {
 
 #[test]
 fn overlapping_squares_count_every_stretch_as_often_as_it_was_drawn() {
-    // Two squares side by side, with the common side drawn twice; then one square drawn twice over.
+    // Two squares side by side, with the common side drawn twice.
     let mut pair = square(0.0, 0.0, 1.0);
     pair.extend(square(1.0, 0.0, 1.0));
-    let domain = filled(&drawing(pair), FillRule::EvenOdd);
+    let domain = filled(&drawing(pair.clone()), FillRule::EvenOdd);
     close(&areas(&domain), &[1.0, 1.0]);
     assert_eq!((domain.curves().len(), repairs(&domain, RepairKind::Duplicate)), (7, 1));
+    assert_eq!(domain.notes(), [""; 0]);
+    // All of it drawn twice.
+    pair.extend(pair.clone());
+    close(&areas(&filled(&drawing(pair), FillRule::EvenOdd)), &[1.0, 1.0]);
+    // A notch drawn as a square of its own, on a stretch of the outline.
+    let mut notched = square(0.0, 0.0, 4.0);
+    notched.extend(square(1.0, 0.0, 1.0));
+    close(&areas(&filled(&drawing(notched), FillRule::EvenOdd)), &[15.0]);
+}
 
-    let twice = drawing(square(0.0, 0.0, 1.0).into_iter().chain(square(0.0, 0.0, 1.0)));
-    close(&areas(&filled(&twice, FillRule::NonZero)), &[1.0]);
-    let refused = twice.arrange(&ArrangeOptions { fill: Some(FillRule::EvenOdd), ..Default::default() }).unwrap_err();
-    assert!(refused.what.contains("4 curves are drawn twice") && refused.help.contains("nonzero"), "{refused:?}");
+#[test]
+fn contours_drawn_twice_count_once() {
+    let plate = || square(0.0, 0.0, 4.0);
+    let hole = || vec![circle(1.0, 1.0, 0.5)];
+    let turned = || square(0.0, 0.0, 4.0).iter().map(Curve::reversed).collect::<Vec<_>>();
+    let area = 16.0 - 0.25 * PI;
+    for (curves, copies) in [
+        ([plate(), hole(), plate(), hole()], "5 curves are"),
+        ([plate(), plate(), hole(), turned()], "8 curves are"),
+        ([plate(), hole(), hole(), hole()], "2 curves are"),
+        ([plate(), hole(), vec![line((0.0, 0.0), (4.0, 0.0))], vec![]], "1 curve is"),
+        ([plate(), hole(), vec![line((1.0, 0.0), (3.0, 0.0))], vec![]], "1 curve is"),
+    ] {
+        let domain = filled(&drawing(curves.concat()), FillRule::EvenOdd);
+        close(&areas(&domain), &[area]);
+        assert!(domain.notes().iter().any(|note| note.starts_with(copies)), "{:?}", domain.notes());
+    }
 }
 
 #[test]
@@ -209,11 +232,117 @@ fn gaps_are_welded_or_closed_and_said() {
     assert_eq!(repairs(&domain, RepairKind::GapClosed), 1);
     assert_eq!(domain.points().len(), 4);
     let strict = ArrangeOptions { tolerance: Some(0.0), ..Default::default() };
-    for refused in [apart(1e-7).arrange(&strict), apart(1e-3).arrange(&ArrangeOptions::default())] {
+    for (refused, way_out) in [
+        (apart(1e-7).arrange(&strict), "--close 1.1e-7"),
+        (apart(1e-3).arrange(&ArrangeOptions::default()), "--close 0.0011"),
+    ] {
         let error: ArrangeError = refused.unwrap_err();
-        assert!(error.what.contains("nothing to mesh"), "{error}");
-        assert!(error.at.distance(p(0.0, 0.0)) < 1e-2 && error.help.contains("away"), "{error:?}");
+        assert!(error.what.contains("an outline misses closing"), "{error}");
+        assert!(error.at.distance(p(0.0, 0.0)) < 1e-2 && error.help.contains(way_out), "{error:?}");
     }
+}
+
+// ---- free ends ----
+
+/// The sides of a rectangle, each shorter by a gap at its end, around a closed bore.
+fn plate_with_gaps(gap: f64) -> Drawing {
+    let mut curves = vec![
+        line((0.0, 0.0), (80.0 - gap, 0.0)),
+        line((80.0, 0.0), (80.0, 60.0 - gap)),
+        line((80.0, 60.0), (gap, 60.0)),
+        line((0.0, 60.0), (0.0, gap)),
+    ];
+    curves.push(circle(40.0, 30.0, 10.0));
+    drawing(curves)
+}
+
+#[test]
+fn the_last_decimal_explains_a_gap() {
+    let mut plate = plate_with_gaps(0.01);
+    let whole = 4800.0 - 100.0 * PI;
+    for (last_decimal, joined) in [(0.01, 4), (0.005, 4), (0.004, 0), (0.0, 0)] {
+        plate.curves.iter_mut().for_each(|drawn| drawn.last_decimal = last_decimal);
+        match plate.arrange(&ArrangeOptions { fill: Some(FillRule::EvenOdd), ..Default::default() }) {
+            Ok(domain) => {
+                assert_eq!(repairs(&domain, RepairKind::GapClosed), joined, "{last_decimal}");
+                // Ends meet at the corner that their lines make, so that no side turns.
+                close(&areas(&domain), &[whole]);
+            }
+            Err(error) => assert!(joined == 0 && error.what.contains("misses closing"), "{last_decimal}: {error}"),
+        }
+    }
+    // Never more than a thousandth of the diagonal.
+    let mut coarse = plate_with_gaps(0.2);
+    coarse.curves.iter_mut().for_each(|drawn| drawn.last_decimal = 0.1);
+    assert!(coarse.arrange(&ArrangeOptions::default()).unwrap_err().what.contains("misses closing"));
+}
+
+#[test]
+fn an_outline_that_misses_closing_is_refused_and_the_way_out_works() {
+    let plate = plate_with_gaps(0.05);
+    let even_odd = ArrangeOptions { fill: Some(FillRule::EvenOdd), ..Default::default() };
+    let error = plate.arrange(&even_odd).unwrap_err();
+    assert!(error.what.contains("0.05 apart") && error.help.contains("--close 0.051"), "{error:?}");
+    let closed = plate.arrange(&ArrangeOptions { close: Some(0.051), ..even_odd.clone() }).unwrap();
+    close(&areas(&closed), &[4800.0 - 100.0 * PI]);
+    for (loose, curves) in [(Loose::Keep, 6), (Loose::Drop, 2)] {
+        let domain = plate.arrange(&ArrangeOptions { loose, ..even_odd.clone() }).unwrap();
+        close(&areas(&domain), &[100.0 * PI]);
+        assert_eq!(domain.curves().len(), curves, "the bore has two halves");
+        assert!(domain.notes()[0].starts_with("4 lines are open: 279.8 in all"), "{:?}", domain.notes());
+    }
+}
+
+#[test]
+fn closing_welds_nothing_else() {
+    // A slot as wide as the gap, which a tolerance of that would weld.
+    let mut plate = plate_with_gaps(0.05);
+    polygon(&[(20.0, 5.0), (30.0, 5.0), (30.0, 5.05), (20.0, 5.05)])
+        .into_iter()
+        .for_each(|c| plate.add(c, "slot", "slot"));
+    let options = ArrangeOptions { fill: Some(FillRule::EvenOdd), close: Some(0.06), ..Default::default() };
+    close(&areas(&plate.arrange(&options).unwrap()), &[4800.0 - 100.0 * PI - 0.5]);
+}
+
+#[test]
+fn plainly_open_lines_are_told_and_kept() {
+    let mut curves = square(0.0, 0.0, 10.0);
+    // A centre line that goes beyond the outline, and hatching: parallel lines with ends near to each other.
+    curves.push(line((-2.0, 5.0), (12.0, 5.0)));
+    curves.extend((0..10).map(|k| line((1.0, 6.0 + 0.1 * f64::from(k)), (9.0, 6.0 + 0.1 * f64::from(k)))));
+    let open = drawing(curves);
+    let domain = filled(&open, FillRule::EvenOdd);
+    close(&areas(&domain), &[50.0, 50.0]);
+    assert!(domain.notes()[0].starts_with("11 lines are open: 84 in all"), "{:?}", domain.notes());
+    let strict = ArrangeOptions { loose: Loose::Error, ..Default::default() };
+    assert!(open.arrange(&strict).unwrap_err().what.contains("ends freely"));
+    assert!(drawing(square(0.0, 0.0, 1.0)).arrange(&strict).is_ok());
+}
+
+#[test]
+fn a_gap_is_found_where_a_wall_touches_the_outline() {
+    // A wall closes a part of it, and the rest would pass for two open lines.
+    let mut curves = plate_with_gaps(0.05).curves.into_iter().map(|c| c.curve).collect::<Vec<_>>();
+    curves[0] = line((0.0, 0.0), (80.0, 0.0));
+    curves[1] = line((80.0, 0.0), (80.0, 60.0));
+    curves[2] = line((80.0, 60.0), (0.0, 60.0));
+    curves.push(line((60.0, 0.0), (60.0, 60.0)));
+    let error = drawing(curves).arrange(&ArrangeOptions::default()).unwrap_err();
+    assert!(error.what.contains("an outline misses closing") && error.at.distance(p(0.0, 0.0)) < 0.1, "{error}");
+}
+
+#[test]
+fn what_leaves_the_plane_is_named_as_the_cause_of_a_gap() {
+    let mut curves = square(0.0, 0.0, 10.0);
+    curves.pop();
+    let mut plate = drawing(curves);
+    plate.add(circle(5.0, 5.0, 1.0), "bore", "bore");
+    plate.off_plane.push(OffPlane { entity: "LINE (handle 30)".into(), ends: [p(0.0, 10.0), p(0.0, 0.0)] });
+    let error = plate.arrange(&ArrangeOptions::default()).unwrap_err();
+    assert!(
+        error.what.contains("LINE (handle 30) leaves the plane") && error.help.contains("--flatten-z"),
+        "{error:?}"
+    );
 }
 
 #[test]
@@ -1218,4 +1347,56 @@ fn a_speck_on_the_tip_of_a_sliver_is_named_by_its_own_shape() {
     let domain = drawing.arrange(&ArrangeOptions { tolerance: Some(0.0), ..Default::default() }).unwrap();
     assert_eq!(domain.flaws(), [""; 0]);
     assert_eq!(domain.regions().len(), 2);
+}
+
+// ---- auxiliary linework ----
+
+/// Curves on layers, by name.
+fn layered(layers: &[(&str, Vec<Curve>)]) -> Drawing {
+    let mut drawing = Drawing::default();
+    for (name, curves) in layers {
+        let line_types = [("CONTINUOUS".to_owned(), curves.len())].into();
+        let layer = Some(drawing.layers.push(Layer { name: (*name).into(), line_types }));
+        for curve in curves {
+            drawing.add(curve.clone(), name, format!("curve on {name}"));
+            drawing.curves.last_mut().unwrap().layer = layer;
+        }
+    }
+    drawing
+}
+
+fn notes_of(layers: &[(&str, Vec<Curve>)]) -> String {
+    filled(&layered(layers), FillRule::EvenOdd).notes().join("\n")
+}
+
+#[test]
+fn a_frame_around_a_part_is_told() {
+    let part = ("PART", square(2.0, 2.0, 6.0));
+    let holes = ("HOLES", vec![circle(4.0, 4.0, 0.5), circle(6.0, 6.0, 0.5)]);
+    let sheet = ("A4", square(0.0, 0.0, 10.0));
+    let double = ("A4", [square(0.0, 0.0, 10.0), square(1.0, 1.0, 8.0)].concat());
+    for frame in [sheet.clone(), double] {
+        let notes = notes_of(&[frame, part.clone(), holes.clone()]);
+        assert!(notes.contains("Layer A4") && notes.contains("--skip-layers A4"), "{notes}");
+    }
+    // A plate with holes is no frame, unless it is called one; nor is what holds nothing.
+    assert_eq!(notes_of(&[sheet.clone(), part.clone()]), "");
+    assert_eq!(notes_of(&[part.clone(), holes.clone()]), "");
+    assert!(notes_of(&[("Title frame", square(0.0, 0.0, 10.0)), part]).contains("--skip-layers 'Title frame'"));
+}
+
+#[test]
+fn outlines_that_cross_those_of_another_layer_are_told() {
+    let disk =
+        ("0", vec![circle(0.0, 0.0, 10.0), circle(6.0, 0.0, 1.0), circle(-6.0, 0.0, 1.0), circle(0.0, 6.0, 1.0)]);
+    let bolts = ("CENTER", vec![circle(0.0, 0.0, 6.0)]);
+    let notes = notes_of(&[disk.clone(), bolts]);
+    assert!(notes.contains("layer CENTER cross those of layer 0") && notes.contains("5 places more"), "{notes}");
+    assert!(notes.contains("--skip-layers CENTER"), "{notes}");
+    // What only touches, shares a wall, or is open, crosses nothing.
+    let beside = ("SIDE", vec![circle(12.0, 0.0, 2.0)]);
+    assert_eq!(notes_of(&[disk, beside]), "");
+    assert_eq!(notes_of(&[("A", square(0.0, 0.0, 2.0)), ("B", square(2.0, 0.0, 2.0))]), "");
+    let open = notes_of(&[("A", square(0.0, 0.0, 2.0)), ("B", vec![line((-1.0, 1.0), (3.0, 1.0))])]);
+    assert!(!open.contains("cross"), "{open}");
 }

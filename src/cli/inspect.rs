@@ -138,7 +138,7 @@ impl Findings {
             domain: arranged.as_ref().ok().map(DomainFindings::new),
             faces: drawing.faces.clone(),
             skipped: drawing.skipped.clone(),
-            notes: drawing.notes.clone(),
+            notes: drawing.notes.iter().chain(arranged.iter().flat_map(|d| d.notes())).cloned().collect(),
             repairs: arranged.as_ref().map(|d| d.repairs().to_vec()).unwrap_or_default(),
             unhealed: Vec::new(),
             flaws,

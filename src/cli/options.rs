@@ -7,8 +7,8 @@ use serde::{Deserialize, Serialize};
 use squinch::import::{Format, Glob};
 use squinch::pipeline::Exit;
 use squinch::request::{
-    BallShrinking, ChordError, EdgeTurning, Engine, FillChoice, Keep, LineTypes, MaxTurning, Midpoint, Order, Overlap,
-    Request, SizeOf, SnapTo, Steiner, Strokes, Switch, TrailingEdge,
+    BallShrinking, ChordError, EdgeTurning, Engine, FillChoice, Keep, LineTypes, LooseEnds, MaxTurning, Midpoint,
+    Order, Overlap, Request, SizeOf, SnapTo, Steiner, Strokes, Switch, TrailingEdge,
 };
 use squinch::size::Given;
 use std::path::{Path, PathBuf};
@@ -63,6 +63,12 @@ pub struct Options {
     /// Welding distance; 0 heals nothing, and lists what it leaves as `unhealed` [default: 1e-9 of the diagonal, or up to 1e-4 (SVG) or 1e-6 where slivers would take too many vertices; ends that meet nothing else: 1e-6]
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, help_heading = "Input")]
     tolerance: Option<f64>,
+    /// Joins free ends that are nearer to each other than this; welds nothing else
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, help_heading = "Input")]
+    close: Option<f64>,
+    /// What becomes of lines that bound nothing: auto keeps plainly open ones and refuses outlines that miss closing [default: auto]
+    #[arg(long, value_enum, value_name = "HOW", help_heading = "Input")]
+    loose: Option<LooseEnds>,
     /// Which faces are inside [default: auto, the file's own rule]
     #[arg(long, value_enum, value_name = "RULE", help_heading = "Input")]
     fill_rule: Option<FillChoice>,
@@ -290,6 +296,7 @@ mod tests {
             grade: Some(1.0),
             size_of: vec!["a=1".parse().unwrap()],
             tolerance: Some(0.0),
+            close: Some(1.0),
             layers: vec!["a".parse().unwrap()],
             skip_layers: vec!["a".parse().unwrap()],
             unit: Some("mm".into()),

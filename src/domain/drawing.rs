@@ -1,7 +1,7 @@
 //! Curves, names and seeds as found in a file: nothing promised, nothing cleaned.
 
 use crate::curve::Curve;
-use crate::geometry::{Frame, Point, Rect};
+use crate::geometry::{Frame, Point, Rect, finest_decimal};
 use crate::ids::{IdVec, LayerId, NameId, Names, ShapeId};
 use std::collections::BTreeMap;
 
@@ -29,10 +29,10 @@ pub struct Drawing {
     pub frame: Option<Frame>,
     /// The planar faces of the solid that the drawing is one of, by their numbers.
     pub faces: Vec<FaceInfo>,
+    /// Entities that were left out because they leave the plane of the drawing: they may be why an outline does not close.
+    pub off_plane: Vec<OffPlane>,
     /// What the reader left out, counted.
     pub skipped: Vec<Skipped>,
-    /// Of what the reader left out: entities that leave the XY plane. A gap in an outline may be where they belong.
-    pub off_plane: Vec<OffPlane>,
     /// Layers that were asked for and that the file does not have.
     pub unmatched: Vec<Unmatched>,
     /// What the reader noticed or mended (format quirks), one sentence each.
@@ -77,6 +77,12 @@ impl DrawnCurve {
     pub fn new(curve: Curve, name: NameId, entity: impl Into<String>) -> Self {
         Self { curve, name, entity: entity.into(), shape: None, layer: None, handle: None, last_decimal: 0.0 }
     }
+
+    /// A curve whose ends the file writes themselves: their numbers tell the last decimal. Of computed ends it is about their rounding.
+    pub fn with_written_ends(self) -> Self {
+        let ends = [self.curve.start(), self.curve.end()];
+        Self { last_decimal: finest_decimal(ends.into_iter().flat_map(|end| [end.x, end.y])), ..self }
+    }
 }
 
 /// A layer of a drawing.
@@ -87,15 +93,6 @@ pub struct Layer {
     pub line_types: BTreeMap<String, usize>,
 }
 
-/// An entity that leaves the XY plane and was left out.
-#[derive(Clone, Debug, PartialEq)]
-pub struct OffPlane {
-    /// As [`DrawnCurve::entity`].
-    pub entity: String,
-    /// Where it starts and ends, seen along z.
-    pub ends: [Point; 2],
-}
-
 /// A layer that was asked for, by its name or a pattern, and that the file does not have.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Unmatched {
@@ -103,6 +100,14 @@ pub struct Unmatched {
     pub asked: String,
     /// Layers of the file, the most alike first.
     pub near: Vec<String>,
+}
+
+/// An entity that was left out because it leaves the plane of the drawing.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OffPlane {
+    pub entity: String,
+    /// Its ends, projected onto the plane.
+    pub ends: [Point; 2],
 }
 
 /// A filled shape of a picture. A later shape lies on top of an earlier one.

@@ -7,7 +7,7 @@ mod flaws;
 mod locate;
 mod planar;
 
-pub use arrange::{ArrangeError, ArrangeOptions, Repair, RepairKind, Unarranged};
+pub use arrange::{ArrangeError, ArrangeOptions, Loose, Repair, RepairKind, Unarranged};
 pub use drawing::{
     Drawing, DrawnCurve, DrawnPoint, FaceInfo, FillRule, Layer, OffPlane, Seed, SeedKind, Shape, SizeRequest, Skipped,
     Unmatched,

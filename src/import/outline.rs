@@ -422,7 +422,8 @@ impl File {
             let several = entry.curves.len() > 1;
             for (k, curve) in entry.curves.into_iter().enumerate() {
                 let entity = if several { format!("{whole}, edge {k}") } else { whole.clone() };
-                d.curves.push(DrawnCurve { shape: entry.shape.map(ShapeId), ..DrawnCurve::new(curve, name, entity) });
+                let drawn = DrawnCurve::new(curve, name, entity).with_written_ends();
+                d.curves.push(DrawnCurve { shape: entry.shape.map(ShapeId), ..drawn });
             }
         }
         for (i, p) in self.points.into_iter().enumerate() {

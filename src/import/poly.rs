@@ -279,7 +279,7 @@ fn read_segments(rows: &mut Rows, vertices: &Vertices, drawing: &mut Drawing) ->
         let name = names.name(&mut drawing.names, marker);
         let curve =
             Curve::line(vertices.points[a], vertices.points[b]).map_err(|e| row.error(format!("segment {n}: {e}")))?;
-        drawing.curves.push(DrawnCurve::new(curve, name, format!("segment {n}")));
+        drawing.curves.push(DrawnCurve::new(curve, name, format!("segment {n}")).with_written_ends());
     }
     if empty > 0 {
         let why = "both ends are the same vertex".into();

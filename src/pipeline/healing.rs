@@ -203,6 +203,9 @@ impl<'a> Healing<'a> {
             fill: self.request.fill_rule.rule(),
             keep_all: self.request.keep == Keep::All,
             fragments: self.request.overlap == Overlap::Fragment,
+            close: self.request.close,
+            loose: self.request.loose.rule(),
+            raised: self.request.tolerance.is_none(),
         };
         self.drawing.arrange_watched(&options, watch)
     }

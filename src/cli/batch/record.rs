@@ -36,6 +36,8 @@ pub struct Line {
     /// What was left as it is by `--tolerance 0`.
     pub unhealed: usize,
     pub skipped: usize,
+    /// What was noticed of the input.
+    pub notes: Vec<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub failure: Option<FailureReport>,
     pub seconds: f64,
@@ -57,6 +59,7 @@ impl Line {
             repairs: report.input.repairs.len(),
             unhealed: report.input.unhealed.len(),
             skipped: report.input.skipped.iter().map(|s| s.count).sum(),
+            notes: report.input.notes.clone(),
             failure: report.failure.clone(),
             seconds: 0.0,
         }
@@ -77,6 +80,7 @@ impl Line {
             repairs: 0,
             unhealed: 0,
             skipped: 0,
+            notes: Vec::new(),
             failure: Some(failure),
             seconds: 0.0,
         }

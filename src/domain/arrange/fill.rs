@@ -41,9 +41,21 @@ struct Windings<'a> {
     faces: &'a Faces,
     domain: &'a Domain,
     rule: FillRule,
-    /// How often each curve counts, in its own direction; 0 where the same face lies on both sides.
+    /// How often each curve counts: in its own direction, or by the odd-even rule in any; 0 where the same face lies on both sides, and of
+    /// open lines.
     weight: Vec<i32>,
     winding: Vec<Option<i32>>,
+    /// Curves that count once, however many drawn ones run along them.
+    once: Vec<bool>,
+}
+
+/// How often a curve counts that several drawn ones run along.
+enum Count {
+    Once,
+    /// As often as it is drawn, over the number of times that all is drawn.
+    Copies {
+        divided_by: i32,
+    },
 }
 
 fn is_inside(rule: FillRule, winding: i32) -> bool {
@@ -51,6 +63,14 @@ fn is_inside(rule: FillRule, winding: i32) -> bool {
         FillRule::NonZero => winding != 0,
         FillRule::EvenOdd | FillRule::EvenOddAndShapes => winding % 2 != 0,
         FillRule::Regions | FillRule::Shapes => true,
+    }
+}
+
+/// Whether only odd and even are told apart, of how often outlines go around.
+pub(super) fn by_parity(rule: FillRule) -> bool {
+    match rule {
+        FillRule::EvenOdd | FillRule::EvenOddAndShapes => true,
+        FillRule::NonZero | FillRule::Regions | FillRule::Shapes => false,
     }
 }
 
@@ -85,31 +105,58 @@ impl Windings<'_> {
             // Nothing but open curves that enclose something by crossing: filled where nothing around them is.
             let within = if is_inside(self.rule, around) { around } else { around + 1 };
             bounded.iter().for_each(|&face| self.winding[face] = Some(within));
-        } else if self.is_balanced(sides.copied()) {
-            self.spread(outer, around);
-        } else {
-            bounded.iter().for_each(|&face| self.winding[face] = Some(around + 1));
+            return;
+        }
+        let curves: Vec<CurveId> = sides.filter(|half| half.side == Side::Left).map(|half| half.curve).collect();
+        match self.counts(&curves).into_iter().find(|count| self.is_balanced(&curves, count)) {
+            Some(count) => {
+                if matches!(count, Count::Once) {
+                    curves.iter().for_each(|id| self.once[id.index()] = true);
+                }
+                self.spread(outer, around, &count);
+            }
+            None => bounded.iter().for_each(|&face| self.winding[face] = Some(around + 1)),
+        }
+    }
+
+    /// The ways to count the curves of a component, the first one first that comes out even at every point.
+    ///
+    /// By the odd-even rule what is drawn several times at one place is one contour, and counts once. Where that leaves an odd number of
+    /// curves at some point, contours that share a wall were drawn each for itself (two rooms): then every copy counts, but where all is
+    /// drawn an even number of times half of them does.
+    fn counts(&self, curves: &[CurveId]) -> Vec<Count> {
+        if !by_parity(self.rule) {
+            return vec![Count::Copies { divided_by: 1 }];
+        }
+        let common = curves.iter().map(|id| self.weight[id.index()].unsigned_abs()).fold(0, |a, b| a | b);
+        vec![Count::Once, Count::Copies { divided_by: 1 << common.trailing_zeros().min(30) }]
+    }
+
+    fn weight(&self, id: CurveId, count: &Count) -> i32 {
+        let weight = self.weight[id.index()];
+        match count {
+            Count::Once => weight.signum(),
+            Count::Copies { divided_by } => weight / divided_by,
         }
     }
 
     /// Whether as many curves arrive as leave, at every point: only then is the winding number the same along every way.
-    fn is_balanced(&self, sides: impl Iterator<Item = Half>) -> bool {
+    fn is_balanced(&self, curves: &[CurveId], count: &Count) -> bool {
         let mut flow: Vec<(PointId, i32)> = Vec::new();
-        for half in sides.filter(|h| h.side == Side::Left) {
-            let weight = self.weight[half.curve.index()];
-            let ends = self.domain.curves[half.curve].ends;
+        for &id in curves {
+            let weight = self.weight(id, count);
+            let ends = self.domain.curves[id].ends;
             flow.extend([(ends[0], weight), (ends[1], -weight)]);
         }
         flow.sort_unstable();
         flow.chunk_by(|a, b| a.0 == b.0).all(|chunk| {
             let net: i32 = chunk.iter().map(|f| f.1).sum();
-            let by_parity = matches!(self.rule, FillRule::EvenOdd | FillRule::EvenOddAndShapes);
-            if by_parity { net % 2 == 0 } else { net == 0 }
+            if by_parity(self.rule) { net % 2 == 0 } else { net == 0 }
         })
     }
 
     /// From the face around a component across its curves to all its faces.
-    fn spread(&mut self, outer: usize, around: i32) {
+    fn spread(&mut self, outer: usize, around: i32, count: &Count) {
         let mut stack = vec![(outer, around)];
         while let Some((cycle, winding)) = stack.pop() {
             for &half in &self.faces.cycles[cycle].halves {
@@ -117,7 +164,7 @@ impl Windings<'_> {
                 if beyond == outer || beyond == cycle || self.winding[beyond].is_some() {
                     continue;
                 }
-                let weight = self.weight[half.curve.index()];
+                let weight = self.weight(half.curve, count);
                 // The left of a curve that counts once winds once more than its right.
                 let there = if half.side == Side::Left { winding - weight } else { winding + weight };
                 self.winding[beyond] = Some(there);
@@ -128,9 +175,11 @@ impl Windings<'_> {
 }
 
 /// Which drawn curves are parts of closed outlines, by their own ends: a curve at a free end is none, nor what is left free without it.
-fn closed_outlines(network: &Network) -> Vec<bool> {
+/// Outlines of shapes are closed, and close no others.
+pub(super) fn closed_outlines(network: &Network) -> Vec<bool> {
     let mut at: IdVec<PointId, Vec<usize>> = vec![Vec::new(); network.nodes.len()].into();
-    for (i, ends) in network.drawn_ends.iter().enumerate() {
+    let lines = network.drawn_ends.iter().enumerate().filter(|&(i, _)| network.drawing.curves[i].shape.is_none());
+    for (i, ends) in lines {
         ends.iter().flatten().for_each(|&end| at[end].push(i));
     }
     let mut closed: Vec<bool> = network.drawn_ends.iter().map(Option::is_some).collect();
@@ -149,7 +198,7 @@ fn closed_outlines(network: &Network) -> Vec<bool> {
     closed
 }
 
-fn windings(network: &Network, domain: &Domain, faces: &Faces, rule: FillRule) -> Vec<i32> {
+fn windings(network: &Network, domain: &mut Domain, faces: &Faces, rule: FillRule) -> Vec<i32> {
     let closed = closed_outlines(network);
     let same_face = |id: CurveId| {
         let [left, right] = [Side::Left, Side::Right].map(|side| faces.cycle_of[Half { curve: id, side }.index()]);
@@ -161,17 +210,34 @@ fn windings(network: &Network, domain: &Domain, faces: &Faces, rule: FillRule) -
         |source: u32| rule == FillRule::EvenOddAndShapes && network.drawing.curves[source as usize].shape.is_some();
     let count = |(source, against): (u32, bool)| match closed[source as usize] && !of_shapes(source) {
         false => 0,
-        true if against => -1,
+        true if against && rule == FillRule::NonZero => -1,
         true => 1,
     };
     let weight = domain.curves.ids().map(|id| if same_face(id) { 0 } else { drawn(id).map(count).sum() });
     let counted: Vec<bool> = (domain.curves.ids())
         .map(|id| !same_face(id) && drawn(id).any(|(source, _)| closed[source as usize]))
         .collect();
-    let winding = vec![None; faces.cycles.len()];
-    let mut windings = Windings { faces, domain, rule, weight: weight.collect(), winding };
+    let (winding, once) = (vec![None; faces.cycles.len()], vec![false; domain.curves.len()]);
+    let mut windings = Windings { faces, domain, rule, weight: weight.collect(), winding, once };
     windings.settle(&counted);
-    windings.winding.into_iter().map(|w| w.unwrap_or(0)).collect()
+    let Windings { winding, once, .. } = windings;
+    let once = domain.curves.ids().filter(|id| once[id.index()]);
+    let copies: BTreeSet<u32> = once
+        .flat_map(|id| network.pieces[id].merged.iter().map(|&(source, _)| source))
+        .filter(|&s| !of_shapes(s))
+        .collect();
+    domain.notes.extend(tell_copies(copies.len()));
+    winding.into_iter().map(|w| w.unwrap_or(0)).collect()
+}
+
+/// Says how many curves are drawn over others.
+fn tell_copies(count: usize) -> Option<String> {
+    let curves = match count {
+        0 => return None,
+        1 => "1 curve is".into(),
+        _ => format!("{count} curves are"),
+    };
+    Some(format!("{curves} drawn twice, in whole or in part: what lies over another curve is a copy, and counts once."))
 }
 
 /// The drawn curves that run along a piece of the domain, and whether each runs against it.

@@ -36,10 +36,13 @@
 //!
 //! All of it happens in a frame scaled by a power of two, so that the same drawing at another such scale gives the same bits.
 
+mod auxiliary;
 mod cut;
 mod fill;
 mod hidden;
+mod loose;
 mod repair;
+mod rings;
 mod star;
 mod trace;
 mod weld;
@@ -61,7 +64,8 @@ const STRAY: f64 = 1048576.0;
 /// How a drawing is arranged.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ArrangeOptions {
-    /// Ends nearer than this are one vertex; `None`: 1e-9 of the diagonal, and ends that meet nothing else up to 1e-6 of it. 0 heals nothing.
+    /// Ends nearer than this are one vertex; `None`: 1e-9 of the diagonal, and ends that meet nothing else up to 1e-6 of it, or two units of
+    /// the last decimal in which they are written, at most 1e-3 of it. 0 heals nothing.
     pub tolerance: Option<f64>,
     /// `None`: the drawing's own rule.
     pub fill: Option<FillRule>,
@@ -71,6 +75,25 @@ pub struct ArrangeOptions {
     /// Where filled shapes of a picture overlap, each set of them has a region of its own, named by all of them, the topmost first:
     /// `leaf+stem`. Else the topmost shape has it all.
     pub fragments: bool,
+    /// Free ends that are each other's nearest are joined up to this far, and nothing else is welded by it.
+    pub close: Option<f64>,
+    pub loose: Loose,
+    /// Whether `tolerance` was chosen for the user: ends that meet nothing else are joined as by default then.
+    pub raised: bool,
+}
+
+/// What becomes of lines that bound nothing.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Loose {
+    /// Plainly open lines are kept; outlines that miss closing are refused.
+    #[default]
+    Auto,
+    /// All are kept.
+    Keep,
+    /// All are left out.
+    Drop,
+    /// All are refused.
+    Error,
 }
 
 /// What cannot be repaired, where, and the way out.
@@ -123,12 +146,23 @@ struct Tolerances {
     weld: f64,
     /// Free ends nearer than this are joined; 0: never.
     gap: f64,
+    /// Free ends as near as the last decimals explain are joined up to this; 0: never.
+    written: f64,
+    /// Free ends nearer than this are joined as the user asks for; 0: not asked for.
+    close: f64,
     /// Whether curves that part from each other slowly are one as long as they are within `weld`.
     zip: bool,
     /// What rounding does to coordinates.
     rounding: f64,
     /// The length, in the drawing's units, of one unit of the frame: for messages.
     unit: f64,
+}
+
+impl Tolerances {
+    /// A length of the unit frame in the drawing's units, to six digits: for messages.
+    fn told(&self, length: f64) -> f64 {
+        format!("{:.5e}", length * self.unit).parse().unwrap_or(length * self.unit)
+    }
 }
 
 impl Drawing {
@@ -174,7 +208,7 @@ impl Drawing {
             Ok(network.repairs)
         };
         let mut repairs: Vec<Repair> = settled(tolerances, watch)?;
-        let exact = Tolerances { weld: tolerances.rounding, gap: 0.0, ..tolerances };
+        let exact = Tolerances { weld: tolerances.rounding, gap: 0.0, written: 0.0, ..tolerances };
         let made = match settled(exact, watch) {
             Ok(made) => made,
             // What cannot be arranged so is healed of nothing.
@@ -232,7 +266,11 @@ impl Drawing {
     /// The drawing times a power of two, with the box of `keep all`, and its tolerances.
     fn in_unit_frame(&self, factor: f64, options: &ArrangeOptions) -> Result<(Drawing, Tolerances), ArrangeError> {
         let mut unit = self.clone();
-        unit.curves.iter_mut().for_each(|c| c.curve = c.curve.scaled(factor));
+        for drawn in &mut unit.curves {
+            drawn.curve = drawn.curve.scaled(factor);
+            drawn.last_decimal *= factor;
+        }
+        unit.off_plane.iter_mut().for_each(|entity| entity.ends = entity.ends.map(|end| scaled(end, factor)));
         unit.points.iter_mut().for_each(|p| p.at = scaled(p.at, factor));
         for seed in &mut unit.seeds {
             seed.at = scaled(seed.at, factor);
@@ -262,17 +300,26 @@ impl Drawing {
         let carried = self.curves.iter().map(|c| carrier_magnitude(&c.curve)).fold(magnitude(bounds), f64::max);
         let coordinates = 16.0 * f64::EPSILON * magnitude(bounds);
         let rounding = (16.0 * f64::EPSILON * carried).min(1e-9 * diagonal).max(coordinates);
-        let (weld, gap) = match options.tolerance {
-            None => (1e-9 * diagonal, 1e-6 * diagonal),
-            Some(given) if given.is_nan() || given < 0.0 => return refuse(format!("a tolerance of {given}")),
-            Some(given) if given * factor >= diagonal / 4.0 => {
-                return refuse(format!("a tolerance of {given} for a drawing {} across", diagonal / factor));
-            }
-            Some(given) => (given * factor, 0.0),
+        let refused = |option: &str, given: f64| {
+            (given.is_nan() || given < 0.0 || given * factor >= diagonal / 4.0)
+                .then(|| format!("{option} of {given} for a drawing {} across", diagonal / factor))
         };
+        if let Some(what) = options.close.and_then(|given| refused("a gap to close", given)) {
+            return refuse(what);
+        }
+        let weld = match options.tolerance {
+            None => 1e-9 * diagonal,
+            Some(given) => match refused("a tolerance", given) {
+                Some(what) => return refuse(what),
+                None => given * factor,
+            },
+        };
+        let joins = if options.tolerance.is_none() || options.raised { [1e-6, 1e-3] } else { [0.0, 0.0] };
+        let [gap, written] = joins.map(|part| part * diagonal);
+        let close = options.close.unwrap_or(0.0) * factor;
         // A tolerance that was asked for says what is one; else a contact of curves drawn to touch stays the point that it is.
         let zip = options.tolerance.is_some_and(|given| given > 0.0);
-        Ok(Tolerances { weld: weld.max(rounding), gap, zip, rounding, unit: 1.0 / factor })
+        Ok(Tolerances { weld: weld.max(rounding), gap, written, close, zip, rounding, unit: 1.0 / factor })
     }
 
     /// Adds the sides of a box as boundary `box`.
@@ -304,6 +351,7 @@ fn arrange_in_unit_frame(
     watch: &mut Watch,
 ) -> Result<Domain, Unarranged> {
     let mut network = settled(drawing, tolerances, watch)?;
+    let mut notes = network.settle_loose_ends(options.loose)?;
     let (mut domain, mut faces) = traced(&network, watch)?;
     let rule = if options.keep_all { FillRule::Regions } else { options.fill.unwrap_or(drawing.fill) };
     if rule == FillRule::Shapes && !options.fragments && network.drop_hidden(&faces) {
@@ -311,6 +359,10 @@ fn arrange_in_unit_frame(
         (domain, faces) = traced(&network, watch)?;
     }
     domain.repairs.append(&mut network.repairs);
+    domain.notes.append(&mut notes);
+    if fill::by_parity(rule) || rule == FillRule::NonZero {
+        domain.notes.append(&mut auxiliary::remarks(&network, &domain, &faces));
+    }
     trace::keep(&network, &mut domain, &faces, rule, options, watch)?;
     Ok(domain)
 }
@@ -327,7 +379,7 @@ fn traced(network: &Network, watch: &mut Watch) -> Result<(Domain, trace::Faces)
 fn settled<'a>(drawing: &'a Drawing, tolerances: Tolerances, watch: &mut Watch) -> Result<Network<'a>, Unarranged> {
     let mut network = Network::new(drawing, tolerances, watch)?;
     network.settle(watch)?;
-    if tolerances.gap > 0.0 && network.close_gaps() {
+    if network.join_free_ends() {
         network.settle(watch)?;
     }
     network.itemise_collapsed();

@@ -418,7 +418,7 @@ pub(super) fn keep(
         kept[face] &= options.keep_all || *said != Some(Said::Hole);
     }
     if !kept.contains(&true) {
-        return Err(nothing_to_mesh(network, domain, faces, rule).into());
+        return Err(nothing_to_mesh(network, faces, rule).into());
     }
     let areas = face_areas(faces);
     let named = |face: usize| match said[face] {
@@ -531,54 +531,30 @@ fn name_regions(
 }
 
 /// Says why no face is kept, at the first free end if that is why.
-fn nothing_to_mesh(network: &Network, domain: &Domain, faces: &Faces, rule: FillRule) -> ArrangeError {
+fn nothing_to_mesh(network: &Network, faces: &Faces, rule: FillRule) -> ArrangeError {
     let has_faces = faces.cycles.len() > faces.outer.len();
     let first = network.drawing.curves.first().map_or(Point::ORIGIN, |c| c.curve.start());
     if has_faces {
-        return all_outside(network, rule, first);
+        return all_outside(rule, first);
     }
     let free = network.free_ends();
-    let Some(&end) = free.first() else {
+    let Some(end) = free.first() else {
         let help = "the curves enclose nothing: draw a closed outline";
         return ArrangeError::new("nothing to mesh: no closed region", first, help);
     };
-    let at = network.nodes[end].at;
-    let gap = free[1..].iter().map(|&n| network.nodes[n].at.distance(at)).fold(f64::INFINITY, f64::min);
-    let across = extent(domain.bounds());
-    let away = gap * network.tolerances.unit;
-    let help = if gap <= MENDED_BY_TOLERANCE * across {
-        format!("the nearest other free end is {away} away: close the outline, or raise the tolerance above that")
-    } else if gap.is_finite() {
-        format!("the nearest other free end is {away} away: close the outline by another curve")
-    } else {
-        "close the outline by another curve".into()
-    };
-    let what =
-        format!("nothing to mesh: no closed region; {} ends freely", network.nodes[end].origin.text(network.drawing));
-    ArrangeError { near: gap <= MENDED_BY_TOLERANCE * across, ..ArrangeError::new(what, at, help) }
+    let gap = free[1..].iter().map(|other| other.at.distance(end.at)).reduce(f64::min);
+    let away =
+        gap.map_or_else(String::new, |gap| format!("{} away from the next free end: ", network.tolerances.told(gap)));
+    let what = format!("nothing to mesh: no closed region; {} ends freely", network.entity_of(end));
+    ArrangeError::new(what, end.at, format!("{away}close the outline by another curve"))
 }
 
-/// Widest gap, as part of the drawing, that a tolerance is to close: a larger one would weld what is drawn.
-const MENDED_BY_TOLERANCE: f64 = 1e-3;
-
 /// Why no face of a drawing that has some is kept.
-fn all_outside(network: &Network, rule: FillRule, at: Point) -> ArrangeError {
+fn all_outside(rule: FillRule, at: Point) -> ArrangeError {
     let error = |what: &str, help: &str| ArrangeError::new(format!("nothing to mesh: {what}"), at, help);
-    let mut repeated: Vec<u32> =
-        network.pieces.iter().flat_map(|p| p.merged.iter().map(|&(source, _)| source)).collect();
-    repeated.sort_unstable();
-    repeated.dedup();
-    match (rule, repeated.len()) {
-        (FillRule::Regions, _) => error("a hole point lies in every closed region", "remove hole points"),
-        (FillRule::EvenOdd, 1..) => {
-            let drawn =
-                if repeated.len() == 1 { "1 curve is".into() } else { format!("{} curves are", repeated.len()) };
-            error(
-                &format!("{drawn} drawn twice, so that by the even-odd rule nothing is inside"),
-                "remove what is repeated; --fill-rule nonzero keeps all that is enclosed",
-            )
-        }
-        _ => error(
+    match rule {
+        FillRule::Regions => error("a hole point lies in every closed region", "remove hole points"),
+        FillRule::NonZero | FillRule::EvenOdd | FillRule::Shapes | FillRule::EvenOddAndShapes => error(
             "every closed region is a hole or outside by the fill rule",
             "choose another fill rule (`regions` keeps every bounded face), or remove hole points",
         ),

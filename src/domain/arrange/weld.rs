@@ -4,8 +4,7 @@ use super::cut::{CROWDED, CUTS_MAX, Cut, Found, Network, Node, Origin, Piece, ex
 use super::repair::Cells;
 use super::{ArrangeError, RepairKind, Unarranged};
 use crate::curve::{Curve, End};
-use crate::geometry::boxes::BoxHierarchy;
-use crate::geometry::{Point, Rect, Vec2};
+use crate::geometry::{Point, Vec2};
 use crate::ids::{CurveId, Id, IdVec, PointId};
 use crate::watch::Watch;
 use std::collections::BTreeMap;
@@ -13,9 +12,6 @@ use std::collections::BTreeMap;
 /// Rounds of meeting and welding. Each round moves what it welds by a tolerance at most, which seldom makes a new meeting; a drawing
 /// that needs more rounds is one whose features lie as near to each other as its tolerance.
 const ROUNDS: usize = 48;
-
-/// A gap is narrower than this part of the curves beside it: else it is no gap, but the length of a stub.
-const NARROW: f64 = 0.5;
 
 impl Network<'_> {
     /// Meets and welds until nothing meets but at common ends.
@@ -44,44 +40,6 @@ impl Network<'_> {
         let what = format!("curves run so near to each other that {ROUNDS} rounds of welding did not part them");
         let help = "raise the tolerance above the distance of the features there, or remove one of them";
         Err(ArrangeError::near(what, at, help).into())
-    }
-
-    /// Closes gaps between ends that meet nothing else, up to the gap tolerance; whether there were any.
-    pub fn close_gaps(&mut self) -> bool {
-        let free = self.free_ends();
-        let at: Vec<Point> = free.iter().map(|&n| self.nodes[n].at).collect();
-        let mut size_at: IdVec<PointId, f64> = vec![0.0; self.nodes.len()].into();
-        self.pieces.iter().for_each(|p| p.ends.into_iter().for_each(|end| size_at[end] = extent(p.bounds)));
-        let sizes: Vec<f64> = free.iter().map(|&n| size_at[n]).collect();
-        let boxes = BoxHierarchy::new(at.iter().map(|&p| Rect::from_points(p, p)));
-        let nearest = |i: usize| {
-            let away = |j: usize, _| if i == j { f64::INFINITY } else { at[i].distance(at[j]) };
-            // The bound itself still counts: a gap as wide as the tolerance is closed.
-            boxes.nearest(at[i], self.tolerances.gap.next_up(), away)
-        };
-        let partners: Vec<_> = (0..free.len()).map(nearest).collect();
-        let mutual = |i: usize| partners[i].filter(|&(j, _)| i < j && partners[j].is_some_and(|(k, _)| k == i));
-        // What is no longer than the gap beside it would be folded onto itself.
-        let narrow = |i: usize, j: usize, d: f64| d < sizes[i].min(sizes[j]) * NARROW;
-        let gaps: Vec<_> = (0..free.len())
-            .filter_map(|i| mutual(i).filter(|&(j, d)| narrow(i, j, d)).map(|(j, d)| (free[i], free[j], d)))
-            .collect();
-        for &(kept, moved, distance) in &gaps {
-            let [a, b] = [kept, moved].map(|n| self.nodes[n].origin.text(self.drawing));
-            let what = format!("a gap between the ends of {a} and {b} was closed");
-            let at = self.nodes[kept].at;
-            self.repair(RepairKind::GapClosed, at, distance, what);
-            self.nodes[moved].at = at;
-            self.nodes[moved].origin = self.nodes[kept].origin;
-        }
-        !gaps.is_empty()
-    }
-
-    /// Nodes at which a single piece ends, ascending.
-    pub fn free_ends(&self) -> Vec<PointId> {
-        let mut degree: IdVec<PointId, usize> = vec![0; self.nodes.len()].into();
-        self.pieces.iter().flat_map(|p| p.ends).for_each(|end| degree[end] += 1);
-        degree.enumerate().filter(|&(_, &d)| d == 1).map(|(id, _)| id).collect()
     }
 
     /// One round: clusters the nodes, cuts the pieces, moves their ends to the clusters, and drops what is repeated or of no length.
@@ -383,16 +341,16 @@ fn gap_across(from: &Curve, t: f64, to: &Curve) -> f64 {
 }
 
 /// Sets of nodes, joined.
-struct Forest {
+pub(super) struct Forest {
     parent: IdVec<PointId, PointId>,
 }
 
 impl Forest {
-    fn new(n: usize) -> Self {
+    pub fn new(n: usize) -> Self {
         Self { parent: (0..n).map(PointId::from_index).collect() }
     }
 
-    fn root(&mut self, mut id: PointId) -> PointId {
+    pub fn root(&mut self, mut id: PointId) -> PointId {
         while self.parent[id] != id {
             self.parent[id] = self.parent[self.parent[id]];
             id = self.parent[id];
@@ -400,7 +358,7 @@ impl Forest {
         id
     }
 
-    fn join(&mut self, a: PointId, b: PointId) {
+    pub fn join(&mut self, a: PointId, b: PointId) {
         let (a, b) = (self.root(a), self.root(b));
         let (low, high) = (a.min(b), a.max(b));
         self.parent[high] = low;

@@ -1,0 +1,161 @@
+//! Linework that is no edge of the part, where inside and outside are told by how often outlines go around: drawing frames, and outlines that
+//! cross those of another layer, as bolt circles do. It is taken as drawn, and told with the option that leaves it out.
+
+use super::cut::Network;
+use super::fill::{closed_outlines, drawn_along};
+use super::trace::{Faces, Half};
+use crate::domain::Domain;
+use crate::domain::locate::Side;
+use crate::geometry::{Point, scaled};
+use crate::ids::{CurveId, Id, LayerId};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Parts of names that layers of drawing frames have, in the languages of common templates.
+const FRAMES: [&str; 9] = ["frame", "border", "title", "sheet", "rahmen", "schriftfeld", "cadre", "cartouche", "marco"];
+
+/// What is to be told of a drawing with layers.
+pub(super) fn remarks(network: &Network, domain: &Domain, faces: &Faces) -> Vec<String> {
+    if network.drawing.layers.is_empty() {
+        return Vec::new();
+    }
+    let outlines = Outlines::new(network, faces);
+    let mut remarks = outlines.frames();
+    remarks.extend(outlines.crossings(domain));
+    remarks
+}
+
+/// The layers of closed outlines, by curve and by component.
+struct Outlines<'a> {
+    network: &'a Network<'a>,
+    faces: &'a Faces,
+    by_curve: Vec<BTreeSet<LayerId>>,
+    by_component: Vec<BTreeSet<LayerId>>,
+}
+
+impl<'a> Outlines<'a> {
+    fn new(network: &'a Network<'a>, faces: &'a Faces) -> Self {
+        let closed = closed_outlines(network);
+        let layers = |id: CurveId| {
+            let sources = drawn_along(network, id).map(|(source, _)| source as usize).filter(|&source| closed[source]);
+            sources.filter_map(|source| network.drawing.curves[source].layer).collect::<BTreeSet<_>>()
+        };
+        let by_curve: Vec<_> = network.pieces.ids().map(layers).collect();
+        let mut by_component = vec![BTreeSet::new(); faces.outer.len()];
+        for (k, layers) in by_curve.iter().enumerate() {
+            let half = Half { curve: CurveId::from_index(k), side: Side::Left };
+            by_component[faces.cycles[faces.cycle_of[half.index()]].component].extend(layers);
+        }
+        Self { network, faces, by_curve, by_component }
+    }
+
+    fn name(&self, layer: LayerId) -> &str {
+        &self.network.drawing.layers[layer].name
+    }
+
+    /// The component in which a component lies.
+    fn around(&self, component: usize) -> Option<usize> {
+        self.faces.parent[component].map(|face| self.faces.cycles[face].component)
+    }
+
+    /// Layers of nothing but outlines in each other, the innermost of which holds outlines of other layers that hold others in turn; or that
+    /// holds any, where the layer is called a frame.
+    fn frames(&self) -> Vec<String> {
+        let mut of_layer: BTreeMap<LayerId, Vec<usize>> = BTreeMap::new();
+        for (component, layers) in self.by_component.iter().enumerate() {
+            layers.iter().for_each(|&layer| of_layer.entry(layer).or_default().push(component));
+        }
+        let is_outline = |&component: &usize| !self.by_component[component].is_empty();
+        let mut held: Vec<Vec<usize>> = vec![Vec::new(); self.by_component.len()];
+        for component in (0..held.len()).filter(is_outline) {
+            self.around(component).into_iter().for_each(|around| held[around].push(component));
+        }
+        let depth = |component: usize| {
+            let inner = &held[component];
+            if inner.iter().any(|&c| !held[c].is_empty()) { 2 } else { usize::from(!inner.is_empty()) }
+        };
+        let is_frame = |layer: LayerId, components: &[usize]| {
+            let alone = components.iter().all(|&c| self.by_component[c].len() == 1);
+            let innermost = self.innermost(components);
+            let name = self.name(layer).to_lowercase();
+            let called = FRAMES.iter().any(|frame| name.contains(frame));
+            alone && innermost.is_some_and(|component| depth(component) > usize::from(!called))
+        };
+        let frames = of_layer.iter().filter(|(layer, components)| is_frame(**layer, components));
+        let told = |name: &str| {
+            format!(
+                "Layer {name} has an outline around outlines that hold others, as a drawing frame does: what lies between them counts as inside. --skip-layers {} leaves it out.",
+                quoted(name)
+            )
+        };
+        frames.map(|(&layer, _)| told(self.name(layer))).collect()
+    }
+
+    /// Of components that lie in each other the innermost; `None` of others.
+    fn innermost(&self, components: &[usize]) -> Option<usize> {
+        let within = |component: usize| self.around(component).is_some_and(|around| components.contains(&around));
+        let outer = components.iter().filter(|&&c| !within(c)).count();
+        let around: BTreeSet<usize> = components.iter().filter_map(|&c| self.around(c)).collect();
+        let mut inner = components.iter().filter(|c| !around.contains(c));
+        match (outer, inner.next(), inner.next()) {
+            (1, Some(&innermost), None) => Some(innermost),
+            _ => None,
+        }
+    }
+
+    /// Pairs of layers whose closed outlines cross: around a point the curves of the two take turns.
+    fn crossings(&self, domain: &Domain) -> Vec<String> {
+        let mut places: BTreeMap<[LayerId; 2], Vec<Point>> = BTreeMap::new();
+        for (point, star) in domain.stars.enumerate() {
+            let around: Vec<&BTreeSet<LayerId>> =
+                star.iter().map(|incident| &self.by_curve[incident.curve.index()]).filter(|l| !l.is_empty()).collect();
+            if around.len() < 4 {
+                continue;
+            }
+            let layers: BTreeSet<LayerId> = around.iter().flat_map(|layers| layers.iter().copied()).collect();
+            for &a in &layers {
+                for &b in layers.range(a..).skip(1) {
+                    if take_turns(&around, a, b) {
+                        places.entry([a, b]).or_default().push(domain.points[point]);
+                    }
+                }
+            }
+        }
+        places.iter().map(|(&pair, places)| self.tell_crossing(pair, places)).collect()
+    }
+
+    /// The layer of fewer outlines is the one that crosses.
+    fn tell_crossing(&self, pair: [LayerId; 2], places: &[Point]) -> String {
+        let count = |layer: LayerId| self.by_curve.iter().filter(|layers| layers.contains(&layer)).count();
+        let entities = |layer: LayerId| self.network.drawing.layers[layer].line_types.values().sum::<usize>();
+        let [across, others] = if [entities(pair[0]), count(pair[0])] < [entities(pair[1]), count(pair[1])] {
+            pair
+        } else {
+            [pair[1], pair[0]]
+        };
+        let Point { x, y } = scaled(places[0], self.network.tolerances.unit);
+        let more = if places.len() > 1 { format!(" and {} places more", places.len() - 1) } else { String::new() };
+        let [across, others] = [across, others].map(|layer| self.name(layer));
+        format!(
+            "Closed outlines of layer {across} cross those of layer {others} at ({x}, {y}){more}: inside and outside change places there. --skip-layers {} leaves them out.",
+            quoted(across)
+        )
+    }
+}
+
+/// Whether, in order around a point, curves of one layer alone and of another alone take turns twice.
+fn take_turns(around: &[&BTreeSet<LayerId>], a: LayerId, b: LayerId) -> bool {
+    let only = |layers: &&BTreeSet<LayerId>| match (layers.contains(&a), layers.contains(&b)) {
+        (true, false) => Some(a),
+        (false, true) => Some(b),
+        (true, true) | (false, false) => None,
+    };
+    let turns: Vec<LayerId> = around.iter().filter_map(only).collect();
+    let changes = turns.iter().zip(turns.iter().cycle().skip(1)).filter(|(x, y)| x != y).count();
+    changes >= 4
+}
+
+/// A name as it is typed.
+fn quoted(name: &str) -> String {
+    let is_plain = |c: char| c.is_alphanumeric() || "_-.".contains(c);
+    if name.chars().all(is_plain) { name.to_owned() } else { format!("'{name}'") }
+}

@@ -1,0 +1,240 @@
+//! Outlines that miss closing: rings of chains whose free ends are nearest to each other, with gaps that are short beside the chains.
+//!
+//! ```text
+//!    ┌──────────┐          Each free end is linked with its nearest one where the gap is below a twentieth of both chains. A link between
+//!    │          │          parts that are connected already closes a ring: the way from one end to the other along pieces and earlier
+//!    └─────── ──┘          links. A ring that is hardly wider than its gaps is a pair of parallel lines.
+//!           gap
+//! ```
+
+use super::ArrangeError;
+use super::cut::{Network, extent};
+use super::loose::{FreeEnd, Gap, Owner, nearest_ends};
+use super::weld::Forest;
+use crate::geometry::Point;
+use crate::ids::{CurveId, Id, PointId};
+use std::collections::{BTreeSet, VecDeque};
+
+/// An outline misses closing where each gap is below this part of the shorter chain at it.
+const MISSED: f64 = 1.0 / 20.0;
+
+/// A ring is at least so many times as wide as its widest gap.
+const WIDE: f64 = 2.0;
+
+/// Places that are looked at, for all rings together: some seconds.
+const STEPS_MAX: usize = 1 << 24;
+
+/// Gaps that a message lists.
+const LISTED: usize = 4;
+
+/// Along what a ring goes from one place to the next.
+#[derive(Clone, Copy)]
+enum Via {
+    Piece(CurveId),
+    OffPlane(usize),
+    Gap(Gap),
+}
+
+/// Chains that close up where each gap is bridged.
+struct Ring {
+    gaps: Vec<Gap>,
+    off_plane: BTreeSet<usize>,
+}
+
+/// Nodes, then both ends of each entity that leaves the plane; what leads from each to others.
+struct Ways<'n, 'a> {
+    network: &'n Network<'a>,
+    ends: &'n [FreeEnd],
+    from: Vec<Vec<(usize, Via)>>,
+    steps_left: usize,
+    /// By place: the search that reached it last, and from where.
+    reached: Vec<(usize, usize, Via)>,
+    searches: usize,
+}
+
+impl<'n, 'a> Ways<'n, 'a> {
+    fn new(network: &'n Network<'a>, ends: &'n [FreeEnd]) -> Self {
+        let count = network.nodes.len() + 2 * network.drawing.off_plane.len();
+        let nothing = (0, 0, Via::OffPlane(0));
+        let mut ways = Self {
+            network,
+            ends,
+            from: vec![Vec::new(); count],
+            steps_left: STEPS_MAX,
+            reached: vec![nothing; count],
+            searches: 0,
+        };
+        for (id, piece) in network.pieces.enumerate() {
+            ways.add(piece.ends.map(Id::index), Via::Piece(id));
+        }
+        for k in 0..network.drawing.off_plane.len() {
+            let ends = [0, 1].map(|end| ways.place_of(Owner::OffPlane(k, end)));
+            ways.add(ends, Via::OffPlane(k));
+        }
+        ways
+    }
+
+    fn place_of(&self, owner: Owner) -> usize {
+        match owner {
+            Owner::Node(node) => node.index(),
+            Owner::OffPlane(k, end) => self.network.nodes.len() + 2 * k + end,
+        }
+    }
+
+    fn at(&self, place: usize) -> Point {
+        match place.checked_sub(self.network.nodes.len()) {
+            None => self.network.nodes[PointId::from_index(place)].at,
+            Some(beyond) => self.network.drawing.off_plane[beyond / 2].ends[beyond % 2],
+        }
+    }
+
+    fn add(&mut self, [a, b]: [usize; 2], via: Via) {
+        self.from[a].push((b, via));
+        self.from[b].push((a, via));
+    }
+
+    fn places(&self, gap: &Gap) -> [usize; 2] {
+        gap.ends.map(|end| self.place_of(self.ends[end].owner))
+    }
+
+    /// The ring that a gap closes: by the way of the fewest steps. `None` where it is too narrow, or not found within the budget.
+    fn ring(&mut self, gap: Gap) -> Option<Ring> {
+        let [start, goal] = self.places(&gap);
+        let mut via = self.way(start, goal)?;
+        via.push((goal, start, Via::Gap(gap)));
+        let width = self.width(&via);
+        let mut ring = Ring { gaps: Vec::new(), off_plane: BTreeSet::new() };
+        for (_, _, via) in via {
+            match via {
+                Via::Piece(_) => {}
+                Via::OffPlane(k) => _ = ring.off_plane.insert(k),
+                Via::Gap(gap) => ring.gaps.push(gap),
+            }
+        }
+        let widest = ring.gaps.iter().map(|gap| gap.width).fold(0.0, f64::max);
+        (width > WIDE * widest).then_some(ring)
+    }
+
+    /// The steps from one place to another, each with where it begins and ends.
+    fn way(&mut self, start: usize, goal: usize) -> Option<Vec<(usize, usize, Via)>> {
+        self.searches += 1;
+        let mut queue = VecDeque::from([start]);
+        self.reached[start].0 = self.searches;
+        while let Some(here) = queue.pop_front() {
+            if here == goal {
+                break;
+            }
+            for &(next, via) in &self.from[here] {
+                self.steps_left = self.steps_left.checked_sub(1)?;
+                if self.reached[next].0 != self.searches {
+                    self.reached[next] = (self.searches, here, via);
+                    queue.push_back(next);
+                }
+            }
+        }
+        let mut steps = Vec::new();
+        let mut here = goal;
+        while here != start {
+            let (search, before, via) = self.reached[here];
+            if search != self.searches {
+                return None;
+            }
+            steps.push((before, here, via));
+            here = before;
+        }
+        steps.reverse();
+        Some(steps)
+    }
+
+    /// Twice the area within a closed way over its length: the width of a long strip.
+    fn width(&self, way: &[(usize, usize, Via)]) -> f64 {
+        let origin = self.at(way[0].0);
+        let (mut area, mut length) = (0.0, 0.0);
+        for &(from, to, via) in way {
+            let (a, b) = (self.at(from), self.at(to));
+            match via {
+                Via::Piece(id) => {
+                    let piece = &self.network.pieces[id];
+                    let green = piece.curve.green(origin);
+                    area += if piece.ends[0].index() == from { green } else { -green };
+                    length += extent(piece.bounds);
+                }
+                Via::OffPlane(_) | Via::Gap(_) => {
+                    area += 0.5 * (a - origin).cross(b - origin);
+                    length += a.distance(b);
+                }
+            }
+        }
+        2.0 * area.abs() / length
+    }
+}
+
+impl Network<'_> {
+    /// Says what outlines miss closing, if any do.
+    pub fn missed_rings(&self, ends: &[FreeEnd]) -> Option<ArrangeError> {
+        let all: Vec<usize> = (0..ends.len()).collect();
+        let mut links = nearest_ends(ends, &all, |i| MISSED * ends[i].chain);
+        links.retain(|gap| gap.width < MISSED * ends[gap.ends[1]].chain);
+        links.iter_mut().for_each(|gap| gap.ends.sort_unstable());
+        links.sort_by(|a, b| a.width.total_cmp(&b.width).then(a.ends.cmp(&b.ends)));
+        links.dedup_by_key(|gap| gap.ends);
+        if links.is_empty() {
+            return None;
+        }
+        let mut ways = Ways::new(self, ends);
+        let mut parts = Forest::new(ways.from.len());
+        let part = PointId::from_index;
+        for (here, ways) in ways.from.iter().enumerate() {
+            ways.iter().for_each(|&(there, _)| parts.join(part(here), part(there)));
+        }
+        let mut rings = Vec::new();
+        for gap in links {
+            let [a, b] = ways.places(&gap);
+            if parts.root(part(a)) == parts.root(part(b)) {
+                rings.extend(ways.ring(gap));
+            }
+            parts.join(part(a), part(b));
+            ways.add([a, b], Via::Gap(gap));
+        }
+        self.missed(&rings, ends)
+    }
+
+    fn missed(&self, rings: &[Ring], ends: &[FreeEnd]) -> Option<ArrangeError> {
+        if let Some(&k) = rings.iter().find_map(|ring| ring.off_plane.first()) {
+            let entity = &self.drawing.off_plane[k];
+            let what = format!("{} leaves the plane and is left out, so that an outline does not close", entity.entity);
+            return Some(ArrangeError::new(what, entity.ends[0], "--flatten-z projects it onto the plane"));
+        }
+        let mut gaps: Vec<Gap> = rings.iter().flat_map(|ring| ring.gaps.iter().copied()).collect();
+        gaps.sort_by_key(|gap| gap.ends);
+        gaps.dedup_by_key(|gap| gap.ends);
+        let widest = gaps.iter().map(|gap| gap.width).reduce(f64::max)?;
+        let told = |gap: &Gap| {
+            let [a, b] = gap.ends.map(|end| &ends[end]);
+            format!("{} and {} are {} apart", self.place(a), self.place(b), self.tolerances.told(gap.width))
+        };
+        let listed: Vec<String> = gaps.iter().take(LISTED).map(told).collect();
+        let more = if gaps.len() > LISTED { format!(", and {} gaps more", gaps.len() - LISTED) } else { String::new() };
+        let outlines = if rings.len() == 1 { "an outline misses" } else { "outlines miss" };
+        let what = format!("{outlines} closing: {}{more}", listed.join("; "));
+        let help = format!(
+            "--close {} joins these ends and welds nothing else; --loose keep takes them for open lines, --loose drop leaves them out",
+            rounded_up(widest * self.tolerances.unit)
+        );
+        Some(ArrangeError::new(what, ends[gaps[0].ends[0]].at, help))
+    }
+}
+
+/// A little more than a positive length, in two digits.
+fn rounded_up(length: f64) -> String {
+    let unit = libm::pow(10.0, libm::floor(libm::log10(length)) - 1.0);
+    let digits = libm::ceil(length * (1.0 + 1e-9) / unit);
+    let rounded = format!("{:.1e}", digits * unit);
+    match rounded.parse::<f64>() {
+        Ok(plain) if plain >= PLAIN => plain.to_string(),
+        _ => rounded,
+    }
+}
+
+/// Shorter lengths are written with an exponent.
+const PLAIN: f64 = 1e-4;
