@@ -7,7 +7,7 @@ use crate::domain::{
 };
 use crate::geometry::{Point, metres};
 use crate::ids::{Id, PointId, VertexId};
-use crate::import::{self, AirfoilOptions, Format, ImportError, Selection, SvgOptions};
+use crate::import::{self, AirfoilOptions, DxfOptions, Format, ImportError, Selection, SvgOptions};
 use crate::mesh::elevate::elevate;
 use crate::mesh::quality::Quality;
 use crate::mesh::verify::{self, Check, Promise, Status, Verdict, verify};
@@ -20,7 +20,9 @@ use crate::plane::lopping::demand::Demand;
 use crate::plane::lopping::{self, Lopping, RefineError, Refined, Shrinking};
 use crate::refine::{Stop, StopReason};
 use crate::report::{FailureKind, FailureReport, MeshReport, PromiseReport, Report, StopReport};
-use crate::request::{BallShrinking, Engine, Midpoint, Order, Request, SizeOf, SnapTo, Steiner, Strokes, TrailingEdge};
+use crate::request::{
+    BallShrinking, Engine, LineTypes, Midpoint, Order, Request, SizeOf, SnapTo, Steiner, Strokes, TrailingEdge,
+};
 use crate::size::{ByPlace, Given, SAMPLE_GRADE, Sizing, Source as SizeSource};
 use crate::watch::{Progress, Stopped, Watch};
 use healing::Healing;
@@ -302,6 +304,13 @@ pub fn read(source: &Source, request: &Request) -> Result<Drawing, FailureReport
             dpi: request.dpi,
         },
         face: request.face.clone(),
+        dxf: DxfOptions {
+            line_types: match request.line_types {
+                LineTypes::Edges => import::LineTypes::Edges,
+                LineTypes::All => import::LineTypes::All,
+            },
+            flatten_z: request.flatten_z.is_on(),
+        },
         selection: Selection { only: request.layers.clone(), skip: request.skip_layers.clone() },
     };
     let mut drawing = import::read(source.bytes, format, stem, &options)?;

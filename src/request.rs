@@ -70,6 +70,10 @@ pub struct Request {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub name: Vec<NameBy>,
     pub names: NamesOf,
+    /// DXF: which line types are read.
+    pub line_types: LineTypes,
+    /// DXF: what leaves the XY plane is projected onto it.
+    pub flatten_z: Switch,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub unit: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -135,6 +139,8 @@ impl Default for Request {
             skip_layers: Vec::new(),
             name: Vec::new(),
             names: NamesOf::Layer,
+            line_types: LineTypes::Edges,
+            flatten_z: Switch::Off,
             unit: None,
             scale: None,
             dpi: 96.0, // CSS
@@ -463,6 +469,15 @@ pub enum Strokes {
     Lines,
     /// Left out.
     Ignore,
+}
+
+/// Which line types of a DXF drawing are read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum LineTypes {
+    /// Not those for centre, hidden and phantom lines; where nothing else is drawn, all.
+    Edges,
+    All,
 }
 
 /// What becomes of overlapping shapes of a picture.

@@ -4,7 +4,7 @@ use proptest::prelude::*;
 use squinch::curve::Curve;
 use squinch::domain::{ArrangeOptions, Drawing, FillRule, SeedKind};
 use squinch::geometry::Point;
-use squinch::import::{Format, ImportError, Options, read};
+use squinch::import::{Format, ImportError, Options, Selection, read};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 // ---- files in short: `0 LINE; 8 rim; 10 0` is three pairs ----
@@ -791,4 +791,75 @@ proptest! {
             prop_assert!(drawing.bounds().is_none_or(|b| b.is_finite()));
         }
     }
+}
+
+// ---- layers, handles, last decimals ----
+
+fn chosen(short: &str, only: &[&str], skip: &[&str]) -> Drawing {
+    let globs = |texts: &[&str]| texts.iter().map(|text| text.parse().unwrap()).collect();
+    let selection = Selection { only: globs(only), skip: globs(skip) };
+    read(text(short).as_bytes(), Format::Dxf, "stem", &Options { selection, ..Options::default() }).unwrap()
+}
+
+#[test]
+fn layers_are_listed_with_the_line_types_drawn_on_them() {
+    let tables = section(
+        "TABLES",
+        "0 TABLE; 2 LAYER; 0 LAYER; 2 Part; 70 0; 62 7; 6 Continuous; 0 LAYER; 2 Cut; 70 0; 62 7; 6 DASHED; 0 ENDTAB",
+    );
+    let block = "0 BLOCK; 2 B; 10 0; 20 0; 0 LINE; 8 0; 10 0; 20 0; 11 1; 21 1; 0 LINE; 8 0; 6 BYBLOCK; 10 1; 20 1; 11 2; 21 1; 0 ENDBLK";
+    let entities = "0 LINE; 5 2F; 8 part; 10 0; 20 0; 11 1; 21 0; 0 INSERT; 8 CUT; 6 Dot; 2 B; 10 0; 20 0; \
+                    0 LINE; 8 new; 10 0; 20 0; 11 0; 21 1";
+    let drawing = whole(&(tables + &section("BLOCKS", block) + &plain(entities)));
+    let layers: Vec<(&str, Vec<(&str, usize)>)> = (drawing.layers.iter())
+        .map(|l| (l.name.as_str(), l.line_types.iter().map(|(name, &n)| (name.as_str(), n)).collect()))
+        .collect();
+    assert_eq!(
+        layers,
+        [
+            ("0", vec![]),
+            ("Part", vec![("CONTINUOUS", 1)]),
+            ("Cut", vec![("DASHED", 1), ("DOT", 1)]),
+            ("new", vec![("CONTINUOUS", 1)])
+        ]
+    );
+    let of_curves: Vec<&str> = drawing.curves.iter().map(|c| drawing.layers[c.layer.unwrap()].name.as_str()).collect();
+    assert_eq!(of_curves, ["Part", "Cut", "Cut", "new"]);
+    assert_eq!(drawing.curves[0].handle, Some(0x2f));
+    assert_eq!(drawing.curves[1].handle, None);
+}
+
+#[test]
+fn layers_can_be_chosen_and_left_out() {
+    let block = "0 BLOCK; 2 B; 10 0; 20 0; 0 LINE; 8 0; 10 0; 20 0; 11 1; 21 1; 0 ENDBLK";
+    let entities = "0 LINE; 8 Part; 10 0; 20 0; 11 1; 21 0; 0 LINE; 8 FRAME 1; 10 0; 20 0; 11 0; 21 1; \
+                    0 INSERT; 8 frame 2; 2 B; 10 0; 20 0";
+    let file = section("BLOCKS", block) + &plain(entities);
+    for (only, skip) in [(vec!["PART"], vec![]), (vec![], vec!["Frame*"]), (vec!["*"], vec!["frame ?"])] {
+        let drawing = chosen(&file, &only, &skip);
+        assert_eq!(drawing.curves.len(), 1, "{only:?} {skip:?}");
+        assert_eq!(drawing.unmatched, []);
+        let left_out: Vec<_> = drawing.skipped.iter().map(|s| (s.entity.as_str(), s.count, s.why.as_str())).collect();
+        assert_eq!(left_out, [("LINE", 2, "on a layer that was not asked for")]);
+    }
+    let drawing = chosen(&file, &[], &["FRMAE 1"]);
+    assert_eq!(drawing.unmatched[0].near[0], "FRAME 1");
+}
+
+#[test]
+fn the_last_decimal_is_that_of_the_text() {
+    let last_decimal = |entity: &str| drawn(entity).curves[0].last_decimal;
+    let near = |a: f64, b: f64| assert!((a - b).abs() <= 1e-12 * b, "{a} {b}");
+    near(last_decimal("0 LINE; 10 0.000; 20 0.000; 11 80.000; 21 0.000"), 1e-3);
+    near(last_decimal("0 LINE; 10 0; 20 1.25E-2; 11 80; 21 0.5"), 1e-4);
+    assert_eq!(last_decimal("0 LINE; 10 0.0; 20 0; 11 80.0; 21 -3."), 0.0);
+    near(last_decimal("0 LWPOLYLINE; 70 1; 10 0; 20 0; 42 0.41421356; 10 80.25; 20 0; 10 0; 20 9"), 1e-2);
+    near(last_decimal("0 POLYLINE; 70 1; 0 VERTEX; 10 0; 20 0; 0 VERTEX; 10 8.125; 20 0; 0 SEQEND"), 1e-3);
+    near(last_decimal("0 CIRCLE; 10 0; 20 0; 40 2.50"), 1e-2);
+    near(last_decimal("0 ARC; 10 0; 20 0; 40 20.0000; 50 30.25; 51 90.0"), 20.0 * 0.01 * PI / 180.0);
+    near(last_decimal("0 ELLIPSE; 10 0; 20 0; 11 50.0000; 21 0; 40 0.5; 41 0; 42 3.142"), 50.0 * 0.1);
+    near(last_decimal("0 SPLINE; 71 3; 11 0.125; 21 0; 11 1; 21 1; 11 2; 21 0"), 1e-3);
+    let block = "0 BLOCK; 2 B; 10 0; 20 0; 0 LINE; 8 0; 10 0; 20 0; 11 1.5; 21 1; 0 ENDBLK";
+    let drawing = whole(&(section("BLOCKS", block) + &plain("0 INSERT; 2 B; 10 0; 20 0; 41 2; 42 -4; 50 30")));
+    near(drawing.curves[0].last_decimal, 0.4);
 }

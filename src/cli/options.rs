@@ -8,8 +8,8 @@ use squinch::domain::NameBy;
 use squinch::import::{Format, Glob};
 use squinch::pipeline::Exit;
 use squinch::request::{
-    BallShrinking, ChordError, EdgeTurning, Engine, FillChoice, Keep, LooseEnds, MaxTurning, Midpoint, NamesOf, Order,
-    Overlap, Request, SizeOf, SnapTo, Steiner, Strokes, Switch, TrailingEdge,
+    BallShrinking, ChordError, EdgeTurning, Engine, FillChoice, Keep, LineTypes, LooseEnds, MaxTurning, Midpoint,
+    NamesOf, Order, Overlap, Request, SizeOf, SnapTo, Steiner, Strokes, Switch, TrailingEdge,
 };
 use squinch::size::Given;
 use std::path::{Path, PathBuf};
@@ -94,6 +94,12 @@ pub struct Options {
     /// What has a name of its own: each layer, each closed outline (HOLES-1, HOLES-2) or each entity [default: layer]
     #[arg(long, value_enum, value_name = "WHAT", help_heading = "Input")]
     names: Option<NamesOf>,
+    /// DXF: edges leaves out what is drawn in line types for centre, hidden and phantom lines, unless nothing else is drawn [default: edges]
+    #[arg(long, value_enum, value_name = "WHICH", help_heading = "Input")]
+    line_types: Option<LineTypes>,
+    /// DXF: what leaves the XY plane is projected onto it; else it is left out
+    #[arg(long, value_enum, value_name = "on|off", num_args = 0..=1, require_equals = true, default_missing_value = "on", help_heading = "Input")]
+    flatten_z: Option<Switch>,
     /// Unit of the mesh; the drawing's coordinates are converted where their unit is known
     #[arg(long, value_name = "UNIT", help_heading = "Input")]
     unit: Option<String>,

@@ -206,6 +206,11 @@ impl Curve {
     pub fn natural_spline(points: &[Point]) -> Result<Self, CurveError> {
         Spline::natural(points).map(|s| Curve::Spline(Box::new(s)))
     }
+    /// The cubic spline through ≥ 2 points, parameters by chord length, with the given directions at start and end; natural at an end
+    /// that has none. Points of no distance from the one before are skipped.
+    pub fn fitted_spline(points: &[Point], tangents: [Option<Vec2>; 2]) -> Result<Self, CurveError> {
+        Spline::fitted(points, tangents).map(|s| Curve::Spline(Box::new(s)))
+    }
     /// The closed C² cubic spline through ≥ 3 points (the first is not repeated; exact repeats are skipped).
     pub fn periodic_spline(points: &[Point]) -> Result<Self, CurveError> {
         Spline::periodic(points).map(|s| Curve::Spline(Box::new(s)))

@@ -69,11 +69,38 @@ impl Spline {
     /// The natural cubic spline: C², its second derivative zero at both ends.
     pub(super) fn natural(points: &[Point]) -> Result<Self, CurveError> {
         let points = without_repeats(points)?;
-        let n = points.len();
-        if n < 2 {
-            return Err(CurveError::Count { what: "a natural spline", needs: "two distinct points".into(), has: n });
+        if points.len() < 2 {
+            let needs = "two distinct points".into();
+            return Err(CurveError::Count { what: "a natural spline", needs, has: points.len() });
         }
         let steps = centripetal_steps(&points);
+        Ok(Self::open(&points, &steps, [None, None]))
+    }
+
+    /// The cubic spline by chord length whose ends have the given directions, as unit tangents; natural where there are none.
+    pub(super) fn fitted(points: &[Point], tangents: [Option<Vec2>; 2]) -> Result<Self, CurveError> {
+        /// Points nearer to each other than this share of the longest step are one: their step squared has no digits left.
+        const ONE: f64 = 1e-12;
+        check_points(points)?;
+        check_finite(tangents.iter().flatten().flat_map(|t| [t.x, t.y]))?;
+        let longest = points.windows(2).map(|p| length(p[1] - p[0])).fold(0.0, f64::max);
+        let mut points = points.to_vec();
+        points.dedup_by(|b, a| length(*b - *a) <= ONE * longest);
+        if points.len() < 2 {
+            let needs = "two distinct points".into();
+            return Err(CurveError::Count { what: "a spline through points", needs, has: points.len() });
+        }
+        let scale = unit_scale(longest);
+        let steps: Vec<f64> = points.windows(2).map(|p| length(p[1] - p[0]) * scale).collect();
+        let unit = |t: Vec2| t * (unit_scale(t.x.abs().max(t.y.abs())));
+        let slope = |t: Option<Vec2>| t.map(unit).filter(|t| length(*t) > 0.0).map(|t| t / (length(t) * scale));
+        Ok(Self::open(&points, &steps, tangents.map(slope)))
+    }
+
+    /// The C² cubic through points at given steps of the parameter, with the given derivatives at its ends; its second derivative zero
+    /// at an end that has none.
+    fn open(points: &[Point], steps: &[f64], ends: [Option<Vec2>; 2]) -> Self {
+        let n = points.len();
         let (mut diagonal, mut right) = (vec![0.0; n], vec![Vec2::ZERO; n]);
         for i in 0..n - 1 {
             // The span adds (2 mᵢ + mᵢ₊₁)/h = 3 Δ/h² to the row of its start, and its mirror to the row of its end.
@@ -83,9 +110,16 @@ impl Spline {
                 right[row] += slope;
             }
         }
-        let beside: Vec<f64> = steps.iter().map(|h| 1.0 / h).collect();
+        let mut beside: Vec<f64> = steps.iter().map(|h| 1.0 / h).collect();
+        // A slope that is known leaves the system: its row says so, and its term in its neighbour's row moves to the right.
+        for (slope, row, neighbour, step) in [(ends[0], 0, 1, 0), (ends[1], n - 1, n - 2, n - 2)] {
+            if let Some(slope) = slope {
+                right[neighbour] -= slope * beside[step];
+                (diagonal[row], right[row], beside[step]) = (1.0, slope, 0.0);
+            }
+        }
         let slopes = solve_tridiagonal(&diagonal, &beside, right);
-        Ok(hermite(&points, &steps, &slopes))
+        hermite(points, steps, &slopes)
     }
 
     /// The closed cubic spline, C² everywhere.

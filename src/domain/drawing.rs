@@ -156,6 +156,8 @@ pub enum FillRule {
     Regions,
     /// A face is inside where a shape fills it, by the shape's own rule; the topmost one names it.
     Shapes,
+    /// Odd winding number of the curves that are of no shape, or where a shape fills the face; the topmost one names it.
+    EvenOddAndShapes,
 }
 
 /// A planar face of a solid.

@@ -6,13 +6,13 @@ pub mod dxf;
 pub mod mesh;
 pub mod outline;
 pub mod poly;
-#[allow(dead_code, reason = "readers take it up one after the other")]
 mod selection;
 #[cfg(feature = "cad")]
 pub mod step;
 pub mod svg;
 
 pub use airfoil::{AirfoilOptions, TrailingEdge};
+pub use dxf::{DxfOptions, LineTypes};
 pub use selection::{Glob, Selection};
 pub use svg::{Strokes, SvgOptions};
 
@@ -141,6 +141,7 @@ pub struct Options {
     pub svg: SvgOptions,
     /// The face of a solid: its number or name, or `largest`; `None`: the largest.
     pub face: Option<String>,
+    pub dxf: DxfOptions,
     /// Of formats that have layers.
     pub selection: Selection,
 }
@@ -155,7 +156,7 @@ pub fn read(bytes: &[u8], format: Format, stem: &str, options: &Options) -> Resu
         Format::Poly => poly::read_poly(bytes, stem, options.nodes.as_deref()),
         Format::Node => poly::read_node(bytes, stem),
         Format::Outline => outline::read(bytes, stem),
-        Format::Dxf => dxf::read(bytes, stem),
+        Format::Dxf => dxf::read(bytes, stem, &options.dxf, &options.selection),
         Format::Svg => svg::read(bytes, stem, &options.svg),
         #[cfg(feature = "cad")]
         Format::Step => step::read(bytes, stem, options.face.as_deref()),

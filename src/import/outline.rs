@@ -77,6 +77,8 @@ enum Fill {
     EvenOdd,
     Regions,
     Shapes,
+    #[serde(rename = "evenodd+shapes")]
+    EvenOddAndShapes,
 }
 
 /// A filled shape; curves name it by its place in the list.
@@ -398,6 +400,7 @@ impl File {
                 Some(Fill::NonZero) => FillRule::NonZero,
                 Some(Fill::Regions) => FillRule::Regions,
                 Some(Fill::Shapes) => FillRule::Shapes,
+                Some(Fill::EvenOddAndShapes) => FillRule::EvenOddAndShapes,
                 Some(Fill::EvenOdd) | None => FillRule::EvenOdd,
             },
             sketch: self.sketch,
@@ -727,6 +730,7 @@ fn fill_word(fill: FillRule) -> &'static str {
         FillRule::EvenOdd => "evenodd",
         FillRule::Regions => "regions",
         FillRule::Shapes => "shapes",
+        FillRule::EvenOddAndShapes => "evenodd+shapes",
     }
 }
 

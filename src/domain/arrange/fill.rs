@@ -26,6 +26,10 @@ impl Fill {
                 let winding = windings(network, domain, faces, rule);
                 winding.into_iter().map(|w| is_inside(rule, w)).collect()
             }
+            FillRule::EvenOddAndShapes => {
+                let winding = windings(network, domain, faces, rule);
+                winding.into_iter().zip(&painted).map(|(w, paint)| is_inside(rule, w) || paint.is_some()).collect()
+            }
         };
         let inside = inside.into_iter().enumerate().map(|(cycle, inside)| inside && is_bounded(cycle)).collect();
         Self { inside, painted }
@@ -57,8 +61,16 @@ enum Count {
 fn is_inside(rule: FillRule, winding: i32) -> bool {
     match rule {
         FillRule::NonZero => winding != 0,
-        FillRule::EvenOdd => winding % 2 != 0,
+        FillRule::EvenOdd | FillRule::EvenOddAndShapes => winding % 2 != 0,
         FillRule::Regions | FillRule::Shapes => true,
+    }
+}
+
+/// Whether only odd and even are told apart, of how often outlines go around.
+pub(super) fn by_parity(rule: FillRule) -> bool {
+    match rule {
+        FillRule::EvenOdd | FillRule::EvenOddAndShapes => true,
+        FillRule::NonZero | FillRule::Regions | FillRule::Shapes => false,
     }
 }
 
@@ -113,7 +125,7 @@ impl Windings<'_> {
     /// curves at some point, contours that share a wall were drawn each for itself (two rooms): then every copy counts, but where all is
     /// drawn an even number of times half of them does.
     fn counts(&self, curves: &[CurveId]) -> Vec<Count> {
-        if self.rule != FillRule::EvenOdd {
+        if !by_parity(self.rule) {
             return vec![Count::Copies { divided_by: 1 }];
         }
         let common = curves.iter().map(|id| self.weight[id.index()].unsigned_abs()).fold(0, |a, b| a | b);
@@ -139,7 +151,7 @@ impl Windings<'_> {
         flow.sort_unstable();
         flow.chunk_by(|a, b| a.0 == b.0).all(|chunk| {
             let net: i32 = chunk.iter().map(|f| f.1).sum();
-            if self.rule == FillRule::EvenOdd { net % 2 == 0 } else { net == 0 }
+            if by_parity(self.rule) { net % 2 == 0 } else { net == 0 }
         })
     }
 
@@ -163,9 +175,11 @@ impl Windings<'_> {
 }
 
 /// Which drawn curves are parts of closed outlines, by their own ends: a curve at a free end is none, nor what is left free without it.
+/// Outlines of shapes are closed, and close no others.
 pub(super) fn closed_outlines(network: &Network) -> Vec<bool> {
     let mut at: IdVec<PointId, Vec<usize>> = vec![Vec::new(); network.nodes.len()].into();
-    for (i, ends) in network.drawn_ends.iter().enumerate() {
+    let lines = network.drawn_ends.iter().enumerate().filter(|&(i, _)| network.drawing.curves[i].shape.is_none());
+    for (i, ends) in lines {
         ends.iter().flatten().for_each(|&end| at[end].push(i));
     }
     let mut closed: Vec<bool> = network.drawn_ends.iter().map(Option::is_some).collect();
@@ -191,7 +205,10 @@ fn windings(network: &Network, domain: &mut Domain, faces: &Faces, rule: FillRul
         left == right
     };
     let drawn = |id: CurveId| drawn_along(network, id);
-    let count = |(source, against): (u32, bool)| match closed[source as usize] {
+    // Outlines of shapes bound what they fill, and turn nothing inside out.
+    let of_shapes =
+        |source: u32| rule == FillRule::EvenOddAndShapes && network.drawing.curves[source as usize].shape.is_some();
+    let count = |(source, against): (u32, bool)| match closed[source as usize] && !of_shapes(source) {
         false => 0,
         true if against && rule == FillRule::NonZero => -1,
         true => 1,
@@ -205,8 +222,10 @@ fn windings(network: &Network, domain: &mut Domain, faces: &Faces, rule: FillRul
     windings.settle(&counted);
     let Windings { winding, once, .. } = windings;
     let once = domain.curves.ids().filter(|id| once[id.index()]);
-    let copies: BTreeSet<u32> =
-        once.flat_map(|id| network.pieces[id].merged.iter().map(|&(source, _)| source)).collect();
+    let copies: BTreeSet<u32> = once
+        .flat_map(|id| network.pieces[id].merged.iter().map(|&(source, _)| source))
+        .filter(|&s| !of_shapes(s))
+        .collect();
     domain.notes.extend(tell_copies(copies.len()));
     winding.into_iter().map(|w| w.unwrap_or(0)).collect()
 }

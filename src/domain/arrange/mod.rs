@@ -360,7 +360,7 @@ fn arrange_in_unit_frame(
     }
     domain.repairs.append(&mut network.repairs);
     domain.notes.append(&mut notes);
-    if matches!(rule, FillRule::EvenOdd | FillRule::NonZero) {
+    if fill::by_parity(rule) || rule == FillRule::NonZero {
         domain.notes.append(&mut auxiliary::remarks(&network, &domain, &faces));
     }
     trace::keep(&network, &mut domain, &faces, rule, options, watch)?;

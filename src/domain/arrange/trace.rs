@@ -554,7 +554,7 @@ fn all_outside(rule: FillRule, at: Point) -> ArrangeError {
     let error = |what: &str, help: &str| ArrangeError::new(format!("nothing to mesh: {what}"), at, help);
     match rule {
         FillRule::Regions => error("a hole point lies in every closed region", "remove hole points"),
-        FillRule::NonZero | FillRule::EvenOdd | FillRule::Shapes => error(
+        FillRule::NonZero | FillRule::EvenOdd | FillRule::Shapes | FillRule::EvenOddAndShapes => error(
             "every closed region is a hole or outside by the fill rule",
             "choose another fill rule (`regions` keeps every bounded face), or remove hole points",
         ),

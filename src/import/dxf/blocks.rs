@@ -1,14 +1,17 @@
 //! Entities put where they belong: on layers that are seen or not, and in blocks, as often as these are inserted.
 
-use super::entities::{Figure, Insert, Notices, Refusal, figure};
+use super::DxfOptions;
+use super::entities::{DEGENERATE, Figure, Insert, Level, Notices, Refusal, TILTED, figure};
+use super::fills::Fill;
 use super::header::Header;
+use super::layers::{AUXILIARY, CONTINUOUS, Hidden, LAYER_0, Layers, LineType, key};
 use super::pairs::shown;
 use super::sections::{Record, Sections};
 use crate::curve::Curve;
-use crate::domain::{Drawing, DrawnCurve, DrawnPoint, Skipped};
+use crate::domain::{Drawing, DrawnCurve, DrawnPoint, OffPlane, Skipped};
 use crate::geometry::{Point, Vec2};
-use crate::ids::NameId;
-use crate::import::ImportError;
+use crate::ids::LayerId;
+use crate::import::{ImportError, Selection};
 use kurbo::Affine;
 use std::collections::BTreeMap;
 use std::rc::Rc;
@@ -22,49 +25,16 @@ const LONGEST_PATH: usize = 200;
 /// The scales of an insertion that leave numbers to work with.
 const SCALES: std::ops::Range<f64> = 1e-150..1e150;
 
-/// The hatched area of one entity.
-pub(super) struct Fill {
-    pub name: NameId,
-    pub outlines: Vec<Curve>,
-    pub entity: String,
-}
-
 /// An entity, read once and drawn as often as its block. Layers and blocks are places in their tables: names may be long.
 struct Entity<'a> {
     kind: String,
     label: String,
-    layer: usize,
+    handle: Option<u64>,
+    layer: LayerId,
+    line_type: LineType,
     /// The block that an INSERT draws, where the file defines it.
     block: Option<usize>,
     figure: Result<Figure<'a>, &'static str>,
-}
-
-struct Layer {
-    /// As the file spells it first.
-    text: String,
-    /// Once something is drawn on it.
-    name: Option<NameId>,
-    hidden: Option<Hidden>,
-}
-
-/// The place of layer 0, whose entities in a block take the layer of the block.
-const LAYER_0: usize = 0;
-
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Hidden {
-    Frozen,
-    Off,
-    Defpoints,
-}
-
-impl Hidden {
-    fn why(self) -> &'static str {
-        match self {
-            Self::Frozen => "on a frozen layer",
-            Self::Off => "on a layer that is off",
-            Self::Defpoints => "on the layer Defpoints, of construction points",
-        }
-    }
 }
 
 /// Where and how the entities of a block are drawn.
@@ -72,8 +42,12 @@ struct Setting {
     map: Option<Affine>,
     z: f64,
     z_scale: f64,
+    /// What a length in the block counts, at most.
+    scale: f64,
     /// The layer that entities on layer 0 take.
-    layer: Option<usize>,
+    layer: Option<LayerId>,
+    /// What entities of the block's line type take.
+    line_type: Rc<str>,
     /// `INSERT "BOLT" (line 12) > `
     path: String,
     /// Blocks that it stands in, to tell a block that holds itself.
@@ -84,9 +58,9 @@ struct Setting {
 pub(super) struct Sketch<'f, 'a> {
     file: &'f Sections<'a>,
     header: &'f Header,
+    options: &'f DxfOptions,
     drawing: &'f mut Drawing,
-    layers: Vec<Layer>,
-    layer_of: BTreeMap<String, usize>,
+    layers: Layers<'f>,
     block_of: BTreeMap<String, usize>,
     /// Entities of the blocks that were drawn already.
     read: BTreeMap<usize, Rc<Vec<Entity<'a>>>>,
@@ -95,37 +69,50 @@ pub(super) struct Sketch<'f, 'a> {
     notices: Notices,
     /// Lowest and highest height of what is drawn.
     heights: Option<[f64; 2]>,
+    /// How many entities were projected onto the plane.
+    flattened: usize,
     left: usize,
 }
 
 impl<'f, 'a> Sketch<'f, 'a> {
-    pub fn new(file: &'f Sections<'a>, header: &'f Header, drawing: &'f mut Drawing) -> Self {
+    pub fn new(
+        file: &'f Sections<'a>,
+        header: &'f Header,
+        options: &'f DxfOptions,
+        selection: &'f Selection,
+        drawing: &'f mut Drawing,
+    ) -> Self {
         // The first block of a name counts.
         let blocks = file.blocks.iter().enumerate().rev();
-        let mut sketch = Self {
+        Self {
             file,
             header,
+            options,
             drawing,
-            layers: Vec::new(),
-            layer_of: BTreeMap::new(),
+            layers: Layers::new(&file.layers, header, selection, options.line_types),
             block_of: blocks.map(|(i, (name, _))| (key(&header.name(name)), i)).collect(),
             read: BTreeMap::new(),
             fills: Vec::new(),
             skipped: BTreeMap::new(),
             notices: Notices::default(),
             heights: None,
+            flattened: 0,
             left: UNFOLDED,
-        };
-        sketch.layer("0");
-        for record in &file.layers {
-            sketch.add_layer(record);
         }
-        sketch
     }
 
     /// Draws the entities of model space; hands back their hatches.
     pub fn draw(mut self) -> Result<Vec<Fill>, ImportError> {
-        let setting = Setting { map: None, z: 0.0, z_scale: 1.0, layer: None, path: String::new(), within: Vec::new() };
+        let setting = Setting {
+            map: None,
+            z: 0.0,
+            z_scale: 1.0,
+            scale: 1.0,
+            layer: None,
+            line_type: CONTINUOUS.into(),
+            path: String::new(),
+            within: Vec::new(),
+        };
         for entity in self.entities(&self.file.entities)? {
             self.draw_entity(&entity, &setting)?;
         }
@@ -136,45 +123,19 @@ impl<'f, 'a> Sketch<'f, 'a> {
                 .notes
                 .push(format!("Curves lie at heights from {low} to {high}: all were laid into one plane."));
         }
+        if self.flattened > 0 {
+            let note = format!("{} entities leave the XY plane: they were projected onto it.", self.flattened);
+            self.drawing.notes.push(note);
+        }
         self.drawing.notes.extend(self.notices.into_notes());
         let skipped = |((entity, why), count): ((String, &str), usize)| Skipped { entity, count, why: why.into() };
         self.drawing.skipped.extend(self.skipped.into_iter().map(skipped));
+        self.layers.hand_over(self.drawing);
         Ok(self.fills)
     }
 
     fn skip(&mut self, kind: &str, why: &'static str) {
         *self.skipped.entry((kind.to_owned(), why)).or_insert(0) += 1;
-    }
-
-    // ---- layers ----
-
-    fn add_layer(&mut self, record: &Record) {
-        let name = self.header.name(record.text(2).unwrap_or_default());
-        let flag = |code| record.find(code).and_then(|pair| pair.integer()).unwrap_or(0);
-        let hidden = if flag(70) & 1 != 0 {
-            Some(Hidden::Frozen)
-        } else if flag(62) < 0 {
-            Some(Hidden::Off)
-        } else {
-            None
-        };
-        let layer = self.layer(&name);
-        self.layers[layer].hidden = self.layers[layer].hidden.or(hidden);
-    }
-
-    /// The layer of this name, in the table from now on.
-    fn layer(&mut self, name: &str) -> usize {
-        let key = key(name);
-        let hidden = (key == "defpoints").then_some(Hidden::Defpoints);
-        *self.layer_of.entry(key).or_insert_with(|| {
-            self.layers.push(Layer { text: name.to_owned(), name: None, hidden });
-            self.layers.len() - 1
-        })
-    }
-
-    fn name_of(&mut self, layer: usize) -> NameId {
-        let Layer { text, name, .. } = &mut self.layers[layer];
-        *name.get_or_insert_with(|| self.drawing.names.intern(text))
     }
 
     // ---- reading ----
@@ -199,17 +160,17 @@ impl<'f, 'a> Sketch<'f, 'a> {
 
     fn entity(&mut self, record: &Record<'a>, followers: &[Record<'a>]) -> Result<Entity<'a>, ImportError> {
         let name = self.header.name(record.text(8).filter(|n| !n.is_empty()).unwrap_or(b"0"));
-        let layer = self.layer(&name);
-        let hidden = self.layers[layer].hidden;
+        let layer = self.layers.id(&name);
         let is_set = |code| record.find(code).and_then(|pair| pair.integer()).is_some_and(|flag| flag != 0);
-        let figure = match hidden {
+        let figure = match self.layers.why_not(layer) {
             _ if is_set(67) => Err("in paper space"),
             _ if is_set(60) => Err("invisible"),
             // On layer 0 of a block an entity is as visible as the block, and a block may hold what is not on its layer.
-            Some(hidden) if layer != LAYER_0 && record.kind != "INSERT" => Err(hidden.why()),
+            Some(why) if layer != LAYER_0 && record.kind != "INSERT" => Err(why),
             _ => match figure(record, followers, &mut self.notices) {
                 Ok(figure) => Ok(figure),
                 Err(Refusal::Skip(why)) => Err(why),
+                Err(Refusal::Degenerate) => Err(DEGENERATE),
                 Err(Refusal::Broken(error)) => return Err(error),
             },
         };
@@ -217,7 +178,9 @@ impl<'f, 'a> Sketch<'f, 'a> {
             Ok(Figure::Insert(insert)) => self.block_of.get(&key(&self.header.name(insert.block))).copied(),
             _ => None,
         };
-        Ok(Entity { kind: record.kind.clone(), label: record.label(), layer, block, figure })
+        let line_type = LineType::of(record, self.header);
+        let (kind, label, handle) = (record.kind.clone(), record.label(), record.handle());
+        Ok(Entity { kind, label, handle, layer, line_type, block, figure })
     }
 
     // ---- drawing ----
@@ -232,59 +195,103 @@ impl<'f, 'a> Sketch<'f, 'a> {
         };
         let inherited = setting.layer.filter(|_| entity.layer == LAYER_0);
         let layer = inherited.unwrap_or(entity.layer);
-        let hidden = self.layers[layer].hidden;
-        let insert_of_shown = matches!(figure, Figure::Insert(_)) && hidden != Some(Hidden::Frozen);
-        if let Some(hidden) = hidden.filter(|_| !insert_of_shown) {
-            self.skip(&entity.kind, hidden.why());
+        let why_not = match figure {
+            // A block may hold what is on other layers: only a frozen one hides these, too.
+            Figure::Insert(_) => self.layers.hidden(layer).filter(|h| *h == Hidden::Frozen).map(Hidden::why),
+            Figure::Curves { .. } | Figure::Point { .. } | Figure::Fill { .. } => self.layers.why_not(layer),
+        };
+        if let Some(why) = why_not {
+            self.skip(&entity.kind, why);
+            return Ok(());
+        }
+        let line_type = self.layers.line_type(&entity.line_type, layer, &setting.line_type);
+        if !matches!(figure, Figure::Insert(_)) && self.layers.is_auxiliary(&line_type) {
+            self.skip(&entity.kind, AUXILIARY);
             return Ok(());
         }
         let label = format!("{}{}", setting.path, entity.label);
+        if let Figure::Insert(insert) = figure {
+            return self.draw_insert(insert, entity, layer, line_type, setting);
+        }
         match figure {
-            Figure::Curves { curves, z, parts } => {
-                self.rise(setting, *z);
-                let name = self.name_of(layer);
-                for (i, curve) in curves.iter().enumerate() {
-                    let entity = if parts.is_empty() { label.clone() } else { format!("{label}, {parts} {}", i + 1) };
-                    let curve = self.placed(curve, setting, &label)?;
+            Figure::Curves { curves, level, parts, last_decimal } => {
+                let placed: Result<Vec<Option<Curve>>, _> =
+                    curves.iter().map(|curve| self.placed(curve, setting, &label)).collect();
+                let placed = placed?;
+                match level {
+                    Level::At(z) => self.rise(setting, *z),
+                    Level::Leaves if self.options.flatten_z => self.flattened += 1,
+                    Level::Leaves => {
+                        self.leave_out(label, &placed);
+                        self.skip(&entity.kind, TILTED);
+                        return Ok(());
+                    }
+                }
+                let name = self.layers.name(layer, self.drawing);
+                self.layers.count(layer, line_type);
+                for (i, curve) in placed.into_iter().enumerate() {
+                    let text = if parts.is_empty() { label.clone() } else { format!("{label}, {parts} {}", i + 1) };
                     match curve {
-                        Some(curve) => self.drawing.curves.push(DrawnCurve::new(curve, name, entity)),
+                        Some(curve) => self.drawing.curves.push(DrawnCurve {
+                            layer: Some(layer),
+                            handle: entity.handle,
+                            last_decimal: last_decimal * setting.scale,
+                            ..DrawnCurve::new(curve, name, text)
+                        }),
+                        None if matches!(level, Level::Leaves) => self.skip("curve", "seen from its side"),
                         None => self.skip("curve", "too small for numbers once it is inserted"),
                     }
                 }
             }
             Figure::Point { at, z } => {
                 self.rise(setting, *z);
+                self.layers.count(layer, line_type);
                 let at = setting.map.map_or(*at, |map| map * *at);
-                let name = Some(self.name_of(layer));
+                let name = Some(self.layers.name(layer, self.drawing));
                 self.drawing.points.push(DrawnPoint { at, name, entity: label });
             }
-            Figure::Fill { outlines } => {
-                let placed: Result<Option<Vec<Curve>>, _> =
-                    outlines.iter().map(|curve| self.placed(curve, setting, &label)).collect();
+            Figure::Fill { loops, last_decimal } => {
+                let placed: Result<Option<Vec<Vec<Curve>>>, _> = (loops.iter())
+                    .map(|outline| outline.iter().map(|curve| self.placed(curve, setting, &label)).collect())
+                    .collect();
                 match placed? {
-                    Some(outlines) => {
-                        let name = self.name_of(layer);
-                        self.fills.push(Fill { name, outlines, entity: label });
+                    Some(loops) => {
+                        self.layers.count(layer, line_type);
+                        let name = self.layers.name(layer, self.drawing);
+                        let (handle, last_decimal) = (entity.handle, last_decimal * setting.scale);
+                        self.fills.push(Fill { name, layer, handle, last_decimal, loops, entity: label });
                     }
-                    None => self.skip("HATCH", "too small for numbers once it is inserted"),
+                    None => self.skip(&entity.kind, "too small for numbers once it is inserted"),
                 }
             }
-            Figure::Insert(insert) => self.draw_insert(insert, entity, layer, setting)?,
+            Figure::Insert(_) => {}
         }
         Ok(())
     }
 
     /// A curve where the setting puts it; `None` where it shrinks to nothing.
     fn placed(&mut self, curve: &Curve, setting: &Setting, label: &str) -> Result<Option<Curve>, ImportError> {
-        let Some(map) = setting.map else { return Ok(Some(curve.clone())) };
-        self.spend(weight(curve), label)?;
-        let curve = curve.transformed(map);
+        let curve = match setting.map {
+            None => curve.clone(),
+            Some(map) => {
+                self.spend(weight(curve), label)?;
+                curve.transformed(map)
+            }
+        };
         let is_sound = match &curve {
             Curve::Arc(arc) => arc.radius > 0.0,
             Curve::Ellipse(ellipse) => ellipse.u.cross(ellipse.v) != 0.0,
             Curve::Line(_) | Curve::Bezier(_) | Curve::Spline(_) => true,
         };
         Ok(is_sound.then_some(curve))
+    }
+
+    /// Takes note of an entity that is left out because it leaves the plane.
+    fn leave_out(&mut self, entity: String, curves: &[Option<Curve>]) {
+        let (mut drawn, mut from_end) = (curves.iter().flatten(), curves.iter().flatten().rev());
+        if let (Some(first), Some(last)) = (drawn.next(), from_end.next()) {
+            self.drawing.off_plane.push(OffPlane { entity, ends: [first.start(), last.end()] });
+        }
     }
 
     /// Takes note of a height.
@@ -306,7 +313,8 @@ impl<'f, 'a> Sketch<'f, 'a> {
         &mut self,
         insert: &Insert<'a>,
         entity: &Entity<'a>,
-        layer: usize,
+        layer: LayerId,
+        line_type: Rc<str>,
         setting: &Setting,
     ) -> Result<(), ImportError> {
         let Some(place) = entity.block else {
@@ -334,7 +342,9 @@ impl<'f, 'a> Sketch<'f, 'a> {
             map: None,
             z: setting.z + setting.z_scale * insert.z,
             z_scale: setting.z_scale * insert.z_scale,
+            scale: 1.0,
             layer: Some(layer),
+            line_type,
             path,
             within,
         };
@@ -347,6 +357,8 @@ impl<'f, 'a> Sketch<'f, 'a> {
                 return Err(ImportError::new(what, "correct the scales of the blocks"));
             }
             inner.map = Some(map);
+            let [along, across] = columns(map);
+            inner.scale = along.max(across);
             for entity in entities.iter() {
                 self.spend(1, &inner.path)?;
                 self.draw_entity(entity, &inner)?;
@@ -376,11 +388,6 @@ impl<'f, 'a> Sketch<'f, 'a> {
     }
 }
 
-/// Names of layers and blocks are the same in upper and lower case.
-fn key(name: &str) -> String {
-    name.to_lowercase()
-}
-
 /// What a curve costs in memory, where a line costs 1.
 fn weight(curve: &Curve) -> usize {
     match curve {
@@ -390,9 +397,14 @@ fn weight(curve: &Curve) -> usize {
     }
 }
 
+/// What the map makes of the unit lengths along both axes.
+fn columns(map: Affine) -> [f64; 2] {
+    let [a, b, c, d, _, _] = map.as_coeffs();
+    [libm::hypot(a, b), libm::hypot(c, d)]
+}
+
 fn is_usable(map: Affine) -> bool {
-    let [a, b, c, d, x, y] = map.as_coeffs();
-    let columns = [libm::hypot(a, b), libm::hypot(c, d)];
+    let [.., x, y] = map.as_coeffs();
     let at = Point::new(x, y);
-    columns.iter().all(|scale| SCALES.contains(scale)) && at.is_finite() && x.abs().max(y.abs()) < SCALES.end
+    columns(map).iter().all(|scale| SCALES.contains(scale)) && at.is_finite() && x.abs().max(y.abs()) < SCALES.end
 }

@@ -1,7 +1,8 @@
 //! One entity → its curves, in the coordinates of the drawing or of the block that it stands in.
 
 use super::hatch;
-use super::sections::Record;
+use super::sections::{Record, finest};
+use super::spline::spline;
 use crate::curve::{Curve, CurveError};
 use crate::geometry::{Point, Vec2};
 use crate::import::ImportError;
@@ -13,21 +14,23 @@ use std::f64::consts::TAU;
 const FLAT: f64 = 1e-6;
 /// The share of a turn that may be missing of a full one: 2π with six decimals.
 const CLOSING: f64 = 1e-7;
+/// And the most that may be missing where the angles have few digits.
+const LARGEST_CLOSING: f64 = 1e-3;
 /// A bulge whose arc leaves its chord by no more than the rounding of its ends.
 const STRAIGHT_BULGE: f64 = 1e-15;
 /// A bulge whose arc is a full turn, up to rounding: it has no chord that could say where.
 const FULL_BULGE: f64 = 1e8;
-/// The highest degree of a spline; curves of CAD systems end at 25. Each span costs the degree, so memory stays a share of the file.
-const MAX_DEGREE: i64 = 30;
 
-const TILTED: &str = "not parallel to the XY plane";
-const DEGENERATE: &str = "of no extent";
+pub(super) const TILTED: &str = "not parallel to the XY plane";
+pub(super) const DEGENERATE: &str = "of no extent";
 
 /// Why an entity becomes no curve.
 #[derive(Debug)]
 pub(super) enum Refusal {
     /// It is left out and counted, for this reason.
     Skip(&'static str),
+    /// Nothing is left of it.
+    Degenerate,
     /// The file is wrong here.
     Broken(ImportError),
 }
@@ -44,8 +47,10 @@ pub(super) enum Figure<'a> {
     /// `parts` names what each curve is where there are several: "segment".
     Curves {
         curves: Vec<Curve>,
-        z: f64,
+        level: Level,
         parts: &'static str,
+        /// See [`DrawnCurve::last_decimal`](crate::domain::DrawnCurve::last_decimal).
+        last_decimal: f64,
     },
     Point {
         at: Point,
@@ -53,9 +58,19 @@ pub(super) enum Figure<'a> {
     },
     /// A filled area within closed outlines, by the odd-even rule.
     Fill {
-        outlines: Vec<Curve>,
+        loops: Vec<Vec<Curve>>,
+        last_decimal: f64,
     },
     Insert(Insert<'a>),
+}
+
+/// How an entity lies to the XY plane.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Level {
+    /// Parallel to it, at this height.
+    At(f64),
+    /// It leaves the plane; what it draws is its image on it.
+    Leaves,
 }
 
 /// A block to be drawn, once or in rows and columns.
@@ -95,8 +110,8 @@ pub(super) fn figure<'a>(
 ) -> Result<Figure<'a>, Refusal> {
     match record.kind.as_str() {
         "LINE" | "3DLINE" => line(record),
-        "CIRCLE" | "ARC" => arc(record),
-        "ELLIPSE" => ellipse(record),
+        "CIRCLE" | "ARC" => arc(record, notices),
+        "ELLIPSE" => ellipse(record, notices),
         "LWPOLYLINE" => light_polyline(record, notices),
         "POLYLINE" => polyline(record, followers, notices),
         "SPLINE" | "HELIX" => spline(record, notices),
@@ -105,10 +120,11 @@ pub(super) fn figure<'a>(
             let [x, y, z] = record.point(10)?;
             Ok(Figure::Point { at: Point::new(x, y), z })
         }
-        "HATCH" => {
-            let map = Plane::of(record)?.map();
-            let outlines = hatch::outlines(record, notices)?.into_iter().map(|curve| map.place(curve)).collect();
-            Ok(Figure::Fill { outlines })
+        "HATCH" | "MPOLYGON" => {
+            let plane = Plane::parallel(record)?;
+            let placed = |outline: Vec<Curve>| outline.into_iter().map(|curve| plane.place(curve, 0.0)).collect();
+            let loops = hatch::outlines(record, notices)?.into_iter().map(placed).collect();
+            Ok(Figure::Fill { loops, last_decimal: record.last_decimal(&[10, 20, 11, 21]) })
         }
         "INSERT" => insert(record),
         kind => Err(Refusal::Skip(why_not(kind))),
@@ -139,117 +155,179 @@ fn why_not(kind: &str) -> &'static str {
 
 // ---- planes ----
 
-/// The plane of an entity that has an extrusion direction: parallel to the XY plane, seen from above or from below.
-#[derive(Clone, Copy, PartialEq, Eq)]
+/// The plane of an entity that has an extrusion direction.
+#[derive(Clone, Copy)]
 enum Plane {
+    /// Parallel to the XY plane, seen from above or from below.
     Above,
     Below,
+    /// Any other, by its axes and normal, unit vectors.
+    Tilted([[f64; 3]; 3]),
 }
 
 impl Plane {
     fn of(record: &Record) -> Result<Self, Refusal> {
-        let [x, y, z] = record.optional_point(210)?.unwrap_or([0.0, 0.0, 1.0]);
-        if x.abs().max(y.abs()) > FLAT * z.abs() {
-            return Err(Refusal::Skip(TILTED));
+        let normal = record.optional_point(210)?.unwrap_or([0.0, 0.0, 1.0]);
+        let [x, y, z] = normal;
+        if x.abs().max(y.abs()) <= FLAT * z.abs() {
+            return Ok(if z < 0.0 { Self::Below } else { Self::Above });
         }
-        Ok(if z < 0.0 { Self::Below } else { Self::Above })
+        /// A normal nearer to the z axis than this has its x axis by the y axis (arbitrary axis algorithm).
+        const NEAR_Z: f64 = 1.0 / 64.0;
+        let n = unit(normal);
+        let up = if n[0].abs() < NEAR_Z && n[1].abs() < NEAR_Z { [0.0, 1.0, 0.0] } else { [0.0, 0.0, 1.0] };
+        let across = unit(cross(up, n));
+        Ok(Self::Tilted([across, cross(n, across), n]))
     }
 
-    /// From coordinates of the entity to those of the drawing: the arbitrary axis algorithm for a normal along z, by which the x axis
-    /// of the entity is that of the drawing, or its opposite.
-    fn map(self) -> Map {
-        Map { mirrored: self == Self::Below }
-    }
-}
-
-/// The change of coordinates of a [`Plane`].
-#[derive(Clone, Copy)]
-struct Map {
-    mirrored: bool,
-}
-
-impl Map {
-    fn affine(self) -> Affine {
-        Affine::scale_non_uniform(if self.mirrored { -1.0 } else { 1.0 }, 1.0)
+    /// The plane of an entity that is only read where it is parallel to the XY plane.
+    fn parallel(record: &Record) -> Result<Self, Refusal> {
+        match Self::of(record)? {
+            Self::Tilted(_) => Err(Refusal::Skip(TILTED)),
+            plane => Ok(plane),
+        }
     }
 
-    fn place(self, curve: Curve) -> Curve {
-        if self.mirrored { curve.transformed(self.affine()) } else { curve }
+    /// From coordinates of the entity to those of the drawing: the arbitrary axis algorithm, by which the x axis of an entity whose normal
+    /// is along z is that of the drawing, or its opposite. `z` is the height in the plane's own coordinates.
+    fn affine(self, z: f64) -> Affine {
+        match self {
+            Self::Above => Affine::IDENTITY,
+            Self::Below => Affine::scale_non_uniform(-1.0, 1.0),
+            Self::Tilted([u, v, n]) => Affine::new([u[0], u[1], v[0], v[1], z * n[0], z * n[1]]),
+        }
+    }
+
+    fn place(self, curve: Curve, z: f64) -> Curve {
+        match self {
+            Self::Above => curve,
+            Self::Below | Self::Tilted(_) => curve.transformed(self.affine(z)),
+        }
     }
 
     fn height(self, z: f64) -> f64 {
-        if self.mirrored { -z } else { z }
+        if matches!(self, Self::Below) { -z } else { z }
+    }
+
+    fn level(self, z: f64) -> Level {
+        match self {
+            Self::Above | Self::Below => Level::At(self.height(z)),
+            Self::Tilted(_) => Level::Leaves,
+        }
+    }
+
+    fn normal(self) -> [f64; 3] {
+        match self {
+            Self::Above => [0.0, 0.0, 1.0],
+            Self::Below => [0.0, 0.0, -1.0],
+            Self::Tilted([_, _, n]) => n,
+        }
     }
 }
 
-/// Points of the drawing as points of the plane, with their height.
-fn flat(points: &[[f64; 3]]) -> Result<(Vec<Point>, f64), Refusal> {
-    let range = |axis: usize| {
-        let values = points.iter().map(|p| p[axis]);
-        values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)))
-    };
+fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+/// The unit vector along one that is not zero.
+fn unit(v: [f64; 3]) -> [f64; 3] {
+    let most = v.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+    let v = v.map(|x| x / most);
+    let length = v.iter().map(|x| x * x).sum::<f64>().sqrt();
+    v.map(|x| x / length)
+}
+
+/// How points of an entity that has no plane lie.
+pub(super) fn flat(points: &[[f64; 3]]) -> Level {
     let spread = |axis: usize| {
-        let (low, high) = range(axis);
+        let values = points.iter().map(|p| p[axis]);
+        let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
         high - low
     };
     if spread(2) > FLAT * spread(0).max(spread(1)) {
-        return Err(Refusal::Skip(TILTED));
+        return Level::Leaves;
     }
-    Ok((points.iter().map(|p| Point::new(p[0], p[1])).collect(), points.first().map_or(0.0, |p| p[2])))
+    Level::At(points.first().map_or(0.0, |p| p[2]))
+}
+
+/// The same, of an entity that is only read where it is parallel to the XY plane; its points in it.
+fn parallel(points: &[[f64; 3]]) -> Result<(Vec<Point>, Level), Refusal> {
+    match flat(points) {
+        Level::Leaves => Err(Refusal::Skip(TILTED)),
+        level @ Level::At(_) => Ok((points.iter().map(|p| Point::new(p[0], p[1])).collect(), level)),
+    }
 }
 
 /// A curve that its entity describes in full: nothing to draw where it has no extent, an error where its data contradict each other.
-fn built(record: &Record, curve: Result<Curve, CurveError>) -> Result<Curve, Refusal> {
+pub(super) fn built(record: &Record, curve: Result<Curve, CurveError>) -> Result<Curve, Refusal> {
     curve.map_err(|error| match error {
-        CurveError::Radius { .. } | CurveError::Sweep { .. } => Refusal::Skip(DEGENERATE),
+        CurveError::Radius { .. } | CurveError::Sweep { .. } => Refusal::Degenerate,
         other => Refusal::Broken(record.broken(other)),
     })
 }
 
-fn single(curve: Curve, z: f64) -> Figure<'static> {
-    Figure::Curves { curves: vec![curve], z, parts: "" }
+pub(super) fn single(curve: Curve, level: Level, last_decimal: f64) -> Figure<'static> {
+    Figure::Curves { curves: vec![curve], level, parts: "", last_decimal }
 }
 
 // ---- lines, circles, ellipses ----
 
 fn line(record: &Record) -> Result<Figure<'static>, Refusal> {
-    let (ends, z) = flat(&[record.point(10)?, record.point(11)?])?;
-    Ok(single(built(record, Curve::line(ends[0], ends[1]))?, z))
+    let ends = [record.point(10)?, record.point(11)?];
+    let [a, b] = ends.map(|p| Point::new(p[0], p[1]));
+    Ok(single(built(record, Curve::line(a, b))?, flat(&ends), record.last_decimal(&[10, 20, 11, 21])))
 }
 
-/// A way counter-clockwise from one angle to another, as a positive part of a full turn; all of it where they are the same.
-pub(super) fn sweep(from: f64, to: f64, turn: f64) -> f64 {
+/// A way counter-clockwise from one angle to another, as a positive part of a full turn; all of it where they are the same, or where
+/// what is missing of it is within two units of the last decimal in which they are written.
+pub(super) fn sweep(from: f64, to: f64, turn: f64, last_decimal: f64, notices: &mut Notices) -> f64 {
     let sweep = (to - from).rem_euclid(turn);
-    let is_whole = sweep > turn * (1.0 - CLOSING) || sweep == 0.0 || (to - from).abs() >= turn * (1.0 - CLOSING);
-    if is_whole { turn } else { sweep }
+    let is_whole = |missing: f64| sweep > turn - missing || sweep == 0.0 || (to - from).abs() >= turn - missing;
+    if is_whole(CLOSING * turn) {
+        return turn;
+    }
+    if is_whole((2.0 * last_decimal).min(LARGEST_CLOSING * turn)) {
+        notices.add("Arcs that miss a full turn by no more than their last decimal can tell are full.");
+        return turn;
+    }
+    sweep
 }
 
-fn arc(record: &Record) -> Result<Figure<'static>, Refusal> {
-    let map = Plane::of(record)?.map();
+fn arc(record: &Record, notices: &mut Notices) -> Result<Figure<'static>, Refusal> {
+    let plane = Plane::of(record)?;
     let [x, y, z] = record.point(10)?;
     let (center, radius) = (Point::new(x, y), record.required(40)?);
     let curve = if record.kind == "CIRCLE" {
         Curve::circle(center, radius)
     } else {
         let (from, to) = (record.required(50)?, record.required(51)?);
-        Curve::arc(center, radius, from.to_radians(), sweep(from, to, 360.0).to_radians())
+        let sweep = sweep(from, to, 360.0, record.last_decimal(&[50, 51]), notices);
+        Curve::arc(center, radius, from.to_radians(), sweep.to_radians())
     };
-    Ok(single(map.place(built(record, curve)?), map.height(z)))
+    // The ends lie at the angles as they were rounded.
+    let angle = radius * record.last_decimal(&[50, 51]).to_radians();
+    let last_decimal = record.last_decimal(&[10, 20, 40]).max(angle);
+    Ok(single(plane.place(built(record, curve)?, z), plane.level(z), last_decimal))
 }
 
 /// Center and axis of an ellipse are coordinates of the drawing; its extrusion direction says where the minor axis points.
-fn ellipse(record: &Record) -> Result<Figure<'static>, Refusal> {
+fn ellipse(record: &Record, notices: &mut Notices) -> Result<Figure<'static>, Refusal> {
     let plane = Plane::of(record)?;
-    let ([x, y, z], [ux, uy, uz]) = (record.point(10)?, record.point(11)?);
-    let major = Vec2::new(ux, uy);
-    if uz.abs() > FLAT * ux.abs().max(uy.abs()) {
-        return Err(Refusal::Skip(TILTED));
-    }
-    let ratio = if plane == Plane::Below { -record.required(40)? } else { record.required(40)? };
-    let minor = Vec2::new(-major.y, major.x) * ratio;
+    let ([x, y, z], axis) = (record.point(10)?, record.point(11)?);
+    let major = Vec2::new(axis[0], axis[1]);
+    let leaves = axis[2].abs() > FLAT * axis[0].abs().max(axis[1].abs());
+    let [ux, uy, _] = cross(plane.normal(), if leaves { axis } else { [axis[0], axis[1], 0.0] });
+    let minor = Vec2::new(ux, uy) * record.required(40)?;
     let (from, to) = (record.real(41, 0.0)?, record.real(42, TAU)?);
-    let curve = Curve::ellipse(Point::new(x, y), major, minor, from, sweep(from, to, TAU));
-    Ok(single(built(record, curve)?, z))
+    let sweep = sweep(from, to, TAU, record.last_decimal(&[41, 42]), notices);
+    let curve = Curve::ellipse(Point::new(x, y), major, minor, from, sweep);
+    let level = match plane.level(z) {
+        Level::At(_) if !leaves => Level::At(z),
+        Level::At(_) | Level::Leaves => Level::Leaves,
+    };
+    let rounded = record.last_decimal(&[40]).max(record.last_decimal(&[41, 42]));
+    let last_decimal = record.last_decimal(&[10, 20, 11, 21]).max(major.hypot() * rounded);
+    Ok(single(built(record, curve)?, level, last_decimal))
 }
 
 // ---- polylines ----
@@ -281,13 +359,14 @@ pub(super) fn segments(record: &Record, vertices: &[Vertex], closed: bool) -> Re
 
 fn chain(record: &Record, vertices: &[Vertex], closed: bool) -> Result<Vec<Curve>, Refusal> {
     let curves = segments(record, vertices, closed)?;
-    if curves.is_empty() { Err(Refusal::Skip(DEGENERATE)) } else { Ok(curves) }
+    if curves.is_empty() { Err(Refusal::Degenerate) } else { Ok(curves) }
 }
 
 const WIDE: &str = "Polylines of some width are drawn as their centre lines.";
 
 fn light_polyline(record: &Record, notices: &mut Notices) -> Result<Figure<'static>, Refusal> {
-    let map = Plane::of(record)?.map();
+    let plane = Plane::of(record)?;
+    let z = record.real(38, 0.0)?;
     let vertices = bulged_vertices(record, &mut record.pairs.iter().copied())?;
     let widths = [40, 41, 43].map(|code| record.reals(code));
     for width in widths.into_iter().collect::<Result<Vec<_>, _>>()?.concat() {
@@ -296,8 +375,9 @@ fn light_polyline(record: &Record, notices: &mut Notices) -> Result<Figure<'stat
         }
     }
     let closed = record.integer(70, 0)? & 1 != 0;
-    let curves = chain(record, &vertices, closed)?.into_iter().map(|c| map.place(c)).collect();
-    Ok(Figure::Curves { curves, z: map.height(record.real(38, 0.0)?), parts: "segment" })
+    let curves = chain(record, &vertices, closed)?.into_iter().map(|c| plane.place(c, z)).collect();
+    let last_decimal = record.last_decimal(&[10, 20]);
+    Ok(Figure::Curves { curves, level: plane.level(z), parts: "segment", last_decimal })
 }
 
 /// Vertices of groups 10 and 20, with bulges of group 42.
@@ -350,19 +430,20 @@ fn polyline(record: &Record, followers: &[Record], notices: &mut Notices) -> Res
             }
         }
     }
+    let last_decimal = finest(followers.iter().map(|vertex| vertex.last_decimal(&[10, 20])));
     if flags & flag::GRID != 0 {
-        return grid(record, flags, &points);
+        return grid(record, flags, &points, last_decimal);
     }
     let closed = flags & flag::CLOSED != 0;
     if flags & flag::IN_SPACE != 0 {
-        let (_, z) = flat(&points)?;
         vertices.iter_mut().for_each(|v| v.bulge = 0.0);
-        return Ok(Figure::Curves { curves: chain(record, &vertices, closed)?, z, parts: "segment" });
+        let (curves, level) = (chain(record, &vertices, closed)?, flat(&points));
+        return Ok(Figure::Curves { curves, level, parts: "segment", last_decimal });
     }
-    let map = Plane::of(record)?.map();
-    let z = map.height(record.real(30, 0.0)?);
-    let curves = chain(record, &vertices, closed)?.into_iter().map(|c| map.place(c)).collect();
-    Ok(Figure::Curves { curves, z, parts: "segment" })
+    let plane = Plane::of(record)?;
+    let z = record.real(30, 0.0)?;
+    let curves = chain(record, &vertices, closed)?.into_iter().map(|c| plane.place(c, z)).collect();
+    Ok(Figure::Curves { curves, level: plane.level(z), parts: "segment", last_decimal })
 }
 
 // ---- faces ----
@@ -375,15 +456,20 @@ fn face(record: &Record) -> Result<Figure<'static>, Refusal> {
     // The corners of a 3DFACE go around; those of the older two go across.
     let in_space = record.kind == "3DFACE";
     let around = if in_space { [a, b, c, fourth] } else { [a, b, fourth, c] };
-    let map = if in_space { Map { mirrored: false } } else { Plane::of(record)?.map() };
-    let (mut around, z) = flat(&around)?;
+    let plane = if in_space { Plane::Above } else { Plane::parallel(record)? };
+    let (mut around, level) = parallel(&around)?;
     around.dedup();
     let vertices: Vec<Vertex> = around.into_iter().map(|at| Vertex { at, bulge: 0.0 }).collect();
     if vertices.len() < 3 {
-        return Err(Refusal::Skip(DEGENERATE));
+        return Err(Refusal::Degenerate);
     }
-    let curves = segments(record, &vertices, true)?.into_iter().map(|c| map.place(c)).collect();
-    Ok(Figure::Curves { curves, z: map.height(z), parts: "edge" })
+    let curves = segments(record, &vertices, true)?.into_iter().map(|c| plane.place(c, 0.0)).collect();
+    let level = match level {
+        Level::At(z) => plane.level(z),
+        Level::Leaves => Level::Leaves,
+    };
+    let last_decimal = record.last_decimal(&[10, 20, 11, 21, 12, 22, 13, 23]);
+    Ok(Figure::Curves { curves, level, parts: "edge", last_decimal })
 }
 
 /// Lines between vertices by their numbers, each drawn once.
@@ -399,12 +485,12 @@ fn edges(
             curves.push(built(record, Curve::line(points[a], points[b]))?);
         }
     }
-    if curves.is_empty() { Err(Refusal::Skip(DEGENERATE)) } else { Ok(curves) }
+    if curves.is_empty() { Err(Refusal::Degenerate) } else { Ok(curves) }
 }
 
 /// A mesh of M by N vertices, closed along M or N where its flags say so.
-fn grid(record: &Record, flags: i64, points: &[[f64; 3]]) -> Result<Figure<'static>, Refusal> {
-    let (points, z) = flat(points)?;
+fn grid(record: &Record, flags: i64, points: &[[f64; 3]], last_decimal: f64) -> Result<Figure<'static>, Refusal> {
+    let (points, level) = parallel(points)?;
     let sizes = if record.integer(75, 0)? == 0 { [71, 72] } else { [73, 74] };
     let [m, n] = [record.integer(sizes[0], 0)?, record.integer(sizes[1], 0)?];
     let (m, n) = (usize::try_from(m).unwrap_or(0), usize::try_from(n).unwrap_or(0));
@@ -417,7 +503,7 @@ fn grid(record: &Record, flags: i64, points: &[[f64; 3]]) -> Result<Figure<'stat
         let right = (j + 1 < n || along_n).then_some((i * n + j, i * n + (j + 1) % n));
         down.into_iter().chain(right)
     });
-    Ok(Figure::Curves { curves: edges(record, &points, pairs)?, z, parts: "edge" })
+    Ok(Figure::Curves { curves: edges(record, &points, pairs)?, level, parts: "edge", last_decimal })
 }
 
 /// A mesh of faces, each by the numbers of up to four vertices; a negative number starts an edge that is not shown.
@@ -440,107 +526,26 @@ fn polyface(record: &Record, followers: &[Record]) -> Result<Figure<'static>, Re
     if let Some((a, b)) = pairs.iter().find(|(a, b)| *a > count || *b > count) {
         return Err(record.broken(format!("an edge from vertex {a} to {b} of {count}")).into());
     }
-    let (points, z) = flat(&points)?;
+    let (points, level) = parallel(&points)?;
     let pairs = pairs.into_iter().map(|(a, b)| (a as usize - 1, b as usize - 1));
-    Ok(Figure::Curves { curves: edges(record, &points, pairs)?, z, parts: "edge" })
-}
-
-// ---- splines ----
-
-/// What a spline is drawn from, of a SPLINE entity or of an edge of a hatch.
-pub(super) struct SplineData {
-    pub degree: i64,
-    pub knots: Vec<f64>,
-    pub control: Vec<Point>,
-    pub weights: Vec<f64>,
-    pub fit: Vec<Point>,
-    pub closed: bool,
-}
-
-fn spline(record: &Record, notices: &mut Notices) -> Result<Figure<'static>, Refusal> {
-    let (control, fit) = (record.points(10)?, record.points(11)?);
-    let (used, z) = flat(if control.is_empty() { &fit } else { &control })?;
-    let plain = |points: &[[f64; 3]]| points.iter().map(|p| Point::new(p[0], p[1])).collect();
-    let data = SplineData {
-        degree: record.integer(71, 3)?,
-        knots: record.reals(40)?,
-        control: if control.is_empty() { Vec::new() } else { used },
-        weights: record.reals(41)?,
-        fit: plain(&fit),
-        closed: record.integer(70, 0)? & 1 != 0,
-    };
-    if record.find(12).or(record.find(13)).is_some() && data.control.is_empty() {
-        notices.add("End tangents of splines through fit points were not used.");
-    }
-    Ok(single(data.curve(record, notices)?, z))
-}
-
-impl SplineData {
-    pub fn curve(self, record: &Record, notices: &mut Notices) -> Result<Curve, Refusal> {
-        if self.control.is_empty() {
-            return self.through_fit_points(record, notices);
-        }
-        if !(1..=MAX_DEGREE).contains(&self.degree) {
-            return Err(record.broken(format!("a spline of degree {}, not 1 to {MAX_DEGREE}", self.degree)).into());
-        }
-        let degree = self.degree as usize;
-        let (knots, control, weights) = self.unwrapped(degree, notices);
-        let curve = Curve::nurbs(degree, &knots, &control, Some(&weights[..]).filter(|w| !w.is_empty()));
-        built(record, curve)
-    }
-
-    fn through_fit_points(self, record: &Record, notices: &mut Notices) -> Result<Curve, Refusal> {
-        notices.add(
-            "Splines that have fit points only are drawn as natural cubic splines through them, or periodic ones.",
-        );
-        let mut distinct = self.fit.clone();
-        distinct.dedup();
-        match distinct.len() {
-            0 => Err(record.broken("a spline without points").into()),
-            1 => Err(Refusal::Skip(DEGENERATE)),
-            _ if self.closed => built(record, Curve::periodic_spline(&self.fit)),
-            _ => built(record, Curve::natural_spline(&self.fit)),
-        }
-    }
-
-    /// Knots, control points and weights with as many knots as there are control points, degree and one together.
-    ///
-    /// Of a periodic spline some writers give one period only: a knot more than control points. It goes on by its period, each knot
-    /// with the control point of the period before.
-    fn unwrapped(self, degree: usize, notices: &mut Notices) -> (Vec<f64>, Vec<Point>, Vec<f64>) {
-        let Self { mut knots, mut control, mut weights, closed, .. } = self;
-        let n = control.len();
-        if knots.is_empty() && n > degree {
-            notices.add("Splines without knots are drawn with uniform ones.");
-            knots = (0..=n + degree).map(|i| (i.max(degree) - degree).min(n - degree) as f64).collect();
-        } else if closed && knots.len() == n + 1 && degree < n {
-            let period = knots[n] - knots[0];
-            let before: Vec<f64> = knots[n - degree..n].iter().map(|k| k - period).collect();
-            let after: Vec<f64> = knots[1..=degree].iter().map(|k| k + period).collect();
-            knots = [before, knots, after].concat();
-            control.extend_from_within(..degree);
-            if weights.len() == n {
-                weights.extend_from_within(..degree);
-            }
-        }
-        (knots, control, weights)
-    }
+    let last_decimal = finest(followers.iter().map(|vertex| vertex.last_decimal(&[10, 20])));
+    Ok(Figure::Curves { curves: edges(record, &points, pairs)?, level, parts: "edge", last_decimal })
 }
 
 // ---- blocks ----
 
 fn insert<'a>(record: &Record<'a>) -> Result<Figure<'a>, Refusal> {
-    let plane = Plane::of(record)?.map();
+    let plane = Plane::parallel(record)?;
     let [x, y, z] = record.point(10)?;
     let scale = [record.real(41, 1.0)?, record.real(42, 1.0)?];
     if scale.contains(&0.0) {
         return Err(Refusal::Skip("a block drawn with the scale 0"));
     }
     let turn = turn(record.real(50, 0.0)?);
-    let map = plane.affine() * Affine::translate((x, y)) * turn * Affine::scale_non_uniform(scale[0], scale[1]);
+    let map = plane.affine(0.0) * Affine::translate((x, y)) * turn * Affine::scale_non_uniform(scale[0], scale[1]);
     // Rows and columns run along the turned axes, and are not scaled.
     let step = |v: Vec2| {
-        let [a, b, c, d, _, _] = (plane.affine() * turn).as_coeffs();
+        let [a, b, c, d, _, _] = (plane.affine(0.0) * turn).as_coeffs();
         Vec2::new(a * v.x + c * v.y, b * v.x + d * v.y)
     };
     let steps = [step(Vec2::new(record.real(44, 0.0)?, 0.0)), step(Vec2::new(0.0, record.real(45, 0.0)?))];

@@ -1,10 +1,11 @@
 //! The boundary of a HATCH: paths of polylines or of lines, arcs, elliptic arcs and splines.
 
-use super::entities::{Notices, Refusal, SplineData, bulged_vertices, segments, sweep};
+use super::entities::{Notices, Refusal, bulged_vertices, segments, sweep};
 use super::pairs::Pair;
 use super::sections::Record;
+use super::spline::SplineData;
 use crate::curve::{Curve, CurveError};
-use crate::geometry::{Point, Rect, Vec2};
+use crate::geometry::{Point, Rect, Vec2, direction};
 use crate::import::ImportError;
 use std::f64::consts::TAU;
 
@@ -23,14 +24,15 @@ struct Path<'r, 'a> {
 }
 
 /// The closed outlines between which the hatch lies, by the odd-even rule.
-pub(super) fn outlines(record: &Record, notices: &mut Notices) -> Result<Vec<Curve>, Refusal> {
+pub(super) fn outlines(record: &Record, notices: &mut Notices) -> Result<Vec<Vec<Curve>>, Refusal> {
     let mut paths = paths(record)?;
     if paths.iter().any(|p| p.flags & flag::TEXT_BOX != 0) {
         notices.add("Boxes that keep hatches clear of text were left out.");
         paths.retain(|p| p.flags & flag::TEXT_BOX == 0);
     }
     // Islands: 0 hatches every other area, 1 ends at the second, 2 looks at none. Older files do not say which paths are which.
-    let counted = match record.integer(75, 0)? {
+    let style = record.integer(75, 0)?;
+    let counted = match style {
         1 => flag::EXTERNAL | flag::OUTERMOST,
         2 => flag::EXTERNAL,
         _ => 0,
@@ -38,16 +40,60 @@ pub(super) fn outlines(record: &Record, notices: &mut Notices) -> Result<Vec<Cur
     if paths.iter().any(|p| p.flags & counted != 0) {
         paths.retain(|p| p.flags & counted != 0);
     }
-    let mut curves = Vec::new();
+    let mut loops: Vec<Vec<Curve>> = Vec::new();
     for path in &paths {
         if path.flags & flag::POLYLINE != 0 {
             let vertices = bulged_vertices(record, &mut path.pairs.iter().copied())?;
-            curves.extend(segments(record, &vertices, true)?);
+            loops.push(segments(record, &vertices, true)?);
         } else {
-            curves.extend(closed(edges(record, path.pairs, notices)?, notices));
+            loops.extend(closed(edges(record, path.pairs, notices)?, notices));
         }
     }
-    if curves.is_empty() { Err(Refusal::Skip("of no boundary")) } else { Ok(curves) }
+    loops.retain(|outline| !outline.is_empty());
+    match style {
+        1 => retain_depth(&mut loops, 1),
+        2 => retain_depth(&mut loops, 0),
+        _ => {}
+    }
+    if loops.is_empty() { Err(Refusal::Skip("of no boundary")) } else { Ok(loops) }
+}
+
+/// Leaves out what lies within more than `most` other loops. Flags tell that where the writer cared; many a writer has all paths external.
+fn retain_depth(loops: &mut Vec<Vec<Curve>>, most: usize) {
+    /// Each is compared with each. A hatch of more loops is believed as flagged.
+    const COMPARED: usize = 1000;
+    if loops.len() > COMPARED {
+        return;
+    }
+    let bounds: Vec<Rect> = loops
+        .iter()
+        .map(|outline| outline.iter().map(Curve::bounds).reduce(|a, b| a.union(b)).unwrap_or_default())
+        .collect();
+    let depth = |i: usize| {
+        let at = loops[i][0].point(0.5037);
+        let others = (0..loops.len()).filter(|&j| j != i && bounds[j].contains(at));
+        others.filter(|&j| is_within(&loops[j], at)).count()
+    };
+    let depths: Vec<usize> = (0..loops.len()).map(depth).collect();
+    let mut depths = depths.into_iter();
+    loops.retain(|_| depths.next().is_some_and(|depth| depth <= most));
+}
+
+/// Whether a closed outline goes around a point, by the first of a few lines through it that meets no joint.
+fn is_within(outline: &[Curve], at: Point) -> bool {
+    const ANGLES_RAD: [f64; 4] = [0.0, 0.37, 1.13, 2.41];
+    for angle in ANGLES_RAD {
+        let along = direction(angle);
+        let places = |curve: &Curve| {
+            let crossings = curve.line_crossings(at, along, 0.0, 1.0).into_iter();
+            crossings.map(|t| (curve.point(t) - at).dot(along)).collect::<Vec<_>>()
+        };
+        let places: Vec<f64> = outline.iter().flat_map(places).collect();
+        if places.len().is_multiple_of(2) {
+            return places.iter().filter(|&&x| x > 0.0).count() % 2 == 1;
+        }
+    }
+    false
 }
 
 /// The paths, each from its flags to the next one's; the last to the hatch style, which follows it.
@@ -73,10 +119,10 @@ fn edges(record: &Record, pairs: &[Pair], notices: &mut Notices) -> Result<Vec<C
         let edge = record.part(handle, &pairs[start + 1..end]);
         let curve = match record.integer_of(&pairs[start])? {
             1 => Curve::line(at(&edge, 10)?, at(&edge, 11)?),
-            2 => arc(&edge)?,
-            3 => ellipse(&edge)?,
+            2 => arc(&edge, notices)?,
+            3 => ellipse(&edge, notices)?,
             4 => {
-                curves.push(spline(&edge)?.curve(record, notices)?);
+                curves.push(SplineData::of_edge(&edge)?.curve(record, notices)?);
                 continue;
             }
             other => return Err(record.broken(format!("a boundary edge of type {other}")).into()),
@@ -97,21 +143,21 @@ fn at(edge: &Record, code: i32) -> Result<Point, ImportError> {
 }
 
 /// Start and sweep in degrees. Clockwise edges have their angles measured clockwise.
-fn angles(edge: &Record) -> Result<(f64, f64), ImportError> {
+fn angles(edge: &Record, notices: &mut Notices) -> Result<(f64, f64), ImportError> {
     let (from, to) = (edge.required(50)?, edge.required(51)?);
-    let sweep = sweep(from, to, 360.0);
+    let sweep = sweep(from, to, 360.0, edge.last_decimal(&[50, 51]), notices);
     Ok(if edge.integer(73, 1)? == 0 { (-from, -sweep) } else { (from, sweep) })
 }
 
-fn arc(edge: &Record) -> Result<Result<Curve, CurveError>, ImportError> {
-    let (start, sweep) = angles(edge)?;
+fn arc(edge: &Record, notices: &mut Notices) -> Result<Result<Curve, CurveError>, ImportError> {
+    let (start, sweep) = angles(edge, notices)?;
     Ok(Curve::arc(at(edge, 10)?, edge.required(40)?, start.to_radians(), sweep.to_radians()))
 }
 
 /// Unlike those of an ELLIPSE, the angles are those of the rays to the ends, not parameters.
-fn ellipse(edge: &Record) -> Result<Result<Curve, CurveError>, ImportError> {
+fn ellipse(edge: &Record, notices: &mut Notices) -> Result<Result<Curve, CurveError>, ImportError> {
     let (major, ratio) = (at(edge, 11)?.to_vec2(), edge.required(40)?);
-    let (start, sweep) = angles(edge)?;
+    let (start, sweep) = angles(edge, notices)?;
     let parameter = |degrees: f64| {
         let (sin, cos) = libm::sincos(degrees.to_radians());
         libm::atan2(sin, cos * ratio.abs())
@@ -127,33 +173,22 @@ fn ellipse(edge: &Record) -> Result<Result<Curve, CurveError>, ImportError> {
     Ok(Curve::ellipse(at(edge, 10)?, major, minor, from, turn))
 }
 
-fn spline(edge: &Record) -> Result<SplineData, ImportError> {
-    let plain = |points: Vec<[f64; 3]>| points.into_iter().map(|p| Point::new(p[0], p[1])).collect();
-    Ok(SplineData {
-        degree: edge.integer(94, 3)?,
-        knots: edge.reals(40)?,
-        control: plain(edge.points(10)?),
-        weights: edge.reals(42)?,
-        fit: plain(edge.points(11)?),
-        closed: edge.integer(74, 0)? != 0,
-    })
-}
-
 /// A gap in a boundary wider than this share of its size is drawn: arranging heals up to the same share of the whole drawing.
 const GAP: f64 = 1e-6;
 
-/// The edges turned to follow each other, with a line in every gap.
-fn closed(edges: Vec<Curve>, notices: &mut Notices) -> Vec<Curve> {
+/// The loops of a path: its edges turned to follow each other, with a line in every gap.
+fn closed(edges: Vec<Curve>, notices: &mut Notices) -> Vec<Vec<Curve>> {
     let bounds = edges.iter().map(|e| Rect::from_points(e.start(), e.end())).reduce(|a, b| a.union(b));
     let gap = GAP * bounds.map_or(0.0, |b| b.width().max(b.height()));
     let apart = |a: Point, b: Point| (a - b).hypot() > gap;
-    let mut loops: Vec<Curve> = Vec::with_capacity(edges.len());
-    let mut bridge = |loops: &mut Vec<Curve>, from: Point, to: Point| {
+    let mut loops: Vec<Vec<Curve>> = Vec::new();
+    let mut following: Vec<Curve> = Vec::new();
+    let mut bridge = |following: &mut Vec<Curve>, from: Point, to: Point| {
         if apart(from, to)
             && let Ok(line) = Curve::line(from, to)
         {
             notices.add("Gaps in the boundaries of hatches were closed by lines.");
-            loops.push(line);
+            following.push(line);
         }
     };
     // Start and end of the loop that is being followed.
@@ -170,15 +205,19 @@ fn closed(edges: Vec<Curve>, notices: &mut Notices) -> Vec<Curve> {
         };
         let edge = if turned { edge.reversed() } else { edge };
         let start = open.map_or(edge.start(), |[start, end]| {
-            bridge(&mut loops, end, edge.start());
+            bridge(&mut following, end, edge.start());
             start
         });
         let end = edge.end();
-        loops.push(edge);
+        following.push(edge);
         open = apart(start, end).then_some([start, end]);
+        if open.is_none() {
+            loops.push(std::mem::take(&mut following));
+        }
     }
     if let Some([start, end]) = open {
-        bridge(&mut loops, end, start);
+        bridge(&mut following, end, start);
+        loops.push(following);
     }
     loops
 }

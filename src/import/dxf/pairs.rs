@@ -72,6 +72,22 @@ impl<'a> Pair<'a> {
         }
     }
 
+    /// One unit of the last decimal that a text writes, 0.001 of `80.000`; 0 of whole numbers and of the numbers of a binary file. One
+    /// zero behind the point stands there only because some writers put no number without.
+    pub fn last_decimal(&self) -> f64 {
+        let Value::Text(text) = self.value else { return 0.0 };
+        let text = text.trim_ascii();
+        let end = text.iter().position(|b| matches!(b, b'e' | b'E' | b'd' | b'D'));
+        let (digits, exponent) = text.split_at(end.unwrap_or(text.len()));
+        let decimals = digits.iter().position(|&b| b == b'.').map_or(&[][..], |point| &digits[point + 1..]);
+        if matches!(decimals, [] | [b'0']) {
+            return 0.0;
+        }
+        let exponent = exponent.get(1..).and_then(number).unwrap_or(0.0);
+        let places = decimals.len() as f64 - exponent;
+        if places > 0.0 { libm::pow(10.0, -places) } else { 0.0 }
+    }
+
     /// The value as a whole number.
     pub fn integer(&self) -> Option<i64> {
         match self.value {

@@ -102,6 +102,16 @@ impl<'a> Record<'a> {
         self.pairs.iter().filter(|p| p.code == code).map(|pair| self.real_of(pair)).collect()
     }
 
+    /// The unit of the last decimal of the numbers with these codes: of the one that has the most; 0 where all are whole.
+    pub fn last_decimal(&self, codes: &[i32]) -> f64 {
+        finest(self.pairs.iter().filter(|p| codes.contains(&p.code)).map(Pair::last_decimal))
+    }
+
+    /// The number by which the file knows the entity.
+    pub fn handle(&self) -> Option<u64> {
+        u64::from_str_radix(std::str::from_utf8(self.text(5)?).ok()?, 16).ok()
+    }
+
     /// `LINE (handle 2F, line 1204)`.
     pub fn label(&self) -> String {
         let place = self.place;
@@ -119,6 +129,11 @@ impl<'a> Record<'a> {
     fn wrong(&self, pair: &Pair, why: &str) -> ImportError {
         pair.place.error(format!("{}: group {} is {pair}, {why}", self.label(), pair.code), NOT_A_NUMBER)
     }
+}
+
+/// The smallest of some units, of which 0 is none.
+pub(super) fn finest(units: impl Iterator<Item = f64>) -> f64 {
+    units.filter(|&unit| unit > 0.0).reduce(f64::min).unwrap_or(0.0)
 }
 
 /// A block: entities about a base point, drawn where an INSERT asks for them.

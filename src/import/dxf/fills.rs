@@ -1,0 +1,262 @@
+//! What the hatches of a drawing are: pictures of filled shapes where nothing else is drawn; else names, outlines or regions.
+
+use crate::curve::Curve;
+use crate::domain::{Drawing, DrawnCurve, FillRule, Seed, SeedKind, Shape};
+use crate::geometry::boxes::BoxHierarchy;
+use crate::geometry::{Point, Rect, Vec2};
+use crate::ids::{LayerId, NameId};
+use std::collections::BTreeSet;
+
+/// Outlines nearer to each other than this share of their extent are copies, whatever the digits: no part is made so.
+const COPY: f64 = 1e-4;
+/// And no farther than this, whatever the digits.
+const FARTHEST_COPY: f64 = 1e-2;
+/// A polygon that stands for a curve leaves it by no more than this share of its sides: one of twelve sides for a circle does.
+const SAGITTA: f64 = 0.07;
+
+/// The hatched area of one entity.
+pub(super) struct Fill {
+    pub name: NameId,
+    pub layer: LayerId,
+    pub handle: Option<u64>,
+    /// See [`DrawnCurve::last_decimal`].
+    pub last_decimal: f64,
+    /// Closed outlines between which it lies, by the odd-even rule.
+    pub loops: Vec<Vec<Curve>>,
+    pub entity: String,
+}
+
+impl Fill {
+    fn curves(&self) -> impl Iterator<Item = &Curve> {
+        self.loops.iter().flatten()
+    }
+
+    fn drawn(&self, curves: &[Curve]) -> impl Iterator<Item = DrawnCurve> {
+        curves.iter().map(|curve| DrawnCurve {
+            layer: Some(self.layer),
+            handle: self.handle,
+            last_decimal: self.last_decimal,
+            ..DrawnCurve::new(curve.clone(), self.name, self.entity.clone())
+        })
+    }
+
+    /// Adds the area as a filled shape.
+    fn paint(&self, drawing: &mut Drawing) {
+        let shape = drawing.shapes.push(Shape { name: self.name, even_odd: true, entity: self.entity.clone() });
+        for outline in &self.loops {
+            drawing.curves.extend(self.drawn(outline).map(|drawn| DrawnCurve { shape: Some(shape), ..drawn }));
+        }
+    }
+
+    fn name(&self, at: Point, drawing: &mut Drawing) {
+        let kind = SeedKind::Region { name: self.name, max_area: None };
+        drawing.seeds.push(Seed { at, kind, entity: self.entity.clone() });
+    }
+}
+
+/// Adds the hatches to a drawing that holds all other curves.
+pub(super) fn add(fills: &[Fill], drawing: &mut Drawing) {
+    if fills.is_empty() {
+        return;
+    }
+    if drawing.curves.is_empty() {
+        drawing.fill = FillRule::Shapes;
+        return fills.iter().for_each(|fill| fill.paint(drawing));
+    }
+    let layers: BTreeSet<Option<LayerId>> = drawing.curves.iter().map(|c| c.layer).collect();
+    let is_alone = |fill: &Fill| !layers.contains(&Some(fill.layer));
+    let mut told = Told::default();
+    let outlines = Outlines::of(drawing);
+    let mut fresh: Vec<DrawnCurve> = Vec::new();
+    let mut regions = vec![false; fills.len()];
+    for (fill, is_region) in fills.iter().zip(&mut regions) {
+        let (copies, own): (Vec<_>, Vec<_>) =
+            fill.loops.iter().partition(|outline| outlines.repeat(outline, fill.last_decimal));
+        if is_alone(fill) && !own.is_empty() {
+            *is_region = true;
+            continue;
+        }
+        told.copies += copies.len();
+        told.outlines += own.len();
+        own.into_iter().for_each(|outline| fresh.extend(fill.drawn(outline)));
+    }
+    drawing.curves.append(&mut fresh);
+    let outlines = Outlines::of(drawing);
+    let places: Vec<Option<Place>> = fills
+        .iter()
+        .zip(&regions)
+        .map(|(fill, &is_region)| (!is_region).then(|| outlines.place(fill)).flatten())
+        .collect();
+    for (fill, place) in fills.iter().zip(places) {
+        match place {
+            Some(Place::Inside(at)) => fill.name(at, drawing),
+            // What is hatched is there, even if the outlines alone would make a hole of it; on a layer of outlines they decide.
+            Some(Place::Outside) if !is_alone(fill) => {}
+            Some(Place::Unknown(at)) => fill.name(at, drawing),
+            Some(Place::Outside) | None => {
+                told.regions += 1;
+                fill.paint(drawing);
+            }
+        }
+    }
+    if !drawing.shapes.is_empty() {
+        drawing.fill = FillRule::EvenOddAndShapes;
+    }
+    drawing.notes.extend(told.notes());
+}
+
+/// How many hatches became what.
+#[derive(Default)]
+struct Told {
+    copies: usize,
+    outlines: usize,
+    regions: usize,
+}
+
+impl Told {
+    fn notes(&self) -> Vec<String> {
+        let mut notes = Vec::new();
+        if self.copies > 0 {
+            notes.push(format!(
+                "Hatches name the regions that they lie in: {} of their boundaries repeat other outlines.",
+                self.copies
+            ));
+        }
+        if self.outlines > 0 {
+            notes.push(format!(
+                "{} boundaries of hatches repeat no outline: they are outlines of their layers.",
+                self.outlines
+            ));
+        }
+        if self.regions > 0 {
+            notes.push(format!("{} hatches on layers of their own are regions of their own extent.", self.regions));
+        }
+        notes
+    }
+}
+
+/// Where a hatch lies, with a place well within it.
+enum Place {
+    /// Also inside by the outlines.
+    Inside(Point),
+    /// Outside of the outlines, or in holes of them, all over.
+    Outside,
+    /// Lines that are open hide what the outlines say.
+    Unknown(Point),
+}
+
+/// The outlines of a drawing, to be asked for what lies near.
+struct Outlines<'a> {
+    curves: Vec<&'a DrawnCurve>,
+    tree: BoxHierarchy,
+    bounds: Rect,
+}
+
+impl<'a> Outlines<'a> {
+    fn of(drawing: &'a Drawing) -> Self {
+        let curves: Vec<&DrawnCurve> = drawing.curves.iter().collect();
+        let tree = BoxHierarchy::new(curves.iter().map(|c| c.curve.bounds()));
+        let bounds = tree.boxes().iter().copied().reduce(|a, b| a.union(b)).unwrap_or_default();
+        Self { curves, tree, bounds }
+    }
+
+    /// Whether an outline runs along these all the way, up to the digits in which both are written, or as a polygon that stands for them.
+    fn repeat(&self, outline: &[Curve], last_decimal: f64) -> bool {
+        let bounds = outline.iter().map(Curve::bounds).reduce(|a, b| a.union(b)).unwrap_or_default();
+        let extent = bounds.width().max(bounds.height());
+        outline.iter().all(|curve| self.run_along(curve, extent, last_decimal))
+    }
+
+    fn run_along(&self, curve: &Curve, extent: f64, last_decimal: f64) -> bool {
+        /// Places that are looked at, shares that no curve has its joints at.
+        const SAMPLES: [f64; 7] = [0.0, 0.137, 0.319, 0.5, 0.687, 0.871, 1.0];
+        let reach = (FARTHEST_COPY * extent).max(SAGITTA * curve.length());
+        SAMPLES.into_iter().all(|t| {
+            let distance = |i: usize, p: Point| self.curves[i].curve.nearest(p, 0.0, 1.0).1;
+            let at = curve.point(t);
+            let Some((near, away)) = self.tree.nearest(at, reach, |i, _| distance(i, at)) else { return false };
+            let other = &self.curves[near].curve;
+            let digits = 2.0 * (last_decimal + self.curves[near].last_decimal);
+            let slack = digits.min(FARTHEST_COPY * extent).max(COPY * extent);
+            let is_chord = |line: &Curve, arc: &Curve| {
+                let ends = [line.start(), line.end()];
+                let stands = line.is_straight() && !arc.is_straight() && away <= SAGITTA * line.length();
+                stands && ends.into_iter().all(|end| arc.nearest(end, 0.0, 1.0).1 <= slack)
+            };
+            away <= slack || is_chord(curve, other) || is_chord(other, curve)
+        })
+    }
+
+    /// Where a hatch lies: the middle of its longest stretch on a few lines across, rather of one that is also inside by the outlines.
+    fn place(&self, fill: &Fill) -> Option<Place> {
+        /// Heights of the lines, shares of the whole that no drawing has its corners at.
+        const LINES: [f64; 5] = [0.5037, 0.2963, 0.7193, 0.1043, 0.8989];
+        let bounds = fill.curves().map(Curve::bounds).reduce(|a, b| a.union(b))?;
+        let (mut inside, mut outside, mut unknown) = (Widest::default(), Widest::default(), Widest::default());
+        for share in LINES {
+            let y = bounds.y0 + share * bounds.height();
+            let hatched = crossings(fill.curves(), y);
+            // A line that passes through a joint may miss it, and cannot tell inside from outside.
+            if !hatched.len().is_multiple_of(2) {
+                continue;
+            }
+            let drawn = self.crossings(y);
+            let is_known = drawn.len().is_multiple_of(2);
+            let mut places = [&hatched[..], &drawn[..]].concat();
+            places.sort_by(f64::total_cmp);
+            for ends in places.windows(2) {
+                let middle = 0.5 * (ends[0] + ends[1]);
+                let is_within = |places: &[f64]| places.partition_point(|x| *x < middle) % 2 == 1;
+                if is_within(&hatched) {
+                    let stretch = match (is_known, is_within(&drawn)) {
+                        (false, _) => &mut unknown,
+                        (true, true) => &mut inside,
+                        (true, false) => &mut outside,
+                    };
+                    stretch.add(ends[1] - ends[0], Point::new(middle, y));
+                }
+            }
+        }
+        // Stretches within the digits of the file are none.
+        let least = COPY * bounds.width();
+        let wide = |widest: Widest| widest.0.filter(|(width, _)| *width > least).map(|(_, at)| at);
+        let places =
+            [wide(inside).map(Place::Inside), wide(unknown).map(Place::Unknown), wide(outside).map(|_| Place::Outside)];
+        places.into_iter().flatten().next()
+    }
+
+    /// Where the outlines cross a height, from left to right; copies once.
+    fn crossings(&self, y: f64) -> Vec<f64> {
+        let mut met = Vec::new();
+        let across = Rect::new(self.bounds.x0, y, self.bounds.x1, y);
+        self.tree.meeting(across, |i| {
+            met.push(&self.curves[i].curve);
+            true
+        });
+        let mut places = crossings(met, y);
+        let same = 1e-9 * self.bounds.width(); // as arranging welds
+        places.dedup_by(|b, a| *b - *a <= same);
+        places
+    }
+}
+
+/// Where curves cross a height, from left to right.
+fn crossings<'c>(curves: impl IntoIterator<Item = &'c Curve>, y: f64) -> Vec<f64> {
+    let (from, right) = (Point::new(0.0, y), Vec2::new(1.0, 0.0));
+    let places = |curve: &'c Curve| curve.line_crossings(from, right, 0.0, 1.0).into_iter().map(|t| curve.point(t).x);
+    let mut places: Vec<f64> = curves.into_iter().flat_map(places).collect();
+    places.sort_by(f64::total_cmp);
+    places
+}
+
+/// The widest of some stretches, and its middle.
+#[derive(Default)]
+struct Widest(Option<(f64, Point)>);
+
+impl Widest {
+    fn add(&mut self, width: f64, middle: Point) {
+        if self.0.is_none_or(|(widest, _)| width > widest) {
+            self.0 = Some((width, middle));
+        }
+    }
+}

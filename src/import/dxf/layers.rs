@@ -1,0 +1,196 @@
+//! Layers: which are seen, which were asked for, and what is drawn on them in which line types.
+
+use super::LineTypes;
+use super::header::Header;
+use super::sections::Record;
+use crate::domain::{Drawing, Layer};
+use crate::ids::{IdVec, LayerId, NameId};
+use crate::import::selection::{Chooser, Selection};
+use std::collections::BTreeMap;
+use std::rc::Rc;
+
+/// Layer 0, whose entities in a block take the layer of the block. Every file has it.
+pub(super) const LAYER_0: LayerId = LayerId(0);
+
+/// The line type of what says nothing of it.
+pub(super) const CONTINUOUS: &str = "CONTINUOUS";
+
+const FROZEN: &str = "on a frozen layer";
+const OFF: &str = "on a layer that is off";
+const DEFPOINTS: &str = "on the layer Defpoints, of construction points";
+/// Why what is drawn in a line type of drafting standards is left out.
+pub(super) const AUXILIARY: &str = "of a line type that draws no edge (--line-types all keeps it)";
+const NOT_SELECTED: &str = "on a layer that was not asked for";
+
+/// Why nothing on a layer is seen.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Hidden {
+    Frozen,
+    Off,
+    Defpoints,
+}
+
+impl Hidden {
+    pub fn why(self) -> &'static str {
+        match self {
+            Self::Frozen => FROZEN,
+            Self::Off => OFF,
+            Self::Defpoints => DEFPOINTS,
+        }
+    }
+}
+
+/// The line type of an entity, as its group 6 gives it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum LineType {
+    OfLayer,
+    /// That of the INSERT which draws the block.
+    OfBlock,
+    /// In upper case.
+    Named(Rc<str>),
+}
+
+impl LineType {
+    pub fn of(record: &Record, header: &Header) -> Self {
+        let name = header.name(record.text(6).unwrap_or_default()).to_uppercase();
+        match name.as_str() {
+            "" | "BYLAYER" => Self::OfLayer,
+            "BYBLOCK" => Self::OfBlock,
+            name => Self::Named(name.into()),
+        }
+    }
+}
+
+struct Row {
+    /// As the file spells it first.
+    text: String,
+    /// Once something is drawn on it.
+    name: Option<NameId>,
+    hidden: Option<Hidden>,
+    /// Asked for, or at least not excluded.
+    selected: bool,
+    line_type: Rc<str>,
+    /// How many entities are drawn, by line type.
+    drawn: BTreeMap<Rc<str>, usize>,
+}
+
+/// The layers of a file, those that its table lists and those that it only uses.
+pub(super) struct Layers<'s> {
+    rows: IdVec<LayerId, Row>,
+    id_of: BTreeMap<String, LayerId>,
+    chooser: Chooser<'s>,
+    line_types: LineTypes,
+}
+
+impl<'s> Layers<'s> {
+    pub fn new(table: &[Record], header: &Header, selection: &'s Selection, line_types: LineTypes) -> Self {
+        let mut layers =
+            Self { rows: IdVec::new(), id_of: BTreeMap::new(), chooser: Chooser::new(selection, false), line_types };
+        layers.id("0");
+        for record in table {
+            layers.add(record, header);
+        }
+        layers
+    }
+
+    fn add(&mut self, record: &Record, header: &Header) {
+        let flag = |code| record.find(code).and_then(|pair| pair.integer()).unwrap_or(0);
+        let hidden = if flag(70) & 1 != 0 {
+            Some(Hidden::Frozen)
+        } else if flag(62) < 0 {
+            Some(Hidden::Off)
+        } else {
+            None
+        };
+        let layer = self.id(&header.name(record.text(2).unwrap_or_default()));
+        let row = &mut self.rows[layer];
+        row.hidden = row.hidden.or(hidden);
+        if let LineType::Named(name) = LineType::of(record, header) {
+            row.line_type = name;
+        }
+    }
+
+    /// The layer of this name, in the table from now on.
+    pub fn id(&mut self, name: &str) -> LayerId {
+        let key = key(name);
+        if let Some(&layer) = self.id_of.get(&key) {
+            return layer;
+        }
+        let hidden = (key == "defpoints").then_some(Hidden::Defpoints);
+        let row = Row {
+            text: name.to_owned(),
+            name: None,
+            hidden,
+            selected: self.chooser.takes([name]),
+            line_type: CONTINUOUS.into(),
+            drawn: BTreeMap::new(),
+        };
+        let layer = self.rows.push(row);
+        self.id_of.insert(key, layer);
+        layer
+    }
+
+    pub fn hidden(&self, layer: LayerId) -> Option<Hidden> {
+        self.rows[layer].hidden
+    }
+
+    /// Why what is drawn on this layer is left out, if it is.
+    pub fn why_not(&self, layer: LayerId) -> Option<&'static str> {
+        let row = &self.rows[layer];
+        row.hidden.map(Hidden::why).or((!row.selected).then_some(NOT_SELECTED))
+    }
+
+    /// The line type of an entity on this layer, where its block is drawn in another.
+    pub fn line_type(&self, line_type: &LineType, layer: LayerId, of_block: &Rc<str>) -> Rc<str> {
+        match line_type {
+            LineType::OfLayer => Rc::clone(&self.rows[layer].line_type),
+            LineType::OfBlock => Rc::clone(of_block),
+            LineType::Named(name) => Rc::clone(name),
+        }
+    }
+
+    /// Whether what is drawn in this line type is no edge, and is left out.
+    pub fn is_auxiliary(&self, line_type: &str) -> bool {
+        self.line_types == LineTypes::Edges && is_auxiliary(line_type)
+    }
+
+    /// Counts an entity that is drawn.
+    pub fn count(&mut self, layer: LayerId, line_type: Rc<str>) {
+        *self.rows[layer].drawn.entry(line_type).or_insert(0) += 1;
+    }
+
+    /// The name of what is drawn on the layer.
+    pub fn name(&mut self, layer: LayerId, drawing: &mut Drawing) -> NameId {
+        let Row { text, name, .. } = &mut self.rows[layer];
+        *name.get_or_insert_with(|| drawing.names.intern(text))
+    }
+
+    /// Hands the layers to the drawing, with what was asked for and does not exist.
+    pub fn hand_over(self, drawing: &mut Drawing) {
+        let line_types = |row: &Row| row.drawn.iter().map(|(name, &count)| (name.to_string(), count)).collect();
+        let layer = |row: &Row| Layer { name: row.text.clone(), line_types: line_types(row) };
+        drawing.layers = self.rows.iter().map(layer).collect();
+        drawing.unmatched = self.chooser.unmatched();
+    }
+}
+
+/// Whether a line type, in upper case, is one that drafting standards use for centre lines, for what is hidden, or for borders.
+///
+/// The names are those of `acad.lin` and `acadiso.lin`: groups of the standard types, of which `CENTER2` and `CENTERX2` are finer and coarser
+/// ones, and those of ISO 128 by their numbers, 02 dashed, 03 dashed spaced, 04 to 15 with dots or double dashes.
+fn is_auxiliary(line_type: &str) -> bool {
+    const GROUPS: [&str; 7] = ["CENTER", "CENTRE", "PHANTOM", "HIDDEN", "DASHDOT", "DIVIDE", "BORDER"];
+    const ISO: [&str; 3] = ["ACAD_ISO", "ISO", "DIN_ISO"];
+    let is_iso = |rest: &str| {
+        let digits = rest.trim_start_matches(['_', '-', ' ']);
+        let end = digits.find(|c: char| !c.is_ascii_digit()).unwrap_or(digits.len());
+        digits[..end].len() == 2 && digits[end..].starts_with('W') && matches!(digits[..end].parse(), Ok(4..=15))
+    };
+    GROUPS.iter().any(|group| line_type.starts_with(group))
+        || ISO.iter().filter_map(|iso| line_type.strip_prefix(iso)).any(is_iso)
+}
+
+/// Names of layers and blocks are the same in upper and lower case.
+pub(super) fn key(name: &str) -> String {
+    name.to_lowercase()
+}
