@@ -14,12 +14,15 @@ mod units;
 mod xml;
 
 use super::ImportError;
+use super::selection::{Choice, Chooser, Selection};
 use crate::curve::Curve;
-use crate::domain::{Drawing, DrawnCurve, FillRule, Shape, Skipped};
+use crate::domain::{Drawing, DrawnCurve, FillRule, Layer, Shape, Skipped};
 use crate::geometry::{Point, Vec2};
+use crate::ids::{Id, LayerId};
 use kurbo::{Affine, Size};
 use path::{HUGE, Outline, Subpath};
 use roxmltree::{Node, NodeId};
+use std::collections::BTreeMap;
 use std::rc::Rc;
 use style::{Declared, Painted, Property, Sheet, Style};
 use units::{Axis, Page, Viewport};
@@ -62,12 +65,13 @@ impl Default for SvgOptions {
     }
 }
 
-/// Reads an SVG file, or a compressed one (`.svgz`).
+/// Reads an SVG file, or a compressed one (`.svgz`). The names of which `selection` speaks are those of an element and of all groups
+/// around it: ids, and labels as Inkscape gives them to layers.
 ///
 /// # Errors
 /// Where the text is no XML or no SVG, a number is too large for any drawing, or the file unfolds beyond its bounds; where nothing is left
 /// of it and the data of an element are in error: the first such place.
-pub fn read(bytes: &[u8], stem: &str, options: &SvgOptions) -> Result<Drawing, ImportError> {
+pub fn read(bytes: &[u8], stem: &str, options: &SvgOptions, selection: &Selection) -> Result<Drawing, ImportError> {
     let (text, encoding) = xml::text(bytes)?;
     let document = xml::parse(&text)?;
     let root = document.root_element();
@@ -78,7 +82,7 @@ pub fn read(bytes: &[u8], stem: &str, options: &SvgOptions) -> Result<Drawing, I
     let css = style::sheet_text(&document);
     let sheet = Sheet::parse(&css);
     let page = Page::new(root, options.dpi);
-    let mut reader = Reader::new(&text, &sheet);
+    let mut reader = Reader::new(&text, &sheet, selection);
     reader.drawing.notes.extend(encoding.into_iter().chain(page.notes));
     if sheet.unread > 0 {
         let note = format!("{} selectors or at-rules of the style sheet are of kinds that are not read.", sheet.unread);
@@ -124,6 +128,8 @@ struct Context<'a> {
     /// The id that a `use` gives to the element that it shows.
     alias: Option<&'a str>,
     shown_by: Option<Rc<Shown>>,
+    /// What the names of the element and of all around it say.
+    choice: Choice,
     /// Width and height that a `use` gives to a symbol.
     given_size: [Option<&'a str>; 2],
 }
@@ -138,6 +144,7 @@ impl Context<'_> {
             id: None,
             alias: None,
             shown_by: None,
+            choice: Choice::default(),
             given_size: [None; 2],
         }
     }
@@ -158,16 +165,21 @@ struct Element {
     filled: bool,
     even_odd: bool,
     name: String,
+    layer: Option<LayerId>,
     entity: String,
+    /// The unit of the last decimal of its coordinates, in the drawing's.
+    last_decimal: f64,
 }
 
 struct Reader<'a> {
     text: &'a str,
     lines: Lines,
     sheet: &'a Sheet<'a>,
+    chooser: Chooser<'a>,
     /// Elements by id, sorted; of several with one id the first counts.
     ids: Vec<(&'a str, Node<'a, 'a>)>,
     elements: Vec<Element>,
+    layers: BTreeMap<&'a str, LayerId>,
     drawing: Drawing,
     /// Elements and curves shown by `use` so far.
     expanded: usize,
@@ -217,13 +229,15 @@ const LEFT_OUT: &[(&str, &str)] = &[
 ];
 
 impl<'a> Reader<'a> {
-    fn new(text: &'a str, sheet: &'a Sheet<'a>) -> Self {
+    fn new(text: &'a str, sheet: &'a Sheet<'a>, selection: &'a Selection) -> Self {
         Self {
             text,
             lines: Lines::new(text),
             sheet,
+            chooser: Chooser::new(selection, true),
             ids: Vec::new(),
             elements: Vec::new(),
+            layers: BTreeMap::new(),
             drawing: Drawing::default(),
             expanded: 0,
             empty_commands: 0,
@@ -236,6 +250,7 @@ impl<'a> Reader<'a> {
         self.ids = root.descendants().filter_map(|n| Some((n.attribute("id")?, n))).collect();
         self.ids.sort_by_key(|(id, _)| *id);
         self.ids.dedup_by_key(|(id, _)| *id);
+        root.descendants().flat_map(names).for_each(|name| self.chooser.learn(name));
     }
 
     fn by_id(&self, id: &str) -> Option<Node<'a, 'a>> {
@@ -358,6 +373,7 @@ impl<'a> Reader<'a> {
             self.skip(known, "its transform leaves no extent");
             return Ok(None);
         }
+        context.choice = self.chooser.choice(context.choice, names(node));
         let own = node.attribute((INKSCAPE, "label")).filter(|label| !label.trim().is_empty());
         if node.attribute((INKSCAPE, "groupmode")) == Some("layer") {
             context.layer = own.or(context.layer);
@@ -462,6 +478,10 @@ impl<'a> Reader<'a> {
             self.skip(known, "visibility is hidden");
             return Ok(());
         }
+        if !self.chooser.allows(context.choice) {
+            self.skip(known, "not of the layers that were asked for");
+            return Ok(());
+        }
         let markers = [Property::Marker, Property::MarkerStart, Property::MarkerMid, Property::MarkerEnd];
         if markers.into_iter().any(|m| declared.get(m).is_some_and(|value| value != "none")) {
             self.skip(known, "markers are not drawn");
@@ -497,8 +517,21 @@ impl<'a> Reader<'a> {
         let name = context.layer.or(context.id).map_or(colour, str::to_owned);
         let even_odd = context.style.even_odd;
         let subpaths = outline.subpaths.into_iter().map(|s| s.transformed(context.map)).collect();
-        self.elements.push(Element { subpaths, tag: known, filled, even_odd, name, entity });
+        let layer = context.layer.map(|name| self.layer(name));
+        let last_decimal = outline.last_decimal * libm::sqrt(context.map.determinant().abs());
+        self.elements.push(Element { subpaths, tag: known, filled, even_odd, name, layer, entity, last_decimal });
         Ok(())
+    }
+
+    /// The layer of this name, one element richer.
+    fn layer(&mut self, name: &'a str) -> LayerId {
+        let next = LayerId::from_index(self.drawing.layers.len());
+        let id = *self.layers.entry(name).or_insert(next);
+        if id == next {
+            self.drawing.layers.push(Layer { name: name.to_owned(), ..Layer::default() });
+        }
+        *self.drawing.layers[id].line_types.entry(String::new()).or_default() += 1;
+        id
     }
 
     /// Notes an error in the data of a path, polyline or polygon, and counts what follows it as left out.
@@ -612,11 +645,12 @@ impl<'a> Reader<'a> {
             self.drawing.skipped.push(Skipped { entity: "path command".into(), count, why: why.into() });
         }
         self.drawing.fill = if any_filled { FillRule::Shapes } else { FillRule::Regions };
+        self.drawing.unmatched = self.chooser.unmatched();
         self.drawing
     }
 
     fn add_shape(&mut self, element: Element) {
-        let Element { subpaths, even_odd, name, entity, .. } = element;
+        let Element { subpaths, even_odd, name, layer, entity, last_decimal, .. } = element;
         let name = self.drawing.names.intern(&name);
         let shape = self.drawing.shapes.push(Shape { name, even_odd, entity: entity.clone() });
         let curves = subpaths.into_iter().flat_map(|subpath| {
@@ -625,14 +659,17 @@ impl<'a> Reader<'a> {
         });
         for (curve, k) in curves.zip(1..) {
             let entity = format!("{entity}, curve {k}");
-            self.drawing.curves.push(DrawnCurve { shape: Some(shape), ..DrawnCurve::new(curve, name, entity) });
+            let plain = DrawnCurve::new(curve, name, entity);
+            self.drawing.curves.push(DrawnCurve { shape: Some(shape), layer, last_decimal, ..plain });
         }
     }
 
     fn add_lines(&mut self, element: Element) {
-        let Element { subpaths, name, entity, .. } = element;
+        let Element { subpaths, name, layer, entity, last_decimal, .. } = element;
+        let name = self.drawing.names.intern(&name);
         for (curve, k) in subpaths.into_iter().flat_map(|subpath| subpath.curves).zip(1..) {
-            self.drawing.add(curve, &name, format!("{entity}, curve {k}"));
+            let plain = DrawnCurve::new(curve, name, format!("{entity}, curve {k}"));
+            self.drawing.curves.push(DrawnCurve { layer, last_decimal, ..plain });
         }
     }
 }
@@ -641,6 +678,12 @@ impl Subpath {
     fn transformed(self, map: Affine) -> Self {
         Self { curves: self.curves.iter().map(|curve: &Curve| curve.transformed(map)).collect() }
     }
+}
+
+/// The names by which an element is asked for or left out.
+fn names<'a>(node: Node<'a, '_>) -> impl Iterator<Item = &'a str> {
+    let given = [node.attribute("id"), node.attribute((INKSCAPE, "label"))];
+    given.into_iter().flatten().filter(|name| !name.trim().is_empty())
 }
 
 /// Whether a child of a switch is for a reader that has no extensions and reads English.
