@@ -60,7 +60,7 @@ fn add_fills(fills: Vec<Fill>, drawing: &mut Drawing) {
     if drawing.curves.is_empty() {
         drawing.fill = FillRule::Shapes;
         for Fill { name, outlines, entity } in fills {
-            let shape = drawing.shapes.push(Shape { name, even_odd: true, entity: entity.clone() });
+            let shape = drawing.shapes.push(Shape::new(name, true, entity.clone()));
             let curves = outlines
                 .into_iter()
                 .map(|curve| DrawnCurve { shape: Some(shape), ..DrawnCurve::new(curve, name, entity.clone()) });

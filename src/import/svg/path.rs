@@ -230,6 +230,16 @@ impl Outline {
         pen.finish(finer(f64::INFINITY, [from.x, from.y, to.x, to.y]))
     }
 
+    /// The polygon of these corners.
+    pub fn of_corners(corners: &[Point]) -> Self {
+        let mut pen = Pen::default();
+        for (k, &corner) in corners.iter().enumerate() {
+            if k == 0 { pen.move_to(corner) } else { pen.line_to(corner) }
+        }
+        pen.close();
+        pen.outline
+    }
+
     /// The outline of a polyline or, closed, of a polygon; an odd number at the end is an error, as in path data.
     pub fn of_points(data: &str, closed: bool) -> Self {
         let mut pen = Pen::default();
