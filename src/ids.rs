@@ -48,6 +48,10 @@ ids! {
     NameId,
     /// A filled shape of a picture.
     ShapeId,
+    /// What shapes and curves of a picture are cut by.
+    ClipId,
+    /// What is seen on a face of a picture: the shapes that are painted on it.
+    SeenId,
     /// A layer of a drawing.
     LayerId,
     /// A protecting ball around an acute corner.

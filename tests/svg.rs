@@ -4,7 +4,7 @@ use proptest::prelude::*;
 use squinch::curve::Curve;
 use squinch::domain::{ArrangeOptions, Drawing, FillRule};
 use squinch::geometry::Point;
-use squinch::import::{Format, ImportError, Options, Strokes, SvgOptions, format_of, read};
+use squinch::import::{Format, ImportError, Options, Selection, Strokes, SvgOptions, format_of, read};
 use std::f64::consts::PI;
 use std::io::Write;
 use std::path::Path;
@@ -722,4 +722,38 @@ proptest! {
             }
         }
     }
+}
+
+fn chosen(inside: &str, only: &[&str], skip: &[&str]) -> Drawing {
+    let globs = |texts: &[&str]| texts.iter().map(|text| text.parse().unwrap()).collect();
+    let selection = Selection { only: globs(only), skip: globs(skip) };
+    let text = format!("{OPEN}{inside}</svg>");
+    read(text.as_bytes(), Format::Svg, "stem", &Options { selection, ..Options::default() }).unwrap()
+}
+
+#[test]
+fn layers_and_ids_choose_what_is_read() {
+    let inside = r##"<g inkscape:groupmode="layer" inkscape:label="Part"><g id="plate"><rect id="r1" width="9" height="9"/></g></g>
+        <g inkscape:groupmode="layer" inkscape:label="Frame 1"><rect id="r2" width="90" height="90"/></g>"##;
+    let count = |only: &[&str], skip: &[&str]| chosen(inside, only, skip).shapes.len();
+    assert_eq!(count(&[], &[]), 2);
+    assert_eq!(count(&["Part"], &[]), 1);
+    assert_eq!(count(&["plate"], &[]), 1, "a group around it");
+    assert_eq!(count(&["r?"], &["Frame*"]), 1);
+    assert_eq!(left_out(&chosen(inside, &[], &["r*"])), ["2 rect: not of the layers that were asked for"]);
+    let missed = chosen(inside, &[], &["Frmae 1"]).unmatched;
+    assert_eq!((missed[0].asked.as_str(), missed[0].near[0].as_str()), ("--skip-layers Frmae 1", "Frame 1"));
+    let layers = svg(inside).layers;
+    let listed: Vec<_> = layers.iter().map(|layer| (layer.name.as_str(), layer.line_types[""])).collect();
+    assert_eq!(listed, [("Part", 1), ("Frame 1", 1)]);
+}
+
+#[test]
+fn curves_know_the_last_decimal_of_their_numbers() {
+    let unit = |inside: &str| stroked(inside, Strokes::Lines).curves[0].last_decimal;
+    let line = |d: &str| unit(&format!(r#"<path fill="none" stroke="red" d="{d}"/>"#));
+    near(line("M0 0H80V.05"), 0.01);
+    near(line("M0 0h8.125v-2.5"), 0.001);
+    near(line("M0 0H80V60"), 0.0);
+    near(unit(r#"<g transform="scale(10)"><polyline fill="none" stroke="red" points="0 0 1 2.5"/></g>"#), 1.0);
 }

@@ -102,7 +102,7 @@ impl Face {
         let flat = self.flat()?;
         let mut drawing = Drawing { fill: FillRule::Shapes, frame: Some(self.frame), ..Drawing::default() };
         let name = drawing.names.intern(&self.name);
-        let shape = Some(drawing.shapes.push(Shape { name, even_odd: true, entity: self.entity.clone() }));
+        let shape = Some(drawing.shapes.push(Shape::new(name, true, self.entity.clone())));
         for (edges, curves) in self.loops.iter().zip(&flat.loops) {
             for (curve, index) in curves {
                 let edge = &edges[*index];

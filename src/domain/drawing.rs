@@ -1,7 +1,9 @@
 //! Curves, names and seeds as found in a file: nothing promised, nothing cleaned.
 
 use crate::curve::Curve;
+use crate::geometry::{Frame, Point, Rect};
 use crate::geometry::{Frame, Point, Rect, finest_decimal};
+use crate::ids::{ClipId, IdVec, LayerId, NameId, Names, ShapeId};
 use crate::ids::{IdVec, LayerId, NameId, Names, ShapeId};
 use std::collections::BTreeMap;
 
@@ -18,6 +20,8 @@ pub struct Drawing {
     pub seeds: Vec<Seed>,
     /// The filled shapes of a picture, in the order in which they are painted.
     pub shapes: IdVec<ShapeId, Shape>,
+    /// What shapes and curves are cut by.
+    pub clips: IdVec<ClipId, Clip>,
     /// The layers of the file, in its order.
     pub layers: IdVec<LayerId, Layer>,
     pub fill: FillRule,
@@ -63,6 +67,8 @@ pub struct DrawnCurve {
     pub entity: String,
     /// The shape whose outline it is a part of. The curves of a shape are closed outlines, end to end.
     pub shape: Option<ShapeId>,
+    /// What a curve of no shape is cut by: it is kept where it lies in the clip.
+    pub clip: Option<ClipId>,
     /// The layer that it is drawn on, where the file has layers.
     pub layer: Option<LayerId>,
     /// The number by which the file knows its entity (group 5 of a DXF entity).
@@ -75,7 +81,16 @@ pub struct DrawnCurve {
 impl DrawnCurve {
     /// A curve of which no more is known than its name and where it came from; its ends are exact.
     pub fn new(curve: Curve, name: NameId, entity: impl Into<String>) -> Self {
-        Self { curve, name, entity: entity.into(), shape: None, layer: None, handle: None, last_decimal: 0.0 }
+        Self {
+            curve,
+            name,
+            entity: entity.into(),
+            shape: None,
+            clip: None,
+            layer: None,
+            handle: None,
+            last_decimal: 0.0,
+        }
     }
 
     /// A curve whose ends the file writes themselves: their numbers tell the last decimal. Of computed ends it is about their rounding.
@@ -118,6 +133,25 @@ pub struct Shape {
     /// Filled where its outlines wind an odd number of times; else where they wind at all.
     pub even_odd: bool,
     pub entity: String,
+    /// What it is cut by.
+    pub clip: Option<ClipId>,
+    /// The clip that it is a part of: such a shape is not painted itself.
+    pub part_of: Option<ClipId>,
+}
+
+impl Shape {
+    /// A shape that is painted whole.
+    pub fn new(name: NameId, even_odd: bool, entity: impl Into<String>) -> Self {
+        Self { name, even_odd, entity: entity.into(), clip: None, part_of: None }
+    }
+}
+
+/// What cuts shapes and curves: they are there where one of its parts fills, and in what it lies within. Its parts are shapes
+/// ([`Shape::part_of`]), which may themselves be cut, by earlier clips.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Clip {
+    /// An earlier clip.
+    pub within: Option<ClipId>,
 }
 
 /// A point to be kept as a vertex.

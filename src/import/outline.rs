@@ -414,7 +414,7 @@ impl File {
         for (i, shape) in self.shapes.into_iter().enumerate() {
             let name = d.names.intern(&shape.name);
             let entity = shape.entity.unwrap_or_else(|| shape_entity(i));
-            d.shapes.push(Shape { name, even_odd: shape.even_odd, entity });
+            d.shapes.push(Shape::new(name, shape.even_odd, entity));
         }
         for (i, entry) in self.curves.into_iter().enumerate() {
             let name = d.names.intern(entry.name.as_deref().unwrap_or(UNNAMED));

@@ -58,6 +58,13 @@ pub struct Selection {
     pub skip: Vec<Glob>,
 }
 
+/// What the names that stand for an entity say of it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Choice {
+    asked: bool,
+    skipped: bool,
+}
+
 /// Asks for each entity whether it is selected, and remembers which patterns matched.
 pub(super) struct Chooser<'a> {
     selection: &'a Selection,
@@ -76,15 +83,26 @@ impl<'a> Chooser<'a> {
     }
 
     /// Whether an entity is read that all of these names stand for: its layer, or in SVG its own names and those of all groups around it.
-    pub fn takes<'n>(&mut self, names: impl IntoIterator<Item = &'n str> + Clone) -> bool {
-        for name in names.clone() {
+    pub fn takes<'n>(&mut self, names: impl IntoIterator<Item = &'n str>) -> bool {
+        let choice = self.choice(Choice::default(), names);
+        self.allows(choice)
+    }
+
+    /// What is said of an entity by its own names and by what is said of the groups around it.
+    pub fn choice<'n>(&mut self, around: Choice, names: impl IntoIterator<Item = &'n str>) -> Choice {
+        names.into_iter().fold(around, |said, name| {
             if !self.names.contains(name) {
                 self.learn(name);
             }
-        }
-        let any =
-            |globs: &[Glob]| names.clone().into_iter().any(|name| globs.iter().any(|g| g.matches(name, self.case)));
-        (self.selection.only.is_empty() || any(&self.selection.only)) && !any(&self.selection.skip)
+            let any = |globs: &[Glob]| globs.iter().any(|glob| glob.matches(name, self.case));
+            let Selection { only, skip } = self.selection;
+            Choice { asked: said.asked || any(only), skipped: said.skipped || any(skip) }
+        })
+    }
+
+    /// Whether an entity is read of which this is said.
+    pub fn allows(&self, choice: Choice) -> bool {
+        (self.selection.only.is_empty() || choice.asked) && !choice.skipped
     }
 
     /// Takes note of a layer, also one on which nothing is drawn.

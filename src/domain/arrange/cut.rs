@@ -1,11 +1,12 @@
 //! The network: drawn curves cut into pieces at their breaks and self-meetings, and the places where pieces meet.
 
+use super::fill::Seen;
 use super::{ArrangeError, Drawing, Repair, RepairKind, Tolerances, Unarranged};
 use crate::curve::{BreakKind, Curve, End, Meeting, MeetingKind, Meetings, Overlap, meetings, self_meetings};
 use crate::geometry::boxes::{BoxHierarchy, Labels};
 use crate::geometry::exact::{Orientation, orient};
 use crate::geometry::{Point, Rect};
-use crate::ids::{CurveId, Id, IdVec, PointId, ShapeId};
+use crate::ids::{CurveId, Id, IdVec, PointId, SeenId};
 use crate::watch::{Progress, Watch};
 use std::f64::consts::TAU;
 
@@ -112,8 +113,8 @@ pub(super) struct Piece {
     pub range: [f64; 2],
     /// Further drawn curves that run along the whole piece, and whether they run against it.
     pub merged: Vec<(u32, bool)>,
-    /// The shapes seen on its left and right, once hidden stretches are left out.
-    pub paint: Option<[Option<ShapeId>; 2]>,
+    /// What is seen on its left and right, once hidden stretches are left out.
+    pub paint: Option<[Option<SeenId>; 2]>,
     /// Not yet looked at for meetings.
     pub fresh: bool,
 }
@@ -228,6 +229,8 @@ pub(super) struct Network<'a> {
     pub drawn_ends: Vec<Option<[PointId; 2]>>,
     /// The drawn points.
     pub drawn_points: Vec<PointId>,
+    /// What the paint of pieces refers to.
+    pub seen: Seen,
 }
 
 /// A place at which a piece is to be cut.
@@ -269,6 +272,7 @@ impl<'a> Network<'a> {
             loops: Vec::new(),
             drawn_ends: Vec::new(),
             drawn_points: Vec::new(),
+            seen: Seen::default(),
         };
         for source in 0..drawing.curves.len() {
             network.progress("cutting", drawing.curves.len() - source).tell(watch)?;

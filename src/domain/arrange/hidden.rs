@@ -1,16 +1,18 @@
 //! What nobody sees: stretches of the outlines of a picture's shapes that later shapes cover. Where overlapping shapes are painted one over
 //! another, such a stretch bounds nothing, and the face that it runs through is one.
 //!
+//! Likewise what a clip cuts away, and of the outline of a clip all but the part that bounds what it cuts.
+//!
 //! What was split only where such stretches met it is made whole again: the same part of the drawn curve, not its fragments. The network is
 //! settled once more after that, as what was split had been moved by up to a tolerance.
 
 use super::RepairKind;
 use super::cut::{Network, Part, Piece, extent, is_spiral};
-use super::fill::{drawn_along, topmost};
+use super::fill::{lines_in_clips, painters};
 use super::trace::{Faces, Half};
 use crate::curve::End;
 use crate::domain::locate::Side;
-use crate::ids::{CurveId, IdVec, PointId, ShapeId};
+use crate::ids::{CurveId, IdVec, NameId, PointId, SeenId};
 use std::collections::BTreeSet;
 
 /// Where the parts of a drawn curve before and after a node differ by more in direction (a sine), there is a corner.
@@ -18,23 +20,24 @@ const STRAIGHT_ON: f64 = 0.01;
 
 impl Network<'_> {
     /// Leaves out the hidden stretches and notes on the others which shapes are seen beside them; whether there were any. `faces` are those
-    /// of the settled network.
-    pub fn drop_hidden(&mut self, faces: &Faces) -> bool {
-        let topmost = topmost(self, faces);
-        let seen = |id: CurveId, side| faces.face(Half { curve: id, side }).and_then(|face| topmost[face]);
-        let sides = |id: CurveId| [Side::Left, Side::Right].map(|side| seen(id, side));
-        let is_outline =
-            |id: CurveId| drawn_along(self, id).all(|(source, _)| self.drawing.curves[source as usize].shape.is_some());
+    /// of the settled network. Of `all` shapes, not only of the topmost, the borders are kept.
+    pub fn drop_hidden(&mut self, faces: &Faces, all: bool) -> bool {
+        let (seen, painters) = painters(self, faces, all);
+        let beside = |id: CurveId, side| faces.face(Half { curve: id, side }).and_then(|face| painters[face]);
+        let sides = |id: CurveId| [Side::Left, Side::Right].map(|side| beside(id, side));
+        let lines = lines_in_clips(self, faces);
+        let is_clipped = !self.drawing.clips.is_empty();
         let is_hidden = |id: CurveId| {
             let [left, right] = sides(id);
-            left.is_some() && left == right && is_outline(id)
+            left == right && (left.is_some() || is_clipped) && !lines[id]
         };
         let (hidden, left): (Vec<CurveId>, Vec<CurveId>) = self.pieces.ids().partition(|&id| is_hidden(id));
-        if hidden.is_empty() {
+        if hidden.is_empty() && !is_clipped {
             return false;
         }
+        self.seen = seen;
         let paint: Vec<_> = left.iter().map(|&id| sides(id)).collect();
-        self.itemise_hidden(&hidden, &topmost, faces);
+        self.itemise_hidden(&hidden, &painters, faces);
         let painted = |(&id, paint)| Piece { paint: Some(paint), ..self.pieces[id].clone() };
         let pieces: Vec<Piece> = left.iter().zip(paint).map(painted).collect();
         // Ends of outlines that are hidden are no nodes any more.
@@ -46,18 +49,35 @@ impl Network<'_> {
     }
 
     /// Once for every drawn curve of which something is hidden.
-    fn itemise_hidden(&mut self, hidden: &[CurveId], topmost: &[Option<ShapeId>], faces: &Faces) {
+    fn itemise_hidden(&mut self, hidden: &[CurveId], painters: &[Option<SeenId>], faces: &Faces) {
         let mut known = BTreeSet::new();
         for &id in hidden {
             let piece = &self.pieces[id];
-            if !known.insert(piece.source) {
+            // What is outside of a clip, and the clip's own outline, was never to be seen.
+            let over = faces.face(Half { curve: id, side: Side::Left }).and_then(|face| painters[face]);
+            let Some(over) = over.filter(|_| !self.is_of_clip(piece.source) && known.insert(piece.source)) else {
                 continue;
-            }
-            let over = faces.face(Half { curve: id, side: Side::Left }).and_then(|face| topmost[face]);
-            let over = over.map_or("another shape", |shape| &self.drawing.shapes[shape].entity);
+            };
+            let over = &self.drawing.shapes[self.seen.top(over)].entity;
             let what = format!("{} runs beneath {over} and was left out there", self.entity(piece.source));
             let at = piece.curve.point(0.5);
             self.repair(RepairKind::Hidden, at, 0.0, what);
+        }
+    }
+
+    /// Whether a drawn curve is of the outline of a clip.
+    fn is_of_clip(&self, source: u32) -> bool {
+        let shape = self.drawing.curves[source as usize].shape;
+        shape.is_some_and(|shape| self.drawing.shapes[shape].part_of.is_some())
+    }
+
+    /// The name of the boundary along a piece: the drawn one, but of the outline of a clip that of the shape which it cuts.
+    pub fn boundary_name(&self, piece: &Piece) -> NameId {
+        let drawn = self.drawing.curves[piece.source as usize].name;
+        let cut = piece.paint.into_iter().flatten().flatten().map(|seen| self.seen.top(seen)).max();
+        match cut {
+            Some(shape) if self.is_of_clip(piece.source) => self.drawing.shapes[shape].name,
+            Some(_) | None => drawn,
         }
     }
 

@@ -6,7 +6,8 @@
 //!    is one, rather than a computed crossing. Pieces that coincide become one.
 //! 3. `star`: the curves around every point, in order.
 //! 4. `trace`, `fill`: faces, winding numbers, painted shapes, hole and region seeds, names.
-//! 5. `hidden`: stretches of outlines that later shapes of a picture cover are left out, and 2 to 4 repeated without them.
+//! 5. `hidden`: stretches of outlines that later shapes of a picture cover, and what clips cut away, are left out, and 2 to 4 repeated
+//!    without them.
 //!
 //! **Invariant.** A drawn curve runs along pieces in its order, or its loss is itemised; every piece ends at the places of its two nodes, bit for
 //! bit, and lies within the tolerance of its curve for every time that it was moved.
@@ -354,7 +355,8 @@ fn arrange_in_unit_frame(
     let mut notes = network.settle_loose_ends(options.loose)?;
     let (mut domain, mut faces) = traced(&network, watch)?;
     let rule = if options.keep_all { FillRule::Regions } else { options.fill.unwrap_or(drawing.fill) };
-    if rule == FillRule::Shapes && !options.fragments && network.drop_hidden(&faces) {
+    let whole = rule == FillRule::Shapes && !options.fragments;
+    if (whole || !drawing.clips.is_empty()) && network.drop_hidden(&faces, !whole) {
         network.settle(watch)?;
         (domain, faces) = traced(&network, watch)?;
     }
@@ -394,7 +396,7 @@ fn bare_domain(network: &Network, watch: &mut Watch) -> Result<Domain, Unarrange
         curve: piece.curve.clone(),
         ends: piece.ends.map(|end| point_of[end].expect("a piece ends at used points")),
         sides: [None, None],
-        name: drawing.curves[piece.source as usize].name,
+        name: network.boundary_name(piece),
         source: piece.source,
     };
     let curves = network.pieces.iter().map(curve).collect();

@@ -87,3 +87,61 @@ fn read_sections(
     fills::add(&fills, &mut drawing);
     Ok(drawing)
 }
+
+/// Hatches as shapes where nothing else is drawn, else as names of regions.
+fn add_fills(fills: Vec<Fill>, drawing: &mut Drawing) {
+    if fills.is_empty() {
+        return;
+    }
+    if drawing.curves.is_empty() {
+        drawing.fill = FillRule::Shapes;
+        for Fill { name, outlines, entity } in fills {
+            let shape = drawing.shapes.push(Shape::new(name, true, entity.clone()));
+            let curves = outlines
+                .into_iter()
+                .map(|curve| DrawnCurve { shape: Some(shape), ..DrawnCurve::new(curve, name, entity.clone()) });
+            drawing.curves.extend(curves);
+        }
+        return;
+    }
+    drawing.notes.push(
+        "Hatches name the regions that they lie in; what is inside is said by the other outlines, which they repeat."
+            .into(),
+    );
+    for Fill { name, outlines, entity } in fills {
+        if let Some(at) = inner_point(&outlines) {
+            drawing.seeds.push(Seed { at, kind: SeedKind::Region { name, max_area: None }, entity });
+        }
+    }
+}
+
+/// A point within closed outlines by the odd-even rule: the middle of the longest stretch inside, on a few lines across.
+fn inner_point(outlines: &[Curve]) -> Option<Point> {
+    /// Heights of the lines, shares of the whole that no drawing has its corners at.
+    const LINES: [f64; 5] = [0.5037, 0.2963, 0.7193, 0.1043, 0.8989];
+    let bounds = outlines.iter().map(Curve::bounds).reduce(|a, b| a.union(b))?;
+    let mut best: Option<(f64, Point)> = None;
+    for share in LINES {
+        let y = bounds.y0 + share * bounds.height();
+        let from = Point::new(bounds.x0, y);
+        let places = |curve: &Curve| {
+            curve
+                .line_crossings(from, Vec2::new(1.0, 0.0), 0.0, 1.0)
+                .into_iter()
+                .map(|t| curve.point(t).x)
+                .collect::<Vec<_>>()
+        };
+        let mut crossings: Vec<f64> = outlines.iter().flat_map(places).collect();
+        crossings.sort_by(f64::total_cmp);
+        // A line that passes through a joint may miss it, and cannot tell inside from outside.
+        if crossings.len().is_multiple_of(2) {
+            for stretch in crossings.chunks_exact(2) {
+                let width = stretch[1] - stretch[0];
+                if best.is_none_or(|(widest, _)| width > widest) {
+                    best = Some((width, Point::new(0.5 * (stretch[0] + stretch[1]), y)));
+                }
+            }
+        }
+    }
+    best.map(|(_, at)| at)
+}

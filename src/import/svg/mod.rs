@@ -4,24 +4,34 @@
 //! (y → 2·min-y + height − y), without one in its height, without either about y = 0. [`Drawing::unit`] says what a user unit is.
 //!
 //! Names: the Inkscape layer, else the id of the element or of the nearest group around it (a `use` gives its id to what it shows),
-//! else the colour. A path is drawn up to the first error in its data, as SVG asks. Not applied, but counted: clip paths, masks,
-//! filters, markers, patterns; not read, but counted: text, images, whatever is hidden. Viewports do not clip, and strokes have no width.
+//! else the colour. A path is drawn up to the first error in its data, as SVG asks. Clip paths and viewports cut what they hold, and the
+//! page cuts what is filled. Not applied, but counted: masks, filters, markers, patterns; not read, but counted: text, images, whatever
+//! is hidden. Strokes have no width.
 
+mod clip;
+mod css;
 mod digits;
 mod path;
+mod selector;
 mod style;
+mod transform;
 mod units;
 mod xml;
 
 use super::ImportError;
+use super::selection::{Choice, Chooser, Selection};
 use crate::curve::Curve;
-use crate::domain::{Drawing, DrawnCurve, FillRule, Shape, Skipped};
-use crate::geometry::{Point, Vec2};
+use crate::domain::{Drawing, DrawnCurve, FillRule, Layer, Shape, Skipped};
+use crate::geometry::{Point, Rect, Vec2};
+use crate::ids::{ClipId, Id, LayerId, NameId};
+use clip::{CutterId, Cutters, Left, Placed};
+use css::Sheet;
 use kurbo::{Affine, Size};
 use path::{HUGE, Outline, Subpath};
 use roxmltree::{Node, NodeId};
+use std::collections::BTreeMap;
 use std::rc::Rc;
-use style::{Declared, Painted, Property, Sheet, Style};
+use style::{Declared, Painted, Property, Style};
 use units::{Axis, Page, Viewport};
 use xml::Lines;
 
@@ -33,6 +43,14 @@ const INKSCAPE: &str = "http://www.inkscape.org/namespaces/inkscape";
 const EXPANSION_MAX: usize = 1_000_000;
 /// How deep `use` may show `use`.
 const USE_DEPTH_MAX: usize = 64;
+/// How deep `use` is followed for the box around an element.
+const OWN_BOX_DEPTH_MAX: usize = 16;
+/// Why a masked element is counted.
+const MASK: &str = "masks are not applied";
+/// The name of a rectangle over the whole page that has none.
+const BACKGROUND: &str = "background";
+/// How far such a rectangle may stay inside the page, as a part of its diagonal: programs round.
+const BACKGROUND_SLACK: f64 = 1e-3;
 /// A map that squeezes one direction by more than this leaves nothing to see.
 const SQUEEZE_MIN: f64 = 1e-12;
 
@@ -62,12 +80,13 @@ impl Default for SvgOptions {
     }
 }
 
-/// Reads an SVG file, or a compressed one (`.svgz`).
+/// Reads an SVG file, or a compressed one (`.svgz`). The names of which `selection` speaks are those of an element and of all groups
+/// around it: ids, and labels as Inkscape gives them to layers.
 ///
 /// # Errors
 /// Where the text is no XML or no SVG, a number is too large for any drawing, or the file unfolds beyond its bounds; where nothing is left
 /// of it and the data of an element are in error: the first such place.
-pub fn read(bytes: &[u8], stem: &str, options: &SvgOptions) -> Result<Drawing, ImportError> {
+pub fn read(bytes: &[u8], stem: &str, options: &SvgOptions, selection: &Selection) -> Result<Drawing, ImportError> {
     let (text, encoding) = xml::text(bytes)?;
     let document = xml::parse(&text)?;
     let root = document.root_element();
@@ -75,10 +94,13 @@ pub fn read(bytes: &[u8], stem: &str, options: &SvgOptions) -> Result<Drawing, I
         let what = format!("the outermost element is '{}', not 'svg'", root.tag_name().name());
         return Err(ImportError::at(Lines::new(&text).place(root.range().start).0, what, "this is no SVG drawing"));
     }
-    let css = style::sheet_text(&document);
-    let sheet = Sheet::parse(&css);
+    let css = css::sheet_text(&document);
+    let sheet = Sheet::parse(&css, &document);
     let page = Page::new(root, options.dpi);
-    let mut reader = Reader::new(&text, &sheet);
+    let mut reader = Reader::new(&text, &sheet, selection);
+    if let Some(frame) = clip::page_of(root, &page) {
+        reader.cutters.set_page(frame, page.upward);
+    }
     reader.drawing.notes.extend(encoding.into_iter().chain(page.notes));
     if sheet.unread > 0 {
         let note = format!("{} selectors or at-rules of the style sheet are of kinds that are not read.", sheet.unread);
@@ -118,12 +140,15 @@ struct Context<'a> {
     /// To the drawing.
     map: Affine,
     viewport: Viewport,
+    cut_by: Option<CutterId>,
     layer: Option<&'a str>,
     /// The id of the nearest group around.
     id: Option<&'a str>,
     /// The id that a `use` gives to the element that it shows.
     alias: Option<&'a str>,
     shown_by: Option<Rc<Shown>>,
+    /// What the names of the element and of all around it say.
+    choice: Choice,
     /// Width and height that a `use` gives to a symbol.
     given_size: [Option<&'a str>; 2],
 }
@@ -134,10 +159,12 @@ impl Context<'_> {
             style: Style::default(),
             map,
             viewport,
+            cut_by: None,
             layer: None,
             id: None,
             alias: None,
             shown_by: None,
+            choice: Choice::default(),
             given_size: [None; 2],
         }
     }
@@ -158,16 +185,25 @@ struct Element {
     filled: bool,
     even_odd: bool,
     name: String,
+    layer: Option<LayerId>,
+    cut_by: Option<CutterId>,
+    /// A rectangle over the whole page, under everything.
+    is_background: bool,
     entity: String,
+    /// The unit of the last decimal of its coordinates, in the drawing's.
+    last_decimal: f64,
 }
 
 struct Reader<'a> {
     text: &'a str,
     lines: Lines,
     sheet: &'a Sheet<'a>,
+    chooser: Chooser<'a>,
     /// Elements by id, sorted; of several with one id the first counts.
     ids: Vec<(&'a str, Node<'a, 'a>)>,
     elements: Vec<Element>,
+    layers: BTreeMap<&'a str, LayerId>,
+    cutters: Cutters,
     drawing: Drawing,
     /// Elements and curves shown by `use` so far.
     expanded: usize,
@@ -217,13 +253,16 @@ const LEFT_OUT: &[(&str, &str)] = &[
 ];
 
 impl<'a> Reader<'a> {
-    fn new(text: &'a str, sheet: &'a Sheet<'a>) -> Self {
+    fn new(text: &'a str, sheet: &'a Sheet<'a>, selection: &'a Selection) -> Self {
         Self {
             text,
             lines: Lines::new(text),
             sheet,
+            chooser: Chooser::new(selection, true),
             ids: Vec::new(),
             elements: Vec::new(),
+            layers: BTreeMap::new(),
+            cutters: Cutters::default(),
             drawing: Drawing::default(),
             expanded: 0,
             empty_commands: 0,
@@ -236,6 +275,7 @@ impl<'a> Reader<'a> {
         self.ids = root.descendants().filter_map(|n| Some((n.attribute("id")?, n))).collect();
         self.ids.sort_by_key(|(id, _)| *id);
         self.ids.dedup_by_key(|(id, _)| *id);
+        root.descendants().flat_map(names).for_each(|name| self.chooser.learn(name));
     }
 
     fn by_id(&self, id: &str) -> Option<Node<'a, 'a>> {
@@ -287,11 +327,12 @@ impl<'a> Reader<'a> {
             self.skip(known, why);
             return Ok(());
         }
-        let declared = self.sheet.declared(node)?;
-        let Some(context) = self.enter(node, tag, around, &declared)? else { return Ok(()) };
+        let (style, declared) = around.style.of(self.sheet.declared(node)?);
+        let context = Context { style, ..(**around).clone() };
+        let Some(context) = self.enter(node, tag, context, &declared)? else { return Ok(()) };
         match tag {
             "svg" | "symbol" => {
-                if let Some(context) = self.viewport(node, tag, context) {
+                if let Some(context) = self.viewport(node, tag, context, &declared) {
                     self.push_children(node, context);
                 }
             }
@@ -300,7 +341,7 @@ impl<'a> Reader<'a> {
                 Some(child) => self.stack.push((child, Rc::new(context))),
                 None => self.skip("switch", "no child is for this reader"),
             },
-            "use" => self.show(node, context),
+            "use" => self.show(node, context, &declared),
             _ => self.shape(node, tag, &context, &declared)?,
         }
         Ok(())
@@ -319,11 +360,11 @@ impl<'a> Reader<'a> {
         &mut self,
         node: Node<'a, 'a>,
         tag: &'a str,
-        around: &Rc<Context<'a>>,
+        mut context: Context<'a>,
         declared: &Declared<'a>,
     ) -> Result<Option<Context<'a>>, ImportError> {
         let known = known_tag(tag);
-        if declared.get(Property::Display) == Some("none") {
+        if declared.given(Property::Display) == Some("none") {
             self.skip(known, "display is none");
             return Ok(None);
         }
@@ -331,26 +372,17 @@ impl<'a> Reader<'a> {
             self.skip(known, "opacity is 0");
             return Ok(None);
         }
-        let effects = [
-            (Property::ClipPath, "clip paths are not applied"),
-            (Property::Mask, "masks are not applied"),
-            (Property::Filter, "filters are not applied"),
-        ];
-        for (property, why) in effects {
-            if declared.get(property).is_some_and(|value| !matches!(value, "none" | "inherit")) {
+        for (property, why) in [(Property::Mask, MASK), (Property::Filter, "filters are not applied")] {
+            if declared.given(property).is_some_and(|value| value != "none") {
                 self.skip(known, why);
             }
         }
-        let mut context = Context { style: around.style.of(declared), ..(**around).clone() };
-        if let Some(text) = declared.get(Property::Transform) {
-            match units::transform(text) {
-                Some(map) => context.map *= map,
-                None => {
-                    let line = self.line(node);
-                    self.drawing
-                        .notes
-                        .push(format!("{tag} (line {line}): the transform '{}' cannot be read.", cut(text)));
-                }
+        let own = if transform::asks_for_own_box(declared) { self.own_box(node, context.viewport)? } else { None };
+        match transform::of(declared, context.viewport, own) {
+            Ok(map) => context.map *= map,
+            Err(text) => {
+                let line = self.line(node);
+                self.drawing.notes.push(format!("{tag} (line {line}): the transform '{}' cannot be read.", cut(text)));
             }
         }
         self.check_map(node, tag, context.map)?;
@@ -358,6 +390,11 @@ impl<'a> Reader<'a> {
             self.skip(known, "its transform leaves no extent");
             return Ok(None);
         }
+        if let Some(value) = declared.given(Property::ClipPath) {
+            let placed = Placed { map: context.map, viewport: context.viewport };
+            context.cut_by = self.clipped(node, value, placed, context.cut_by)?;
+        }
+        context.choice = self.chooser.choice(context.choice, names(node));
         let own = node.attribute((INKSCAPE, "label")).filter(|label| !label.trim().is_empty());
         if node.attribute((INKSCAPE, "groupmode")) == Some("layer") {
             context.layer = own.or(context.layer);
@@ -386,43 +423,49 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// The context inside an `svg` or a `symbol`: its view box fitted to its viewport. The outermost is its own measure.
-    fn viewport(&mut self, node: Node<'a, 'a>, tag: &str, mut context: Context<'a>) -> Option<Context<'a>> {
+    /// The context inside an `svg` or a `symbol`: its view box fitted to its viewport, which hides what reaches beyond it. The outermost
+    /// is its own measure.
+    fn viewport(
+        &mut self,
+        node: Node<'a, 'a>,
+        tag: &str,
+        mut context: Context<'a>,
+        declared: &Declared<'a>,
+    ) -> Option<Context<'a>> {
         let given = std::mem::take(&mut context.given_size);
         if node.parent().is_some_and(|parent| parent.is_root()) {
             return Some(context);
         }
-        let read = |text: Option<&str>, axis| text.and_then(|text| context.viewport.length(text, axis));
-        let Size { width, height } = context.viewport.size;
-        let side = |k: usize, name, axis, whole| {
-            read(given[k], axis).or_else(|| read(node.attribute(name), axis)).unwrap_or(whole)
-        };
-        let size = Size::new(side(0, "width", Axis::X, width), side(1, "height", Axis::Y, height));
-        let at = |name, axis| read(node.attribute(name), axis).unwrap_or(0.0);
-        let origin = Vec2::new(at("x", Axis::X), at("y", Axis::Y));
-        let mut map = context.map * Affine::translate(origin);
-        context.viewport.size = size;
-        let view = units::view_box(node);
-        if !(size.width > 0.0 && size.height > 0.0) || view == Some(None) {
+        let Some((bounds, map, viewport)) = nested_viewport(node, declared, given, context.viewport) else {
             self.skip(known_tag(tag), "its viewport has no extent");
             return None;
+        };
+        if !matches!(declared.given(Property::Overflow), Some("visible" | "auto")) {
+            context.cut_by = Some(self.viewport_cutter(node, tag, bounds, context.map, context.cut_by));
         }
-        if let Some(view) = view.flatten() {
-            map *= units::fit(node, view, size);
-            context.viewport.size = Size::new(view.w, view.h);
-        }
-        context.map = map;
+        context.map *= map;
+        context.viewport = viewport;
         Some(context)
     }
 
+    /// The element that a `use` refers to.
+    fn target(&self, node: Node<'a, 'a>) -> Option<Node<'a, 'a>> {
+        self.by_id(href(node).strip_prefix('#')?)
+    }
+
+    /// By how much a `use` moves what it shows.
+    fn shift(&self, declared: &Declared<'a>, viewport: Viewport) -> Affine {
+        let at = |property, axis| declared.given(property).and_then(|t| viewport.length(t, axis)).unwrap_or(0.0);
+        Affine::translate((at(Property::X, Axis::X), at(Property::Y, Axis::Y)))
+    }
+
     /// Pushes what a `use` refers to.
-    fn show(&mut self, node: Node<'a, 'a>, mut context: Context<'a>) {
-        let href = node.attribute("href").or_else(|| node.attribute((XLINK, "href"))).unwrap_or("").trim();
-        let Some(id) = href.strip_prefix('#') else {
-            return self
-                .skip("use", if href.is_empty() { "it refers to nothing" } else { "it refers to another file" });
-        };
-        let Some(target) = self.by_id(id) else { return self.skip("use", "it refers to nothing") };
+    fn show(&mut self, node: Node<'a, 'a>, mut context: Context<'a>, declared: &Declared<'a>) {
+        if !href(node).starts_with('#') {
+            let why = if href(node).is_empty() { "it refers to nothing" } else { "it refers to another file" };
+            return self.skip("use", why);
+        }
+        let Some(target) = self.target(node) else { return self.skip("use", "it refers to nothing") };
         let around = std::iter::successors(context.shown_by.as_deref(), |s| s.by.as_deref());
         let depth = context.shown_by.as_ref().map_or(0, |s| s.depth);
         if target.range().contains(&node.range().start) || around.into_iter().any(|s| s.target == target.id()) {
@@ -431,17 +474,49 @@ impl<'a> Reader<'a> {
         if depth == USE_DEPTH_MAX {
             return self.skip("use", "it is nested too deep");
         }
-        let at = |name, axis| node.attribute(name).and_then(|t| context.viewport.length(t, axis)).unwrap_or(0.0);
-        context.map *= Affine::translate((at("x", Axis::X), at("y", Axis::Y)));
-        context.given_size = match local_name(target) {
-            Some("svg" | "symbol") => [node.attribute("width"), node.attribute("height")],
-            _ => [None; 2],
-        };
+        context.map *= self.shift(declared, context.viewport);
+        context.given_size = given_size(target, declared);
         context.alias = node.attribute("id").filter(|id| !id.trim().is_empty());
         let line = self.line(node);
         let by = context.shown_by.take();
         context.shown_by = Some(Rc::new(Shown { target: target.id(), line, depth: depth + 1, by }));
         self.stack.push((target, Rc::new(context)));
+    }
+
+    /// The box around the outlines of an element and of all in it, in its own coordinates; `None` where there are none.
+    fn own_box(&mut self, node: Node<'a, 'a>, viewport: Viewport) -> Result<Option<Rect>, ImportError> {
+        let mut found: Option<Rect> = None;
+        let mut stack = vec![(node, Affine::IDENTITY, viewport, [None; 2], 0)];
+        while let Some((at, mut map, mut viewport, given, depth)) = stack.pop() {
+            self.expand(1)?;
+            let Some(tag) = local_name(at).filter(|tag| !NOT_DRAWN.contains(tag) || *tag == "symbol") else { continue };
+            let (_, declared) = Style::default().of(self.sheet.declared(at)?);
+            if declared.given(Property::Display) == Some("none") {
+                continue;
+            }
+            if at != node {
+                map *= transform::of(&declared, viewport, None).unwrap_or_default();
+            }
+            if matches!(tag, "svg" | "symbol") {
+                let Some((_, inner, within)) = nested_viewport(at, &declared, given, viewport) else { continue };
+                (map, viewport) = (map * inner, within);
+            }
+            if tag == "use" {
+                let map = map * self.shift(&declared, viewport);
+                let target = self.target(at).filter(|_| depth < OWN_BOX_DEPTH_MAX);
+                stack.extend(target.map(|target| (target, map, viewport, given_size(target, &declared), depth + 1)));
+                continue;
+            }
+            let Some(outline) = self.outline(at, tag, &declared, viewport)? else {
+                let children = at.children().filter(Node::is_element);
+                stack.extend(children.map(|child| (child, map, viewport, [None; 2], depth)));
+                continue;
+            };
+            let curves = outline.subpaths.iter().flat_map(|s| &s.curves);
+            let bounds = curves.map(|curve| curve.transformed(map).bounds()).reduce(|a, b| a.union(b));
+            found = bounds.into_iter().chain(found).reduce(|a, b| a.union(b));
+        }
+        Ok(found)
     }
 
     // ---- shapes ----
@@ -454,12 +529,16 @@ impl<'a> Reader<'a> {
         declared: &Declared<'a>,
     ) -> Result<(), ImportError> {
         let known = known_tag(tag);
-        let Some(outline) = self.outline(node, tag, context)? else {
+        let Some(outline) = self.outline(node, tag, declared, context.viewport)? else {
             self.skip(known, "it is no element of SVG that is drawn");
             return Ok(());
         };
         if !context.style.visible {
             self.skip(known, "visibility is hidden");
+            return Ok(());
+        }
+        if !self.chooser.allows(context.choice) {
+            self.skip(known, "not of the layers that were asked for");
             return Ok(());
         }
         let markers = [Property::Marker, Property::MarkerStart, Property::MarkerMid, Property::MarkerEnd];
@@ -496,9 +575,52 @@ impl<'a> Reader<'a> {
         let colour = if filled { fill } else { stroke }.unwrap_or_default();
         let name = context.layer.or(context.id).map_or(colour, str::to_owned);
         let even_odd = context.style.even_odd;
-        let subpaths = outline.subpaths.into_iter().map(|s| s.transformed(context.map)).collect();
-        self.elements.push(Element { subpaths, tag: known, filled, even_odd, name, entity });
+        let subpaths: Vec<Subpath> = outline.subpaths.into_iter().map(|s| s.transformed(context.map)).collect();
+        let is_background = filled && !self.elements.iter().any(|e| e.filled) && self.covers_page(&subpaths);
+        let name = match context.layer.or(context.id) {
+            None if is_background => BACKGROUND.to_owned(),
+            Some(_) | None => name,
+        };
+        let cut_by = context.cut_by;
+        let layer = context.layer.map(|name| self.layer(name));
+        let last_decimal = outline.last_decimal * libm::sqrt(context.map.determinant().abs());
+        let element = Element {
+            subpaths,
+            tag: known,
+            filled,
+            even_odd,
+            name,
+            layer,
+            cut_by,
+            is_background,
+            entity,
+            last_decimal,
+        };
+        self.elements.push(element);
         Ok(())
+    }
+
+    /// Whether an outline is a rectangle over the whole page.
+    fn covers_page(&self, subpaths: &[Subpath]) -> bool {
+        let ([subpath], Some(page)) = (subpaths, self.cutters.page_bounds()) else { return false };
+        let Some(bounds) = bounds_of_all(subpaths) else { return false };
+        let slack = BACKGROUND_SLACK * libm::hypot(page.width(), page.height());
+        let is_box = subpath.curves.iter().all(|c| {
+            let along = c.end() - c.start();
+            c.is_straight() && (along.x == 0.0 || along.y == 0.0)
+        });
+        is_box && bounds.inflate(slack, slack).union(page) == bounds.inflate(slack, slack)
+    }
+
+    /// The layer of this name, one element richer.
+    fn layer(&mut self, name: &'a str) -> LayerId {
+        let next = LayerId::from_index(self.drawing.layers.len());
+        let id = *self.layers.entry(name).or_insert(next);
+        if id == next {
+            self.drawing.layers.push(Layer { name: name.to_owned(), ..Layer::default() });
+        }
+        *self.drawing.layers[id].line_types.entry(String::new()).or_default() += 1;
+        id
     }
 
     /// Notes an error in the data of a path, polyline or polygon, and counts what follows it as left out.
@@ -548,35 +670,45 @@ impl<'a> Reader<'a> {
     }
 
     /// The outline of an element in its own coordinates; `None` of an element that is no shape.
-    fn outline(&self, node: Node, tag: &str, context: &Context) -> Result<Option<Outline>, ImportError> {
+    fn outline(
+        &self,
+        node: Node<'a, 'a>,
+        tag: &str,
+        declared: &Declared<'a>,
+        viewport: Viewport,
+    ) -> Result<Option<Outline>, ImportError> {
         let mut huge = None;
-        let mut length = |name: &str, axis| -> Option<f64> {
-            let value = context.viewport.length(node.attribute(name)?, axis)?;
+        let mut length = |text: Option<&str>, axis| -> Option<f64> {
+            let value = viewport.length(text?, axis)?;
             huge = huge.or((value.abs() > HUGE).then_some(value));
             Some(value)
         };
-        let mut pair =
-            |x: &str, y: &str| Point::new(length(x, Axis::X).unwrap_or(0.0), length(y, Axis::Y).unwrap_or(0.0));
+        let mut pair = |x: Option<&str>, y: Option<&str>| {
+            Point::new(length(x, Axis::X).unwrap_or(0.0), length(y, Axis::Y).unwrap_or(0.0))
+        };
+        let given = |property| declared.given(property);
+        let corner = |name| node.attribute(name);
         let outline = match tag {
-            "path" => Outline::of_path(node.attribute("d").unwrap_or("")),
+            "path" => Outline::of_path(path_data(given(Property::D).unwrap_or(""))),
             "polyline" | "polygon" => Outline::of_points(node.attribute("points").unwrap_or(""), tag == "polygon"),
-            "line" => Outline::of_line(pair("x1", "y1"), pair("x2", "y2")),
+            "line" => Outline::of_line(pair(corner("x1"), corner("y1")), pair(corner("x2"), corner("y2"))),
             "rect" => {
-                let (corner, size) = (pair("x", "y"), pair("width", "height").to_vec2());
+                let at = pair(given(Property::X), given(Property::Y));
+                let size = pair(given(Property::Width), given(Property::Height)).to_vec2();
                 // One radius stands for both; a negative one is none.
                 let radius = |value: Option<f64>| value.filter(|r| *r >= 0.0);
-                let (rx, ry) = (radius(length("rx", Axis::X)), radius(length("ry", Axis::Y)));
-                let radii = Vec2::new(rx.or(ry).unwrap_or(0.0), ry.or(rx).unwrap_or(0.0));
-                Outline::of_rect(corner, size, radii)
+                let rx = radius(length(given(Property::Rx), Axis::X));
+                let ry = radius(length(given(Property::Ry), Axis::Y));
+                Outline::of_rect(at, size, Vec2::new(rx.or(ry).unwrap_or(0.0), ry.or(rx).unwrap_or(0.0)))
             }
             "circle" => {
-                let center = pair("cx", "cy");
-                let radius = length("r", Axis::Both).unwrap_or(0.0);
+                let center = pair(given(Property::Cx), given(Property::Cy));
+                let radius = length(given(Property::R), Axis::Both).unwrap_or(0.0);
                 Outline::of_ellipse(center, Vec2::new(radius, radius))
             }
             "ellipse" => {
-                let center = pair("cx", "cy");
-                let (rx, ry) = (length("rx", Axis::X), length("ry", Axis::Y));
+                let center = pair(given(Property::Cx), given(Property::Cy));
+                let (rx, ry) = (length(given(Property::Rx), Axis::X), length(given(Property::Ry), Axis::Y));
                 Outline::of_ellipse(center, Vec2::new(rx.or(ry).unwrap_or(0.0), ry.or(rx).unwrap_or(0.0)))
             }
             _ => return Ok(None),
@@ -591,56 +723,155 @@ impl<'a> Reader<'a> {
 
     /// Shapes, and centre lines as asked for.
     fn drawn(mut self, strokes: Strokes) -> Drawing {
-        let any_filled = self.elements.iter().any(|e| e.filled);
+        let mut elements = std::mem::take(&mut self.elements);
+        let is_shape = |e: &Element| e.filled && !e.is_background;
+        let has_lines = elements.iter().any(|e| !e.filled);
         let keep_lines = match strokes {
-            Strokes::Auto => !any_filled,
+            Strokes::Auto => !elements.iter().any(is_shape),
             Strokes::Lines => true,
             Strokes::Ignore => false,
         };
-        for element in std::mem::take(&mut self.elements) {
-            if element.filled {
-                self.add_shape(element);
-            } else if keep_lines {
-                self.add_lines(element);
-            } else {
-                let why = "stroke only; --strokes lines keeps them";
-                self.skip(element.tag, why);
+        if strokes == Strokes::Auto && keep_lines && has_lines {
+            for background in elements.iter().filter(|e| e.filled) {
+                self.skip(background.tag, "a background over the whole page, beneath outlines that are only stroked");
             }
+            elements.retain(|e| !e.filled);
+        }
+        self.drawing.fill = if elements.iter().any(|e| e.filled) { FillRule::Shapes } else { FillRule::Regions };
+        let mut cut_at_page = 0;
+        for element in elements {
+            if !element.filled && !keep_lines {
+                self.skip(element.tag, "stroke only; --strokes lines keeps them");
+                continue;
+            }
+            let name = self.drawing.names.intern(&element.name);
+            let Some(bounds) = bounds_of_all(&element.subpaths) else { continue };
+            // The page is that of a picture; a drawing of lines has no edge.
+            let on_page = self.cutters.page.filter(|_| element.filled);
+            let Left::In(clip) = self.left_of(bounds, element.cut_by, element.filled, name) else {
+                let why = match self.left_of(bounds, element.cut_by, false, name) {
+                    Left::In(_) => "outside of the page",
+                    Left::Nothing => "cut away by a clip path or a viewport",
+                };
+                self.skip(element.tag, why);
+                continue;
+            };
+            cut_at_page += usize::from(on_page.is_some_and(|page| self.is_cut_at(clip, page)));
+            if element.filled { self.add_shape(element, name, clip) } else { self.add_lines(element, name, clip) }
+        }
+        if cut_at_page > 0 {
+            let note = format!(
+                "Filled shapes that reach beyond the page: {cut_at_page}; cut at its edge (overflow=\"visible\" on the outermost svg \
+                 element keeps them whole)."
+            );
+            self.drawing.notes.push(note);
+        }
+        let masks = self.drawing.skipped.iter().filter(|s| s.why == MASK).map(|s| s.count).sum::<usize>();
+        if masks > 0 {
+            let note = format!("Elements with a mask: {masks}; masks are not applied, and what they hide is there.");
+            self.drawing.notes.push(note);
         }
         if self.empty_commands > 0 {
             let (count, why) = (self.empty_commands, "of no length");
             self.drawing.skipped.push(Skipped { entity: "path command".into(), count, why: why.into() });
         }
-        self.drawing.fill = if any_filled { FillRule::Shapes } else { FillRule::Regions };
+        self.drawing.unmatched = self.chooser.unmatched();
         self.drawing
     }
 
-    fn add_shape(&mut self, element: Element) {
-        let Element { subpaths, even_odd, name, entity, .. } = element;
-        let name = self.drawing.names.intern(&name);
-        let shape = self.drawing.shapes.push(Shape { name, even_odd, entity: entity.clone() });
+    fn add_shape(&mut self, element: Element, name: NameId, clip: Option<ClipId>) {
+        let Element { subpaths, even_odd, layer, entity, last_decimal, .. } = element;
+        let shape = Shape { clip, ..Shape::new(name, even_odd, entity.clone()) };
+        let shape = self.drawing.shapes.push(shape);
         let curves = subpaths.into_iter().flat_map(|subpath| {
             let closing = subpath.closing();
             subpath.curves.into_iter().chain(closing)
         });
         for (curve, k) in curves.zip(1..) {
-            let entity = format!("{entity}, curve {k}");
-            self.drawing.curves.push(DrawnCurve { shape: Some(shape), ..DrawnCurve::new(curve, name, entity) });
+            let plain = DrawnCurve::new(curve, name, format!("{entity}, curve {k}"));
+            self.drawing.curves.push(DrawnCurve { shape: Some(shape), layer, last_decimal, ..plain });
         }
     }
 
-    fn add_lines(&mut self, element: Element) {
-        let Element { subpaths, name, entity, .. } = element;
+    fn add_lines(&mut self, element: Element, name: NameId, clip: Option<ClipId>) {
+        let Element { subpaths, layer, entity, last_decimal, .. } = element;
         for (curve, k) in subpaths.into_iter().flat_map(|subpath| subpath.curves).zip(1..) {
-            self.drawing.add(curve, &name, format!("{entity}, curve {k}"));
+            let plain = DrawnCurve::new(curve, name, format!("{entity}, curve {k}"));
+            self.drawing.curves.push(DrawnCurve { clip, layer, last_decimal, ..plain });
         }
     }
 }
 
+/// The box around subpaths; `None` of none.
+fn bounds_of_all(subpaths: &[Subpath]) -> Option<Rect> {
+    subpaths.iter().flat_map(|s| &s.curves).map(|c| c.bounds()).reduce(|a, b| a.union(b))
+}
+
+/// What a `use` refers to, as written.
+fn href<'a>(node: Node<'a, '_>) -> &'a str {
+    node.attribute("href").or_else(|| node.attribute((XLINK, "href"))).unwrap_or("").trim()
+}
+
+/// The width and height that a `use` gives to what it shows.
+fn given_size<'a>(target: Node, declared: &Declared<'a>) -> [Option<&'a str>; 2] {
+    match local_name(target) {
+        Some("svg" | "symbol") => [declared.given(Property::Width), declared.given(Property::Height)],
+        Some(_) | None => [None; 2],
+    }
+}
+
+/// The viewport of an `svg` or a `symbol` inside another: its box, the map from its own coordinates to those around it, and what lengths
+/// are parts of there; `None` of one without extent.
+fn nested_viewport<'a>(
+    node: Node,
+    declared: &Declared<'a>,
+    given: [Option<&'a str>; 2],
+    around: Viewport,
+) -> Option<(Rect, Affine, Viewport)> {
+    let read = |text: Option<&str>, axis| text.and_then(|text| around.length(text, axis));
+    let side = |k: usize, property, axis, whole| {
+        read(given[k], axis).or_else(|| read(declared.given(property), axis)).unwrap_or(whole)
+    };
+    let width = side(0, Property::Width, Axis::X, around.size.width);
+    let height = side(1, Property::Height, Axis::Y, around.size.height);
+    let at = |property, axis| read(declared.given(property), axis).unwrap_or(0.0);
+    let origin = Point::new(at(Property::X, Axis::X), at(Property::Y, Axis::Y));
+    let size = Size::new(width, height);
+    let view = units::view_box(node);
+    if !(width > 0.0 && height > 0.0) || view == Some(None) {
+        return None;
+    }
+    let bounds = Rect::from_origin_size(origin, size);
+    let shifted = Affine::translate(origin.to_vec2());
+    Some(match view.flatten() {
+        Some(view) => {
+            let inner = Viewport { size: Size::new(view.w, view.h), ..around };
+            (bounds, shifted * units::fit(node, view, size), inner)
+        }
+        None => (bounds, shifted, Viewport { size, ..around }),
+    })
+}
+
+/// Path data, as an attribute or as the `path("…")` of a style sheet.
+fn path_data(text: &str) -> &str {
+    let inner = text.strip_prefix("path(").and_then(|rest| rest.trim_end().strip_suffix(')'));
+    match inner {
+        Some(quoted) => quoted.trim().trim_matches(['"', '\'']),
+        None if text == "none" => "",
+        None => text,
+    }
+}
+
 impl Subpath {
-    fn transformed(self, map: Affine) -> Self {
+    pub fn transformed(self, map: Affine) -> Self {
         Self { curves: self.curves.iter().map(|curve: &Curve| curve.transformed(map)).collect() }
     }
+}
+
+/// The names by which an element is asked for or left out.
+fn names<'a>(node: Node<'a, '_>) -> impl Iterator<Item = &'a str> {
+    let given = [node.attribute("id"), node.attribute((INKSCAPE, "label"))];
+    given.into_iter().flatten().filter(|name| !name.trim().is_empty())
 }
 
 /// Whether a child of a switch is for a reader that has no extensions and reads English.

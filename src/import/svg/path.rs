@@ -1,7 +1,7 @@
 //! Path data and basic shapes → curves (SVG 2, chapters 9 and 10). Arcs stay arcs.
 
 use crate::curve::Curve;
-use crate::geometry::{Point, Vec2};
+use crate::geometry::{Point, Vec2, finest_decimal};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use svgtypes::{NumberListParser, PathParser, PathSegment};
 
@@ -45,6 +45,8 @@ pub(super) struct Outline {
     pub broken: Option<(Option<usize>, String)>,
     /// A number that is refused.
     pub huge: Option<f64>,
+    /// One unit of the last decimal of its numbers; 0 where all are whole.
+    pub last_decimal: f64,
 }
 
 /// Draws subpaths in the order of commands.
@@ -122,6 +124,12 @@ impl Pen {
         self.move_to(self.start);
     }
 
+    /// The outline, whose numbers have this finest decimal; an infinite one of whole numbers.
+    fn finish(self, finest: f64) -> Outline {
+        let last_decimal = if finest.is_finite() { finest } else { 0.0 };
+        Outline { last_decimal, ..self.outline }
+    }
+
     fn draw(&mut self, segment: PathSegment) {
         let origin = if segment.is_abs() { Vec2::ZERO } else { self.at.to_vec2() };
         let point = |x: f64, y: f64| Point::new(x, y) + origin;
@@ -190,10 +198,12 @@ impl Outline {
     /// The outline of path data, up to its first error.
     pub fn of_path(data: &str) -> Self {
         let mut pen = Pen::default();
+        let mut finest = f64::INFINITY;
         for segment in PathParser::from(data) {
             match segment {
                 Ok(segment) => {
-                    if let Some(huge) = largest(&segment).filter(|n| *n > HUGE) {
+                    finest = finer(finest, numbers(&segment));
+                    if let Some(huge) = numbers(&segment).into_iter().map(f64::abs).find(|n| *n > HUGE) {
                         pen.outline.huge = Some(huge);
                         break;
                     }
@@ -210,13 +220,23 @@ impl Outline {
                 }
             }
         }
-        pen.outline
+        pen.finish(finest)
     }
 
     pub fn of_line(from: Point, to: Point) -> Self {
         let mut pen = Pen::default();
         pen.move_to(from);
         pen.line_to(to);
+        pen.finish(finer(f64::INFINITY, [from.x, from.y, to.x, to.y]))
+    }
+
+    /// The polygon of these corners.
+    pub fn of_corners(corners: &[Point]) -> Self {
+        let mut pen = Pen::default();
+        for (k, &corner) in corners.iter().enumerate() {
+            if k == 0 { pen.move_to(corner) } else { pen.line_to(corner) }
+        }
+        pen.close();
         pen.outline
     }
 
@@ -224,7 +244,7 @@ impl Outline {
     pub fn of_points(data: &str, closed: bool) -> Self {
         let mut pen = Pen::default();
         let mut numbers = NumberListParser::from(data);
-        let mut first = true;
+        let (mut first, mut finest) = (true, f64::INFINITY);
         while let Some(x) = numbers.next() {
             let (x, y) = match (x, numbers.next()) {
                 (Ok(x), Some(Ok(y))) => (x, y),
@@ -238,12 +258,13 @@ impl Outline {
                 }
             };
             pen.outline.huge = pen.outline.huge.or([x, y].into_iter().find(|x| x.abs() > HUGE));
+            finest = finer(finest, [x, y]);
             if std::mem::take(&mut first) { pen.move_to(Point::new(x, y)) } else { pen.line_to(Point::new(x, y)) }
         }
         if closed {
             pen.close();
         }
-        pen.outline
+        pen.finish(finest)
     }
 
     /// The rectangle with corners cut by ellipses of these radii, from the left of its upper edge clockwise as seen.
@@ -307,9 +328,9 @@ fn quarter(from: Point, to: Point, r: Vec2, k: usize) -> Option<Curve> {
     Some(curve)
 }
 
-/// The largest number of a segment, without its sign.
-fn largest(segment: &PathSegment) -> Option<f64> {
-    let numbers = match *segment {
+/// The numbers of a segment that are lengths, and the angle of an arc; 0 in the place of others.
+fn numbers(segment: &PathSegment) -> [f64; 6] {
+    match *segment {
         PathSegment::MoveTo { x, y, .. }
         | PathSegment::LineTo { x, y, .. }
         | PathSegment::SmoothQuadratic { x, y, .. } => [x, y, 0.0, 0.0, 0.0, 0.0],
@@ -320,9 +341,16 @@ fn largest(segment: &PathSegment) -> Option<f64> {
             [x1, y1, x, y, 0.0, 0.0]
         }
         PathSegment::EllipticalArc { rx, ry, x_axis_rotation, x, y, .. } => [rx, ry, x_axis_rotation, x, y, 0.0],
-        PathSegment::ClosePath { .. } => return None,
-    };
-    numbers.into_iter().map(f64::abs).reduce(f64::max)
+        PathSegment::ClosePath { .. } => [0.0; 6],
+    }
+}
+
+/// The finer of a unit and the last decimals of some numbers.
+fn finer(unit: f64, numbers: impl IntoIterator<Item = f64>) -> f64 {
+    match finest_decimal(numbers) {
+        0.0 => unit,
+        found => unit.min(found),
+    }
 }
 
 /// Characters before an error of the data, from 0; `None` where it ends too early.

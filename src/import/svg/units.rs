@@ -1,10 +1,10 @@
-//! Lengths, transforms and view boxes (SVG 2, chapters 8 and 9), and the page: what a user unit is, and where up is.
+//! Lengths, angles and view boxes (SVG 2, chapter 8; CSS Values 4), and the page: what a user unit is, and where up is.
 
-use crate::geometry::Vec2;
+use crate::geometry::{Rect, Vec2};
 use kurbo::{Affine, Size};
 use roxmltree::Node;
 use std::str::FromStr;
-use svgtypes::{Align, AspectRatio, Length, LengthUnit, TransformListParser, TransformListToken, ViewBox};
+use svgtypes::{Align, AspectRatio, ViewBox};
 
 /// CSS: an inch has 96 px.
 pub(super) const CSS_DPI: f64 = 96.0;
@@ -20,16 +20,62 @@ pub(super) enum Axis {
     Both,
 }
 
-/// Inches in a unit that has a size of its own; px by `dpi`.
-fn inches(unit: LengthUnit, dpi: f64) -> Option<f64> {
-    match unit {
-        LengthUnit::None | LengthUnit::Px => Some(1.0 / dpi),
-        LengthUnit::In => Some(1.0),
-        LengthUnit::Cm => Some(1.0 / 2.54),
-        LengthUnit::Mm => Some(0.1 / 2.54),
-        LengthUnit::Pt => Some(1.0 / 72.0),
-        LengthUnit::Pc => Some(1.0 / 6.0),
-        LengthUnit::Em | LengthUnit::Ex | LengthUnit::Percent => None,
+/// A number with what stands behind it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Quantity<'a> {
+    pub number: f64,
+    pub unit: &'a str,
+}
+
+impl<'a> Quantity<'a> {
+    /// The quantity that a text begins with, and the rest.
+    pub fn first(text: &'a str) -> Option<(Self, &'a str)> {
+        let bytes = text.as_bytes();
+        let digits = |from: usize| from + bytes[from..].iter().take_while(|b| b.is_ascii_digit()).count();
+        let sign = |at: usize| at + usize::from(matches!(bytes.get(at), Some(b'+' | b'-')));
+        let whole = digits(sign(0));
+        let mut end = if bytes.get(whole) == Some(&b'.') { digits(whole + 1) } else { whole };
+        if matches!(bytes.get(end), Some(b'e' | b'E')) {
+            // An exponent has digits; `em` has none.
+            let exponent = sign(end + 1);
+            end = if digits(exponent) > exponent { digits(exponent) } else { end };
+        }
+        let number = text[..end].parse().ok()?;
+        let rest = &text[end..];
+        let unit = rest.find(|c: char| !c.is_ascii_alphabetic() && c != '%').unwrap_or(rest.len());
+        let (unit, rest) = rest.split_at(unit);
+        Some((Self { number, unit }, rest))
+    }
+
+    /// A text that is one quantity.
+    pub fn parse(text: &'a str) -> Option<Self> {
+        let (quantity, rest) = Self::first(text.trim())?;
+        rest.is_empty().then_some(quantity)
+    }
+
+    /// Inches of one unit that has a size of its own; px by `dpi`.
+    fn inches(self, dpi: f64) -> Option<f64> {
+        match self.unit.to_ascii_lowercase().as_str() {
+            "" | "px" => Some(1.0 / dpi),
+            "in" => Some(1.0),
+            "cm" => Some(1.0 / 2.54),
+            "mm" => Some(0.1 / 2.54),
+            "q" => Some(0.025 / 2.54),
+            "pt" => Some(1.0 / 72.0),
+            "pc" => Some(1.0 / 6.0),
+            _ => None,
+        }
+    }
+
+    /// As an angle, in degrees; a number without unit is one.
+    pub fn degrees(self) -> Option<f64> {
+        match self.unit.to_ascii_lowercase().as_str() {
+            "" | "deg" => Some(self.number),
+            "grad" => Some(0.9 * self.number),
+            "rad" => Some(self.number.to_degrees()),
+            "turn" => Some(360.0 * self.number),
+            _ => None,
+        }
     }
 }
 
@@ -40,61 +86,34 @@ pub(super) struct Viewport {
     pub dpi: f64,
 }
 
+/// Pixels of a letter's height, of which em, ex and their like are parts: nothing here knows fonts.
+const LETTER: f64 = 16.0;
+
 impl Viewport {
     /// A length in user units; `None` where the text is none. A letter is taken to be 16 px high (`em`).
     pub fn length(&self, text: &str, axis: Axis) -> Option<f64> {
-        let Length { number, unit } = Length::from_str(text.trim()).ok()?;
+        self.measure(Quantity::parse(text)?, axis)
+    }
+
+    pub fn measure(&self, quantity: Quantity, axis: Axis) -> Option<f64> {
         let Size { width, height } = self.size;
-        Some(match unit {
-            LengthUnit::None | LengthUnit::Px => number,
-            LengthUnit::Em => 16.0 * number,
-            LengthUnit::Ex => 8.0 * number,
-            LengthUnit::Percent => {
-                let whole = match axis {
-                    Axis::X => width,
-                    Axis::Y => height,
-                    Axis::Both => libm::hypot(width, height) * std::f64::consts::FRAC_1_SQRT_2,
-                };
-                whole * number / 100.0
-            }
-            absolute => number * self.dpi * inches(absolute, self.dpi)?,
-        })
-    }
-}
-
-/// Cosine and sine of an angle in degrees; exact at quarter turns.
-fn direction(degrees: f64) -> Vec2 {
-    let quarters = degrees / 90.0;
-    if quarters == libm::floor(quarters) {
-        let turns = quarters - 4.0 * libm::floor(quarters / 4.0);
-        return [Vec2::new(1.0, 0.0), Vec2::new(0.0, 1.0), Vec2::new(-1.0, 0.0), Vec2::new(0.0, -1.0)][turns as usize];
-    }
-    let (sin, cos) = libm::sincos(degrees.to_radians());
-    Vec2::new(cos, sin)
-}
-
-/// The map of a `transform`; `None` where it cannot be read. The property of CSS may carry the units `px` and `deg`.
-pub(super) fn transform(text: &str) -> Option<Affine> {
-    if text.trim() == "none" {
-        return Some(Affine::IDENTITY);
-    }
-    let plain = text.replace("px", "").replace("deg", "");
-    let mut map = Affine::IDENTITY;
-    for token in TransformListParser::from(plain.as_str()) {
-        let skew = |degrees: f64| libm::tan(degrees.to_radians());
-        map *= match token.ok()? {
-            TransformListToken::Matrix { a, b, c, d, e, f } => Affine::new([a, b, c, d, e, f]),
-            TransformListToken::Translate { tx, ty } => Affine::translate((tx, ty)),
-            TransformListToken::Scale { sx, sy } => Affine::scale_non_uniform(sx, sy),
-            TransformListToken::Rotate { angle } => {
-                let Vec2 { x, y } = direction(angle);
-                Affine::new([x, y, -y, x, 0.0, 0.0])
-            }
-            TransformListToken::SkewX { angle } => Affine::new([1.0, 0.0, skew(angle), 1.0, 0.0, 0.0]),
-            TransformListToken::SkewY { angle } => Affine::new([1.0, skew(angle), 0.0, 1.0, 0.0, 0.0]),
+        let share = match quantity.unit.to_ascii_lowercase().as_str() {
+            "em" | "rem" | "lh" | "rlh" | "ic" => LETTER,
+            "ex" | "ch" | "cap" => 0.5 * LETTER,
+            "vw" | "vi" | "svw" | "lvw" | "dvw" => width / 100.0,
+            "vh" | "vb" | "svh" | "lvh" | "dvh" => height / 100.0,
+            "vmin" => width.min(height) / 100.0,
+            "vmax" => width.max(height) / 100.0,
+            "%" => match axis {
+                Axis::X => width / 100.0,
+                Axis::Y => height / 100.0,
+                Axis::Both => libm::hypot(width, height) * std::f64::consts::FRAC_1_SQRT_2 / 100.0,
+            },
+            "" | "px" => 1.0,
+            _ => self.dpi * quantity.inches(self.dpi)?,
         };
+        Some(quantity.number * share)
     }
-    Some(map)
 }
 
 /// The view box of an element, where it has one; `Some(None)` of one without extent, which shows nothing.
@@ -134,6 +153,8 @@ pub(super) struct Page {
     /// Turns y upward: the mirror image in the view box, of a page without one in its height, else about y = 0.
     pub upward: Affine,
     pub viewport: Viewport,
+    /// All that the page shows, in user units; `None` where the file does not say how large it is.
+    pub frame: Option<Rect>,
     /// What a user unit is, and where that was read.
     pub unit: (String, String),
     pub notes: Vec<String>,
@@ -143,12 +164,12 @@ impl Page {
     pub fn new(root: Node, dpi: f64) -> Self {
         let view = view_box(root).flatten();
         let absolute = |name| {
-            let length = Length::from_str(root.attribute(name)?.trim()).ok()?;
-            let inches = length.number * inches(length.unit, dpi)?;
+            let length = Quantity::parse(root.attribute(name)?)?;
+            let inches = length.number * length.inches(dpi)?;
             (inches > 0.0 && inches.is_finite()).then_some((length, inches))
         };
         let (width, height) = (absolute("width"), absolute("height"));
-        let px = |side: Option<(Length, f64)>| side.map(|(_, inches)| inches * dpi);
+        let px = |side: Option<(Quantity, f64)>| side.map(|(_, inches)| inches * dpi);
         let size = match view {
             Some(view) => Size::new(view.w, view.h),
             None => Size::new(px(width).unwrap_or(DEFAULT_SIZE.width), px(height).unwrap_or(DEFAULT_SIZE.height)),
@@ -157,10 +178,19 @@ impl Page {
             Some(view) => 2.0 * view.y + view.h,
             None => px(height).unwrap_or(0.0),
         };
+        let in_px = px(width).zip(px(height)).map(|(width, height)| Size::new(width, height));
+        let frame = match (view, in_px) {
+            (Some(view), Some(size)) => {
+                let shown = Rect::from_origin_size((0.0, 0.0), size);
+                Some(fit(root, view, size).inverse().transform_rect_bbox(shown))
+            }
+            (Some(view), None) => Some(Rect::from_origin_size((view.x, view.y), (view.w, view.h))),
+            (None, size) => size.map(|size| Rect::from_origin_size((0.0, 0.0), size)),
+        };
         let mut notes = Vec::new();
         let unit = user_unit(root, view, width, height, dpi, &mut notes);
         let upward = Affine::new([1.0, 0.0, 0.0, -1.0, 0.0, mirror]);
-        Self { upward, viewport: Viewport { size, dpi }, unit, notes }
+        Self { upward, viewport: Viewport { size, dpi }, frame, unit, notes }
     }
 }
 
@@ -168,14 +198,14 @@ impl Page {
 fn user_unit(
     root: Node,
     view: Option<ViewBox>,
-    width: Option<(Length, f64)>,
-    height: Option<(Length, f64)>,
+    width: Option<(Quantity, f64)>,
+    height: Option<(Quantity, f64)>,
     dpi: f64,
     notes: &mut Vec<String>,
 ) -> (String, String) {
     let across = view.zip(width).map(|(view, (length, inches))| (length, inches / length.number, view.w));
     let up = view.zip(height).map(|(view, (length, inches))| (length, inches / length.number, view.h));
-    let size = |(length, inches, extent): (Length, f64, f64)| length.number * inches / extent;
+    let size = |(length, inches, extent): (Quantity, f64, f64)| length.number * inches / extent;
     let chosen = match (across, up) {
         // Exporters round: a thousandth is no stretching.
         (Some(x), Some(y)) if (size(x) - size(y)).abs() > 1e-3 * size(x) => {
@@ -188,22 +218,20 @@ fn user_unit(
         }
         (x, y) => x.or(y),
     };
-    let assumed = || (format!("{dpi} px to an inch, as no physical size is given"), 1.0, LengthUnit::Px);
+    let px = || "px".to_owned();
+    let assumed = || (format!("{dpi} px to an inch, as no physical size is given"), 1.0, px());
     let (from, factor, unit) = match chosen {
-        Some((length, _, extent)) if !matches!(length.unit, LengthUnit::None | LengthUnit::Px) => {
-            ("width, height and viewBox".to_owned(), length.number / extent, length.unit)
+        Some((length, _, extent)) if !matches!(length.unit.to_ascii_lowercase().as_str(), "" | "px") => {
+            ("width, height and viewBox".to_owned(), length.number / extent, length.unit.to_ascii_lowercase())
         }
-        Some((length, _, extent)) => (assumed().0, length.number / extent, LengthUnit::Px),
+        Some((length, _, extent)) => (assumed().0, length.number / extent, px()),
         None => assumed(),
     };
-    let (factor, word) = match unit {
-        LengthUnit::Mm => (factor, "mm"),
-        LengthUnit::Cm => (factor, "cm"),
-        LengthUnit::In => (factor, "in"),
-        LengthUnit::Pt => (factor, "pt"),
-        LengthUnit::Pc => (factor, "pc"),
-        _ if dpi == CSS_DPI => (factor, "px"),
-        _ => (factor / dpi, "in"),
+    let (factor, word) = match unit.as_str() {
+        "q" => (0.25 * factor, "mm"),
+        "px" if dpi == CSS_DPI => (factor, "px"),
+        "px" => (factor / dpi, "in"),
+        physical => (factor, physical),
     };
     // A factor of 1 that a quotient of rounded sizes missed.
     let text = if (factor - 1.0).abs() < 1e-9 { word.to_owned() } else { format!("{factor} {word}") };

@@ -1,0 +1,477 @@
+//! What elements are cut by: clip paths, viewports that hide what reaches beyond them, basic shapes of CSS, and the page
+//! (CSS Masking 1, SVG 2 section 14.4, CSS Shapes 1).
+
+use super::super::ImportError;
+use super::path::{Outline, Subpath};
+use super::style::{Property, Style};
+use super::units::{self, Axis, Quantity, Viewport};
+use super::{Reader, cut, is_flat, known_tag, label, local_name, selector, transform};
+use crate::domain::{Clip, DrawnCurve, Shape};
+use crate::geometry::{Point, Rect, Vec2};
+use crate::ids::{ClipId, NameId};
+use kurbo::Affine;
+use roxmltree::{Node, NodeId};
+
+/// A region by which elements are cut: where one of its parts fills, within another one.
+pub(super) struct Cutter {
+    within: Option<CutterId>,
+    parts: Vec<Part>,
+    /// `None` of one that leaves nothing.
+    bounds: Option<Rect>,
+    /// Whether it is all of its bounds.
+    is_box: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct CutterId(usize);
+
+/// In the drawing's coordinates.
+struct Part {
+    subpaths: Vec<Subpath>,
+    even_odd: bool,
+    cut_by: Option<CutterId>,
+    entity: String,
+}
+
+/// What makes a clip path the same one again: the number of its element, the map, what it lies within.
+type Key = (usize, [u64; 6], Option<CutterId>);
+
+/// What cutting leaves of something.
+pub(super) enum Left {
+    Nothing,
+    /// All, or what lies in the clip.
+    In(Option<ClipId>),
+}
+
+#[derive(Default)]
+pub(super) struct Cutters {
+    all: Vec<Cutter>,
+    known: std::collections::BTreeMap<Key, CutterId>,
+    /// As clips of the drawing, by what they lie within there.
+    drawn: std::collections::BTreeMap<(CutterId, Option<ClipId>), ClipId>,
+    /// The clip paths that are being read: each may ask for others.
+    open: Vec<NodeId>,
+    pub page: Option<CutterId>,
+}
+
+/// Clip paths that are cut by clip paths.
+const DEPTH_MAX: usize = 16;
+/// What reaches beyond a clip by less than this part of the clip's diagonal is whole: what rounding makes of the same number.
+const ROUNDING: f64 = 1e-9;
+/// Likewise beyond the page: what nobody sees.
+const BLEED: f64 = 1e-3;
+
+/// Where an element lies: the map of its coordinates to the drawing's, and its viewport.
+#[derive(Clone, Copy)]
+pub(super) struct Placed {
+    pub map: Affine,
+    pub viewport: Viewport,
+}
+
+impl Part {
+    fn bounds(&self) -> Option<Rect> {
+        self.subpaths.iter().flat_map(|s| &s.curves).map(|c| c.bounds()).reduce(|a, b| a.union(b))
+    }
+
+    /// Whether it is a rectangle along the axes.
+    fn is_box(&self) -> bool {
+        let (Some(bounds), [subpath]) = (self.bounds(), &self.subpaths[..]) else { return false };
+        let curves = subpath
+            .curves
+            .iter()
+            .chain(subpath.closing().as_ref())
+            .map(|c| (c.is_straight(), c.start()))
+            .collect::<Vec<_>>();
+        let in_corner = |p: Point| (p.x == bounds.x0 || p.x == bounds.x1) && (p.y == bounds.y0 || p.y == bounds.y1);
+        curves.len() == 4
+            && curves.iter().all(|(straight, start)| *straight && in_corner(*start))
+            && (0..4).all(|k| curves[k].1 != curves[(k + 2) % 4].1 && curves[k].1 != curves[(k + 1) % 4].1)
+            && self.cut_by.is_none()
+    }
+}
+
+/// The part of a rectangle in coordinates that `map` takes to the drawing's.
+fn box_part(bounds: Rect, map: Affine, entity: String) -> Part {
+    let outline = Outline::of_rect(bounds.origin(), bounds.size().to_vec2(), Vec2::ZERO);
+    let subpaths = outline.subpaths.into_iter().map(|s| s.transformed(map)).collect();
+    Part { subpaths, even_odd: false, cut_by: None, entity }
+}
+
+fn diagonal(bounds: Rect) -> f64 {
+    libm::hypot(bounds.width(), bounds.height())
+}
+
+impl Cutters {
+    fn add(&mut self, parts: Vec<Part>, within: Option<CutterId>) -> CutterId {
+        let parts: Vec<Part> = parts.into_iter().filter(|part| !part.subpaths.is_empty()).collect();
+        let bounds = parts.iter().filter_map(Part::bounds).reduce(|a, b| a.union(b));
+        let is_box = parts.len() == 1 && parts[0].is_box();
+        // What covers all of this one cuts nothing from it.
+        let mut within = within;
+        while let (Some(outer), Some(bounds)) = (within, bounds) {
+            if !self.covers(outer, bounds, ROUNDING) {
+                break;
+            }
+            within = self.all[outer.0].within;
+        }
+        self.all.push(Cutter { within, parts, bounds, is_box });
+        CutterId(self.all.len() - 1)
+    }
+
+    fn covers(&self, cutter: CutterId, bounds: Rect, slack: f64) -> bool {
+        let Cutter { bounds: Some(own), is_box: true, .. } = self.all[cutter.0] else { return false };
+        let slack = slack * diagonal(own);
+        own.inflate(slack, slack).union(bounds) == own.inflate(slack, slack)
+    }
+
+    /// Whether nothing of these bounds is left by a cutter itself.
+    fn misses(&self, cutter: CutterId, bounds: Rect) -> bool {
+        let apart =
+            |own: Rect| bounds.x0 >= own.x1 || own.x0 >= bounds.x1 || bounds.y0 >= own.y1 || own.y0 >= bounds.y1;
+        self.all[cutter.0].bounds.is_none_or(apart)
+    }
+
+    /// The page, where what is filled ends.
+    pub fn set_page(&mut self, page: Rect, map: Affine) {
+        self.page = Some(self.add(vec![box_part(page, map, "the page".into())], None));
+    }
+
+    /// The page in the drawing's coordinates.
+    pub fn page_bounds(&self) -> Option<Rect> {
+        self.page.and_then(|page| self.all[page.0].bounds)
+    }
+}
+
+impl<'a> Reader<'a> {
+    // ---- what elements ask for ----
+
+    /// The viewport of a nested `svg` or `symbol` as a cutter.
+    pub(super) fn viewport_cutter(
+        &mut self,
+        node: Node,
+        tag: &str,
+        bounds: Rect,
+        map: Affine,
+        within: Option<CutterId>,
+    ) -> CutterId {
+        let entity = format!("the viewport of {} (line {})", label(tag, node), self.line(node));
+        self.cutters.add(vec![box_part(bounds, map, entity)], within)
+    }
+
+    /// What the property `clip-path` of an element asks for, within what it lies in already.
+    pub(super) fn clipped(
+        &mut self,
+        node: Node<'a, 'a>,
+        value: &'a str,
+        placed: Placed,
+        within: Option<CutterId>,
+    ) -> Result<Option<CutterId>, ImportError> {
+        if value == "none" {
+            return Ok(within);
+        }
+        if let Some(id) = url(value) {
+            let target = self.by_id(id).filter(|target| local_name(*target) == Some("clipPath"));
+            return match target.filter(|target| !self.cutters.open.contains(&target.id())) {
+                Some(target) if self.cutters.open.len() < DEPTH_MAX => {
+                    self.clip_path(target, node, placed, within).map(Some)
+                }
+                Some(_) | None => {
+                    let line = self.line(node);
+                    let note = format!(
+                        "line {line}: the clip path '{}' refers to nothing or to itself; nothing is cut.",
+                        cut(id)
+                    );
+                    self.drawing.notes.push(note);
+                    Ok(within)
+                }
+            };
+        }
+        self.basic_shape(node, value, placed, within)
+    }
+
+    /// The cutter of a `clipPath`, asked for by `node`.
+    fn clip_path(
+        &mut self,
+        target: Node<'a, 'a>,
+        node: Node<'a, 'a>,
+        placed: Placed,
+        within: Option<CutterId>,
+    ) -> Result<CutterId, ImportError> {
+        let Placed { mut map, mut viewport } = placed;
+        if target.attribute("clipPathUnits") == Some("objectBoundingBox") {
+            let Some(own) = self.own_box(node, viewport)?.filter(|own| own.width() > 0.0 && own.height() > 0.0) else {
+                return Ok(self.cutters.add(Vec::new(), within));
+            };
+            map =
+                map * Affine::translate(own.origin().to_vec2()) * Affine::scale_non_uniform(own.width(), own.height());
+            viewport.size = kurbo::Size::new(1.0, 1.0);
+        }
+        let key = (target.id().get_usize(), map.as_coeffs().map(f64::to_bits), within);
+        if let Some(known) = self.cutters.known.get(&key) {
+            return Ok(*known);
+        }
+        self.cutters.open.push(target.id());
+        let style = self.style_around(target)?;
+        let (style, declared) = style.of(self.sheet.declared(target)?);
+        map *= transform::of(&declared, viewport, None).unwrap_or_default();
+        let placed = Placed { map, viewport };
+        let outer = match declared.given(Property::ClipPath) {
+            Some(value) => self.clipped(target, value, placed, within)?,
+            None => within,
+        };
+        let mut parts = Vec::new();
+        for child in target.children().filter(Node::is_element) {
+            self.expand(1)?;
+            self.add_part(child, &style, placed, None, &mut parts)?;
+        }
+        self.cutters.open.pop();
+        let id = self.cutters.add(parts, outer);
+        self.cutters.known.insert(key, id);
+        Ok(id)
+    }
+
+    /// The style that an element inherits.
+    fn style_around(&self, node: Node<'a, 'a>) -> Result<Style<'a>, ImportError> {
+        let mut above: Vec<Node> = node.ancestors().skip(1).filter(Node::is_element).collect();
+        above.reverse();
+        above.into_iter().try_fold(Style::default(), |style, node| Ok(style.of(self.sheet.declared(node)?).0))
+    }
+
+    /// Adds what a child of a clip path fills: a shape, or a `use` of one.
+    fn add_part(
+        &mut self,
+        child: Node<'a, 'a>,
+        style: &Style<'a>,
+        placed: Placed,
+        within: Option<CutterId>,
+        parts: &mut Vec<Part>,
+    ) -> Result<(), ImportError> {
+        let Some(tag) = local_name(child) else { return Ok(()) };
+        let (style, declared) = style.of(self.sheet.declared(child)?);
+        if declared.given(Property::Display) == Some("none") {
+            return Ok(());
+        }
+        let own = if transform::asks_for_own_box(&declared) { self.own_box(child, placed.viewport)? } else { None };
+        let map = placed.map * transform::of(&declared, placed.viewport, own).unwrap_or_default();
+        self.check_map(child, tag, map)?;
+        if is_flat(map) {
+            return Ok(());
+        }
+        let placed = Placed { map, ..placed };
+        let cut_by = match declared.given(Property::ClipPath) {
+            Some(value) => self.clipped(child, value, placed, within)?,
+            None => within,
+        };
+        if tag == "text" {
+            self.skip("text", "text has no outlines here, and cuts nothing as a clip path");
+            return Ok(());
+        }
+        if tag == "use" {
+            let target = self.target(child).filter(|target| !matches!(local_name(*target), Some("use")));
+            let Some(target) = target else { return Ok(()) };
+            let shift = self.shift(&declared, placed.viewport);
+            return self.add_part(target, &style, Placed { map: map * shift, ..placed }, cut_by, parts);
+        }
+        let Some(outline) = self.outline(child, tag, &declared, placed.viewport)? else { return Ok(()) };
+        if !style.visible {
+            return Ok(());
+        }
+        if let Some(number) = outline.huge {
+            return Err(self.refused(child, tag, number));
+        }
+        self.expand(outline.subpaths.iter().map(|s| s.curves.len()).sum())?;
+        let entity = format!("{} (line {}), a clip path", label(tag, child), self.line(child));
+        let subpaths = outline.subpaths.into_iter().filter(|s| !s.is_flat()).map(|s| s.transformed(map)).collect();
+        parts.push(Part { subpaths, even_odd: style.clip_even_odd, cut_by, entity });
+        Ok(())
+    }
+
+    /// A basic shape of CSS as a cutter.
+    fn basic_shape(
+        &mut self,
+        node: Node<'a, 'a>,
+        value: &'a str,
+        placed: Placed,
+        within: Option<CutterId>,
+    ) -> Result<Option<CutterId>, ImportError> {
+        let (shape, reference) = match value.rfind(')') {
+            Some(end) => (&value[..=end], value[end + 1..].trim()),
+            None => ("", value),
+        };
+        let about = match reference {
+            "view-box" => Some(Rect::from_origin_size((0.0, 0.0), placed.viewport.size)),
+            _ => self.own_box(node, placed.viewport)?,
+        };
+        let Some(about) = about else { return Ok(Some(self.cutters.add(Vec::new(), within))) };
+        let outline = match shape {
+            "" => known_box(reference)
+                .then(|| (Outline::of_rect(about.origin(), about.size().to_vec2(), Vec2::ZERO), false)),
+            _ => basic_outline(shape, about, placed.viewport),
+        };
+        let Some((outline, even_odd)) = outline else {
+            self.skip(known_tag(node.tag_name().name()), "its clip path is of a kind that is not read; nothing is cut");
+            return Ok(within);
+        };
+        let entity = format!("the clip path of {} (line {})", label(node.tag_name().name(), node), self.line(node));
+        let subpaths = outline.subpaths.into_iter().map(|s| s.transformed(placed.map)).collect();
+        Ok(Some(self.cutters.add(vec![Part { subpaths, even_odd, cut_by: None, entity }], within)))
+    }
+
+    // ---- what is cut ----
+
+    /// What cutters and, if it counts, the page leave of something within these bounds.
+    pub(super) fn left_of(&mut self, bounds: Rect, cutter: Option<CutterId>, page: bool, name: NameId) -> Left {
+        let mut links = Vec::new();
+        for link in std::iter::successors(cutter, |link| self.cutters.all[link.0].within) {
+            if self.cutters.misses(link, bounds) {
+                return Left::Nothing;
+            }
+            if !self.cutters.covers(link, bounds, ROUNDING) {
+                links.push(link);
+            }
+        }
+        if let Some(page) = self.cutters.page.filter(|_| page) {
+            if self.cutters.misses(page, bounds) {
+                return Left::Nothing;
+            }
+            if !self.cutters.covers(page, bounds, BLEED) {
+                links.push(page);
+            }
+        }
+        let clip = links.into_iter().rev().fold(None, |within, link| Some(self.drawn_clip(link, within, name)));
+        Left::In(clip)
+    }
+
+    /// Whether a clip is, or lies within, one that was made of this cutter.
+    pub(super) fn is_cut_at(&self, clip: Option<ClipId>, cutter: CutterId) -> bool {
+        let chain = std::iter::successors(clip, |&clip| self.drawing.clips[clip].within);
+        self.cutters.drawn.get(&(cutter, None)).is_some_and(|page| chain.into_iter().any(|clip| clip == *page))
+    }
+
+    /// A cutter as a clip of the drawing.
+    fn drawn_clip(&mut self, cutter: CutterId, within: Option<ClipId>, name: NameId) -> ClipId {
+        if let Some(&drawn) = self.cutters.drawn.get(&(cutter, within)) {
+            return drawn;
+        }
+        let parts = std::mem::take(&mut self.cutters.all[cutter.0].parts);
+        // Those that cut its parts come first.
+        let left: Vec<Left> = parts
+            .iter()
+            .map(|part| part.bounds().map_or(Left::Nothing, |bounds| self.left_of(bounds, part.cut_by, false, name)))
+            .collect();
+        let id = self.drawing.clips.push(Clip { within });
+        for (part, left) in parts.iter().zip(left) {
+            let Left::In(clip) = left else { continue };
+            let shape = Shape { clip, part_of: Some(id), ..Shape::new(name, part.even_odd, part.entity.clone()) };
+            let shape = self.drawing.shapes.push(shape);
+            for curve in part.subpaths.iter().flat_map(|s| s.curves.iter().cloned().chain(s.closing())) {
+                let plain = DrawnCurve::new(curve, name, part.entity.clone());
+                self.drawing.curves.push(DrawnCurve { shape: Some(shape), ..plain });
+            }
+        }
+        self.cutters.all[cutter.0].parts = parts;
+        self.cutters.drawn.insert((cutter, within), id);
+        id
+    }
+}
+
+/// The id that `url(#id)` refers to.
+fn url(value: &str) -> Option<&str> {
+    let inner = value.strip_prefix("url(")?;
+    let inner = inner[..inner.find(')')?].trim().trim_matches(['"', '\'']);
+    inner.strip_prefix('#')
+}
+
+fn known_box(word: &str) -> bool {
+    matches!(word, "fill-box" | "stroke-box" | "view-box" | "border-box" | "padding-box" | "content-box" | "margin-box")
+}
+
+/// The outline of a basic shape in a reference box, and whether its rule is even-odd.
+fn basic_outline(text: &str, about: Rect, viewport: Viewport) -> Option<(Outline, bool)> {
+    let (name, inner) = text.split_once('(')?;
+    let inner = inner.strip_suffix(')')?.trim();
+    let units = Viewport { size: about.size(), ..viewport };
+    let length = |word: &str, axis| units.length(word, axis);
+    // `at` stands before the centre, `round` before the radii of corners.
+    let (head, tail) =
+        [" at ", "at ", " round "].into_iter().find_map(|word| inner.split_once(word)).unwrap_or((inner, ""));
+    let words: Vec<&str> = head.split_ascii_whitespace().collect();
+    let center = || match tail.trim() {
+        "" => Some(about.center()),
+        place => transform::origin(place, about.size(), units).map(|offset| about.origin() + offset),
+    };
+    let nonzero = |outline| Some((outline, false));
+    match name.trim() {
+        "circle" => {
+            let center = center()?;
+            let sides =
+                [center.x - about.x0, about.x1 - center.x, center.y - about.y0, about.y1 - center.y].map(f64::abs);
+            let radius = match words[..] {
+                [] | ["closest-side"] => sides.into_iter().fold(f64::INFINITY, f64::min),
+                ["farthest-side"] => sides.into_iter().fold(0.0, f64::max),
+                [radius] => length(radius, Axis::Both)?,
+                _ => return None,
+            };
+            nonzero(Outline::of_ellipse(center, Vec2::new(radius, radius)))
+        }
+        "ellipse" => {
+            let center = center()?;
+            let near = |a: f64, b: f64| a.abs().min(b.abs());
+            let radii = match words[..] {
+                [] | ["closest-side", "closest-side"] => Vec2::new(
+                    near(center.x - about.x0, about.x1 - center.x),
+                    near(center.y - about.y0, about.y1 - center.y),
+                ),
+                [rx, ry] => Vec2::new(length(rx, Axis::X)?, length(ry, Axis::Y)?),
+                _ => return None,
+            };
+            nonzero(Outline::of_ellipse(center, radii))
+        }
+        "inset" => {
+            let side = |k: usize, axis| length(words.get(k)?, axis);
+            // Top, right, bottom, left; what is missing is as its opposite.
+            let top = side(0, Axis::Y)?;
+            let right = side(1, Axis::X).or(side(0, Axis::X))?;
+            let bottom = side(2, Axis::Y).unwrap_or(top);
+            let left = side(3, Axis::X).unwrap_or(right);
+            let size = Vec2::new(about.width() - left - right, about.height() - top - bottom);
+            let round = match tail.split_ascii_whitespace().next() {
+                None => Vec2::ZERO,
+                Some(_) if tail.split_ascii_whitespace().count() > 1 => return None,
+                Some(radius) => Vec2::new(length(radius, Axis::X)?, length(radius, Axis::Y)?),
+            };
+            nonzero(Outline::of_rect(Point::new(about.x0 + left, about.y0 + top), size, round))
+        }
+        "polygon" => {
+            let mut pieces: Vec<&str> = selector::list(inner).map(str::trim).collect();
+            let even_odd = pieces.first() == Some(&"evenodd");
+            if matches!(pieces.first(), Some(&"evenodd" | &"nonzero")) {
+                pieces.remove(0);
+            }
+            let corner = |pair: &&str| {
+                let (x, rest) = Quantity::first(pair.trim())?;
+                let y = Quantity::parse(rest)?;
+                Some(about.origin() + Vec2::new(units.measure(x, Axis::X)?, units.measure(y, Axis::Y)?))
+            };
+            let corners: Vec<Point> = pieces.iter().map(corner).collect::<Option<_>>()?;
+            Some((Outline::of_corners(&corners), even_odd))
+        }
+        "path" => {
+            let (rule, data) =
+                inner.split_once(',').filter(|(rule, _)| !rule.contains(['"', '\''])).unwrap_or(("", inner));
+            let data = data.trim().trim_matches(['"', '\'']);
+            let mut outline = Outline::of_path(data);
+            let shift = Affine::translate(about.origin().to_vec2());
+            outline.subpaths = outline.subpaths.into_iter().map(|s| s.transformed(shift)).collect();
+            Some((outline, rule.trim() == "evenodd"))
+        }
+        _ => None,
+    }
+}
+
+/// The page in the coordinates of its drawing, where the outermost element says how large it is.
+pub(super) fn page_of(root: Node, page: &units::Page) -> Option<Rect> {
+    let is_open = matches!(root.attribute("overflow"), Some("visible" | "auto"))
+        || root.attribute("style").is_some_and(|s| s.replace(' ', "").contains("overflow:visible"));
+    page.frame.filter(|_| !is_open)
+}
