@@ -276,12 +276,7 @@ fn exit_of(verdict: &Verdict, reason: StopReason) -> Exit {
 /// Bytes → drawing, in the unit asked for.
 pub fn read(source: &Source, request: &Request) -> Result<Drawing, FailureReport> {
     let path = Path::new(source.path);
-    let format = source.format.or_else(|| import::format_of(path)).or_else(|| Format::sniff(source.bytes));
-    let format = format.ok_or_else(|| {
-        let names: Vec<_> = Format::ALL.iter().map(|f| f.name()).collect();
-        let help = format!("say which by --input-format: {}", names.join(", "));
-        FailureReport::new(FailureKind::Unreadable, "the format cannot be told from name or content", help)
-    })?;
+    let format = source.format.map_or_else(|| import::tell_format(path, source.bytes), Ok)?;
     let stem = path.file_stem().map_or("", |s| s.to_str().unwrap_or(""));
     let options = import::Options {
         airfoil: AirfoilOptions {
@@ -293,6 +288,7 @@ pub fn read(source: &Source, request: &Request) -> Result<Drawing, FailureReport
             },
             far_field: request.far_field,
             incidence_deg: request.incidence,
+            chord: request.chord,
         },
         nodes: source.nodes.map(<[u8]>::to_vec),
         svg: SvgOptions {
@@ -358,6 +354,7 @@ fn unused_options(format: Format, request: &Request) -> Option<String> {
         ("--trailing-edge", request.trailing_edge != default.trailing_edge),
         ("--far-field", request.far_field != default.far_field),
         ("--incidence", request.incidence != default.incidence),
+        ("--chord", request.chord.is_some()),
     ];
     let given: Vec<&str> = of_airfoils.into_iter().filter(|(_, given)| *given).map(|(option, _)| option).collect();
     let unused = format != Format::Airfoil && !given.is_empty();

@@ -120,6 +120,7 @@ pub struct RequestReport {
     pub trailing_edge: String,
     pub far_field_chords: f64,
     pub incidence_deg: f64,
+    pub chord: Option<f64>,
     pub face: Option<String>,
     /// δ₂, δ₁ and μ as used; `null` with another engine.
     pub delta2: Option<f64>,
@@ -176,6 +177,7 @@ impl RequestReport {
             trailing_edge: word(&request.trailing_edge),
             far_field_chords: request.far_field,
             incidence_deg: request.incidence,
+            chord: request.chord,
             face: request.face.clone(),
             delta2: regions.map(|r| r.delta2),
             delta1: regions.map(|r| r.delta1),

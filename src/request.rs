@@ -105,6 +105,9 @@ pub struct Request {
     pub far_field: f64,
     /// Degrees.
     pub incidence: f64,
+    /// The chord that a section is scaled to, before `unit` and `scale`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub chord: Option<f64>,
     /// The face of a solid to be meshed: its entity number, its name, or `largest`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub face: Option<String>,
@@ -157,6 +160,7 @@ impl Default for Request {
             trailing_edge: TrailingEdge::Keep,
             far_field: 20.0,
             incidence: 0.0,
+            chord: None,
             face: None,
         }
     }
@@ -182,6 +186,7 @@ impl Request {
             ("min-edge", self.min_edge),
             ("grade", self.grade),
             ("scale", self.scale),
+            ("chord", self.chord),
             ("dpi", Some(self.dpi)),
             ("timeout", self.timeout),
             ("close", self.close),

@@ -12,7 +12,7 @@ fn section_only() -> Options {
 }
 
 fn airfoil(trailing_edge: TrailingEdge, far_field: f64, incidence_deg: f64) -> Options {
-    Options { airfoil: AirfoilOptions { trailing_edge, far_field, incidence_deg }, ..Options::default() }
+    Options { airfoil: AirfoilOptions { trailing_edge, far_field, incidence_deg, chord: None }, ..Options::default() }
 }
 
 fn dat(text: &str) -> Drawing {

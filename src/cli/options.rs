@@ -119,6 +119,9 @@ pub struct Options {
     /// Angle of incidence in degrees, nose up [default: 0]
     #[arg(long, value_name = "DEG", allow_hyphen_values = true, help_heading = "Airfoils")]
     incidence: Option<f64>,
+    /// Chord that the section is scaled to, about the origin of its coordinates
+    #[arg(long, value_name = "C", allow_hyphen_values = true, help_heading = "Airfoils")]
+    chord: Option<f64>,
 
     /// The planar face to mesh, by its entity number or name, or largest; with batch, all gives each a mesh of its own [default: largest]
     #[arg(long, value_name = "ID|NAME|largest|all", help_heading = "Solids")]
@@ -309,6 +312,7 @@ mod tests {
             name: vec!["a=1,2".parse().unwrap()],
             unit: Some("mm".into()),
             scale: Some(1.0),
+            chord: Some(1.0),
             timeout: Some(1.0),
             face: Some("largest".into()),
             delta2: Some(1.0),

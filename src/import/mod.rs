@@ -3,6 +3,7 @@
 
 pub mod airfoil;
 pub mod dxf;
+mod foreign;
 pub mod mesh;
 pub mod outline;
 pub mod poly;
@@ -95,8 +96,14 @@ impl Format {
     ///
     /// STEP says so, JSON starts with a brace, DXF with its sentinel or a section, XML and gzip each in their own way. Triangle's first line
     /// holds whole numbers of which the second, the dimension, is 2; with one line of
-    /// that shape more, the segment header, it is a `.poly`. Anything else that has a line of two numbers may be an airfoil.
+    /// that shape more, the segment header, it is a `.poly`. Anything else that has lines of two numbers may be an airfoil.
     pub fn sniff(bytes: &[u8]) -> Option<Self> {
+        let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+        Self::by_its_mark(bytes).or_else(|| poly::sniff(text)).or_else(|| airfoil::sniff(text).then_some(Self::Airfoil))
+    }
+
+    /// A format that says in its first bytes what it is.
+    fn by_its_mark(bytes: &[u8]) -> Option<Self> {
         let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
         if text.trim_ascii_start().starts_with(b"ISO-10303-21") {
             return Some(Self::Step);
@@ -107,14 +114,7 @@ impl Format {
         if dxf::sniff(bytes) {
             return Some(Self::Dxf);
         }
-        if svg::sniff(text) {
-            return Some(Self::Svg);
-        }
-        if let Some(format) = poly::sniff(text) {
-            return Some(format);
-        }
-        let two_numbers = |line: &[u8]| numbers(line).take(2).filter(Option::is_some).count() == 2;
-        text.split(|&b| b == b'\n' || b == b'\r').any(two_numbers).then_some(Self::Airfoil)
+        svg::sniff(text).then_some(Self::Svg)
     }
 }
 
@@ -146,11 +146,51 @@ pub struct Options {
     pub selection: Selection,
 }
 
+/// The format of a file: as its suffix says, else as its content does.
+///
+/// # Errors
+/// Where neither tells, and where it is another kind of file: that, by name, and what can be done with it.
+pub fn tell_format(path: &Path, bytes: &[u8]) -> Result<Format, ImportError> {
+    if let Some(format) = format_of(path).or_else(|| Format::by_its_mark(bytes)) {
+        return Ok(format);
+    }
+    if let Some(foreign) = foreign::by_content(bytes).or_else(|| foreign::by_suffix(path)) {
+        return Err(foreign);
+    }
+    Format::sniff(bytes).ok_or_else(|| {
+        let names: Vec<_> = Format::ALL.iter().map(|f| f.name()).collect();
+        let help = format!("say which by --input-format: {}", names.join(", "));
+        ImportError::new("the format cannot be told from name or content", help)
+    })
+}
+
+/// Refuses a file that is not of the format as which it is to be read, but of one that says so.
+fn refuse_other(bytes: &[u8], format: Format) -> Result<(), ImportError> {
+    let marked = Format::by_its_mark(bytes);
+    match marked {
+        None => foreign::by_content(bytes).map_or(Ok(()), Err),
+        Some(own) if own == format => Ok(()),
+        Some(Format::Svg) if bytes.starts_with(b"\x1f\x8b") => {
+            let help =
+                "unpack it; a compressed drawing is read as SVG alone, by the suffix .svgz or --input-format svg";
+            Err(ImportError::new("this is a gzip archive, and no drawing", help))
+        }
+        Some(other) => {
+            let help = format!("say --input-format {}, or give the file the suffix of what it is", other.name());
+            Err(ImportError::new(
+                format!("read as {}, but the content is that of {}", format.name(), other.name()),
+                help,
+            ))
+        }
+    }
+}
+
 /// Reads a drawing. `stem` (the file's name without its suffix) is the title where the file gives none.
 ///
 /// # Errors
 /// [`ImportError`] with the line where the file breaks its format. Never panics, and takes memory in proportion to `bytes`.
 pub fn read(bytes: &[u8], format: Format, stem: &str, options: &Options) -> Result<Drawing, ImportError> {
+    refuse_other(bytes, format)?;
     match format {
         Format::Airfoil => airfoil::read(bytes, stem, &options.airfoil),
         Format::Poly => poly::read_poly(bytes, stem, options.nodes.as_deref()),

@@ -1,0 +1,258 @@
+//! Files that are no drawing for any reader here: recognised by their first bytes, or by a suffix where those say nothing, and refused by
+//! name with the way out. A format is recognised only by what no drawing of ours begins with.
+
+use super::{ImportError, number};
+use std::path::Path;
+
+/// What can be done with a file of a kind.
+#[derive(Clone, Copy)]
+enum Way {
+    /// A mesh that is read as a mesh.
+    Mesh,
+    /// A mesh of another program.
+    OtherMesh,
+    /// A picture of pixels.
+    Pixels,
+    /// Curves that another program saves as SVG.
+    Page,
+    /// Curves that a CAD system saves as DXF.
+    Cad,
+    Archive,
+    /// Paths of a machine.
+    Machine,
+    Other,
+}
+
+impl Way {
+    fn help(self) -> &'static str {
+        match self {
+            Self::Mesh => {
+                "meshes are judged by `squinch check` and rewritten by `squinch convert`; to mesh, give the drawing"
+            }
+            Self::OtherMesh => {
+                "convert it with Gmsh or meshio to .msh or .vtu for `squinch check` and `squinch convert`; to mesh, give the drawing"
+            }
+            Self::Pixels => "trace it first: Inkscape (Path > Trace Bitmap) or potrace make an SVG of it",
+            Self::Page => "save it as SVG: Inkscape, or `pdftocairo -svg` for PDF, does that",
+            Self::Cad => {
+                "save it as DXF in the program that made it; LibreDWG's `dwg2dxf` and the ODA File Converter read DWG"
+            }
+            Self::Archive => "unpack it, and give the drawing that is in it",
+            Self::Machine => "give the drawing that the paths were made from, as DXF or SVG",
+            Self::Other => "give a drawing: SVG, DXF, airfoil coordinates, .poly, or an outline in JSON",
+        }
+    }
+}
+
+/// How a format is recognised by its content.
+enum Sign {
+    /// Bytes at their offsets.
+    Bytes(&'static [(usize, &'static [u8])]),
+    /// The first line that is not blank starts so, whatever the case.
+    Start(&'static str),
+    /// A line of the head starts so, whatever the case.
+    Line(&'static str),
+    Test(fn(&Head) -> bool),
+}
+
+const SIGNS: &[(&str, Way, Sign)] = &[
+    ("a PNG picture", Way::Pixels, Sign::Bytes(&[(0, b"\x89PNG")])),
+    ("a JPEG picture", Way::Pixels, Sign::Bytes(&[(0, b"\xff\xd8\xff")])),
+    ("a GIF picture", Way::Pixels, Sign::Bytes(&[(0, b"GIF8"), (5, b"a")])),
+    ("a TIFF picture", Way::Pixels, Sign::Bytes(&[(0, b"II*\0")])),
+    ("a TIFF picture", Way::Pixels, Sign::Bytes(&[(0, b"MM\0*")])),
+    ("a WebP picture", Way::Pixels, Sign::Bytes(&[(0, b"RIFF"), (8, b"WEBP")])),
+    ("a BMP picture", Way::Pixels, Sign::Bytes(&[(0, b"BM"), (6, b"\0\0\0\0")])),
+    ("a HEIC or AVIF picture, or a film", Way::Pixels, Sign::Bytes(&[(4, b"ftyp")])),
+    ("a Photoshop picture", Way::Pixels, Sign::Bytes(&[(0, b"8BPS")])),
+    ("a GIMP picture", Way::Pixels, Sign::Bytes(&[(0, b"gimp xcf")])),
+    ("a PDF document", Way::Page, Sign::Bytes(&[(0, b"%PDF-")])),
+    ("a PostScript file (EPS, AI)", Way::Page, Sign::Bytes(&[(0, b"%!PS")])),
+    ("a PostScript file (EPS, AI)", Way::Page, Sign::Bytes(&[(0, b"\xc5\xd0\xd3\xc6")])),
+    ("a CorelDRAW drawing", Way::Page, Sign::Bytes(&[(0, b"RIFF"), (8, b"CDR")])),
+    ("an EMF picture", Way::Page, Sign::Bytes(&[(40, b" EMF")])),
+    ("a WMF picture", Way::Page, Sign::Bytes(&[(0, b"\xd7\xcd\xc6\x9a")])),
+    ("an Xfig drawing", Way::Page, Sign::Bytes(&[(0, b"#FIG ")])),
+    ("an AutoCAD drawing (DWG)", Way::Cad, Sign::Bytes(&[(0, b"AC1"), (6, b"\0")])),
+    ("a DWF drawing", Way::Cad, Sign::Bytes(&[(0, b"(DWF V")])),
+    ("a Rhino model (3DM)", Way::Cad, Sign::Bytes(&[(0, b"3D Geometry File Format")])),
+    ("an IGES model", Way::Cad, Sign::Bytes(&[(72, b"S      1")])),
+    ("a ZIP archive", Way::Archive, Sign::Bytes(&[(0, b"PK\x03\x04")])),
+    ("a ZIP archive", Way::Archive, Sign::Bytes(&[(0, b"PK\x05\x06")])),
+    ("a 7z archive", Way::Archive, Sign::Bytes(&[(0, b"7z\xbc\xaf\x27\x1c")])),
+    ("a RAR archive", Way::Archive, Sign::Bytes(&[(0, b"Rar!\x1a\x07")])),
+    ("an xz archive", Way::Archive, Sign::Bytes(&[(0, b"\xfd7zXZ\0")])),
+    ("a bzip2 archive", Way::Archive, Sign::Bytes(&[(0, b"BZh"), (4, b"1AY&SY")])),
+    ("a Zstandard archive", Way::Archive, Sign::Bytes(&[(0, b"\x28\xb5\x2f\xfd")])),
+    ("an old Office document", Way::Other, Sign::Bytes(&[(0, b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1")])),
+    ("an HDF5 file (CGNS, MED)", Way::OtherMesh, Sign::Bytes(&[(0, b"\x89HDF\r\n\x1a\n")])),
+    ("a NetCDF file (Exodus)", Way::OtherMesh, Sign::Bytes(&[(0, b"CDF\x01")])),
+    ("a NetCDF file (Exodus)", Way::OtherMesh, Sign::Bytes(&[(0, b"CDF\x02")])),
+    ("a glTF model", Way::OtherMesh, Sign::Bytes(&[(0, b"glTF")])),
+    ("an STL surface", Way::Mesh, Sign::Test(is_stl)),
+    ("an OBJ surface", Way::Mesh, Sign::Test(is_obj)),
+    ("an OFF surface", Way::OtherMesh, Sign::Test(is_off)),
+    ("a PLY surface", Way::OtherMesh, Sign::Test(|head| head.starts("ply") && head.has_line("format "))),
+    ("a VTK file", Way::Mesh, Sign::Start("# vtk DataFile")),
+    ("a VTK file (XML)", Way::Mesh, Sign::Test(|head| head.starts("<") && head.text.contains("<VTKFile"))),
+    ("a Gmsh mesh", Way::Mesh, Sign::Line("$MeshFormat")),
+    ("a Gmsh script", Way::OtherMesh, Sign::Test(is_geo)),
+    (
+        "an SU2 mesh",
+        Way::Mesh,
+        Sign::Test(|head| ["NDIME", "NELEM", "NPOIN", "NZONE"].iter().any(|key| head.has_key(key))),
+    ),
+    ("a MEDIT mesh", Way::OtherMesh, Sign::Line("MeshVersionFormatted")),
+    ("a Netgen mesh", Way::OtherMesh, Sign::Start("mesh3d")),
+    ("a finite element deck (Abaqus, CalculiX)", Way::Mesh, Sign::Test(is_inp)),
+    ("a Nastran deck", Way::OtherMesh, Sign::Line("BEGIN BULK")),
+    ("a UNV mesh", Way::OtherMesh, Sign::Test(is_unv)),
+    (
+        "a page of HTML",
+        Way::Other,
+        Sign::Test(|head| !head.is_svg && (head.starts("<!doctype html") || head.starts("<html"))),
+    ),
+    (
+        "an XML document and no SVG",
+        Way::Other,
+        Sign::Test(|head| !head.is_svg && (head.starts("<?xml") || head.starts("<!"))),
+    ),
+    ("a Gerber file", Way::Machine, Sign::Test(|head| head.has_line("%FS") && head.text.contains("*%"))),
+    (
+        "an Excellon drill file",
+        Way::Machine,
+        Sign::Test(|head| head.starts("M48") && head.text.lines().nth(1).is_some()),
+    ),
+    ("G-code", Way::Machine, Sign::Test(is_gcode)),
+    ("a plotter file (HPGL)", Way::Machine, Sign::Test(|head| head.text.contains("PU") && head.text.contains(";PD"))),
+];
+
+/// Suffixes of files that nothing above may be found in.
+const SUFFIXES: &[(&[&str], &str, Way)] = &[
+    (&["png", "jpg", "jpeg", "gif", "tif", "tiff", "webp", "bmp", "heic"], "a picture of pixels", Way::Pixels),
+    (&["pdf", "ps", "eps", "ai", "cdr", "emf", "wmf", "fig", "odg", "vsd", "vsdx"], "a document", Way::Page),
+    (
+        &["dwg", "dwf", "iges", "igs", "3dm", "sldprt", "sldasm", "ipt", "f3d", "fcstd", "x_t", "x_b", "sat"],
+        "a CAD file",
+        Way::Cad,
+    ),
+    (&["zip", "7z", "rar", "tar", "gz", "tgz", "xz", "bz2", "zst"], "an archive", Way::Archive),
+    (&["vtu", "vtk", "msh", "su2", "inp", "obj", "stl", "ele"], "a mesh by its suffix", Way::Mesh),
+    (
+        &[
+            "off", "ply", "mesh", "meshb", "vol", "unv", "bdf", "nas", "cgns", "med", "e", "exo", "xdmf", "glb",
+            "gltf", "geo", "3mf", "amf", "wrl", "x3d",
+        ],
+        "a mesh or a model by its suffix",
+        Way::OtherMesh,
+    ),
+    (&["gcode", "nc", "ngc", "tap", "cnc", "gbr", "ger", "drl", "plt", "hpgl"], "a file for a machine", Way::Machine),
+    (&["html", "htm", "xml", "doc", "docx", "xls", "xlsx", "md", "py", "tex"], "no drawing by its suffix", Way::Other),
+];
+
+/// The refusal of a file whose first bytes are those of a format that is not read here.
+pub(super) fn by_content(bytes: &[u8]) -> Option<ImportError> {
+    let head = Head::of(bytes);
+    let (what, way, _) = SIGNS.iter().find(|(_, _, sign)| match sign {
+        Sign::Bytes(parts) => parts.iter().all(|(at, part)| bytes.get(*at..at + part.len()) == Some(*part)),
+        Sign::Start(word) => head.starts(word),
+        Sign::Line(word) => head.has_line(word),
+        Sign::Test(test) => test(&head),
+    })?;
+    Some(ImportError::new(format!("this is {what}, and no drawing"), way.help()))
+}
+
+/// The refusal of a file whose suffix is that of a format that is not read here.
+pub(super) fn by_suffix(path: &Path) -> Option<ImportError> {
+    let suffix = path.extension()?.to_str()?.to_ascii_lowercase();
+    let (_, what, way) = SUFFIXES.iter().find(|(suffixes, _, _)| suffixes.contains(&suffix.as_str()))?;
+    Some(ImportError::new(format!("a .{suffix} file is {what}, and no drawing"), way.help()))
+}
+
+/// The start of a file.
+struct Head<'a> {
+    bytes: &'a [u8],
+    /// Its first lines, as far as they are text, without blanks before them.
+    text: String,
+    is_svg: bool,
+}
+
+impl<'a> Head<'a> {
+    fn of(bytes: &'a [u8]) -> Self {
+        // Decks and meshes begin with comments; theirs seldom fill as much.
+        const LENGTH: usize = 4096;
+        let plain = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes).trim_ascii_start();
+        let text = String::from_utf8_lossy(&plain[..plain.len().min(LENGTH)]).replace('\r', "\n");
+        Self { bytes, text, is_svg: super::svg::sniff(plain) }
+    }
+
+    fn starts(&self, word: &str) -> bool {
+        starts(&self.text, word)
+    }
+
+    fn has_line(&self, word: &str) -> bool {
+        self.text.lines().any(|line| starts(line.trim_start(), word))
+    }
+
+    /// Whether a line is an assignment to a key, as in `NDIME= 2`.
+    fn has_key(&self, key: &str) -> bool {
+        self.text.lines().any(|line| line.strip_prefix(key).is_some_and(|rest| rest.trim_start().starts_with('=')))
+    }
+
+    fn fields(&self) -> impl Iterator<Item = Vec<&str>> {
+        self.text.lines().map(|line| line.split_whitespace().collect::<Vec<_>>()).filter(|fields| !fields.is_empty())
+    }
+}
+
+fn starts(text: &str, word: &str) -> bool {
+    text.get(..word.len()).is_some_and(|start| start.eq_ignore_ascii_case(word))
+}
+
+fn is_number(field: &str) -> bool {
+    number(field.as_bytes()).is_some()
+}
+
+fn is_stl(head: &Head) -> bool {
+    let is_text = head.starts("solid") && head.has_line("facet normal");
+    // Eighty bytes of anything, a count, and fifty bytes a triangle.
+    let count = head.bytes.get(80..84).and_then(|count| count.try_into().ok()).map(u32::from_le_bytes);
+    is_text || count.is_some_and(|n| n > 0 && head.bytes.len() as u64 == 84 + 50 * u64::from(n))
+}
+
+fn is_obj(head: &Head) -> bool {
+    let vertices =
+        |fields: &Vec<&str>| fields[0] == "v" && fields.len() >= 4 && fields[1..4].iter().all(|f| is_number(f));
+    head.fields().filter(vertices).count() >= 3 && !head.starts("solid")
+}
+
+/// `OFF`, or with normals, colours and such as in `STCNOFF`; then three counts.
+fn is_off(head: &Head) -> bool {
+    let mut words = head.fields().filter(|fields| !fields[0].starts_with('#')).flatten();
+    let is_keyword = |word: &str| word.strip_suffix("OFF").is_some_and(|p| p.chars().all(|c| "STCN4n".contains(c)));
+    words.next().is_some_and(is_keyword) && words.take(3).filter(|word| word.parse::<u64>().is_ok()).count() == 3
+}
+
+fn is_geo(head: &Head) -> bool {
+    ["Point(", "Point (", "Line(", "Line ("].iter().any(|word| head.has_line(word)) && head.text.contains('{')
+}
+
+/// A keyword of a deck at the start of a line; comments have two stars.
+fn is_inp(head: &Head) -> bool {
+    ["*NODE", "*HEADING", "*ELEMENT", "*PART", "*PREPRINT"].iter().any(|word| head.has_line(word))
+}
+
+fn is_unv(head: &Head) -> bool {
+    let mut lines = head.fields();
+    let is_dataset =
+        |fields: Vec<&str>| matches!(fields[..], ["151" | "164" | "2411" | "2420" | "2412" | "15" | "781"]);
+    lines.next().is_some_and(|fields| fields == ["-1"]) && lines.next().is_some_and(is_dataset)
+}
+
+/// Two lines of the first fifty hold motions, each after a number of the block at most.
+fn is_gcode(head: &Head) -> bool {
+    let is_word = |word: &str, letter: char| {
+        word.strip_prefix(letter).is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()))
+    };
+    let is_motion = |fields: &Vec<&str>| is_word(fields[usize::from(fields.len() > 1 && is_word(fields[0], 'N'))], 'G');
+    head.fields().take(50).filter(is_motion).count() >= 2
+}
