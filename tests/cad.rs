@@ -262,7 +262,14 @@ fn plate(turned: Turned) -> Step {
 }
 
 fn vtu_of(outcome: &Outcome) -> Vec<u8> {
-    let mut files = export::encode(outcome.mesh.as_ref().unwrap(), None, &[], export::Format::Vtu).unwrap();
+    let mut files = export::encode(
+        outcome.mesh.as_ref().unwrap(),
+        None,
+        &[],
+        export::Format::Vtu,
+        &export::WriteOptions::default(),
+    )
+    .unwrap();
     files.remove(0)
 }
 

@@ -2,7 +2,7 @@
 //! and no bytes do harm to any reader.
 
 use proptest::prelude::*;
-use squinch::export::{Format, encode};
+use squinch::export::{Format, WriteOptions, XdmfGrids, encode};
 use squinch::geometry::{Frame, Point};
 use squinch::ids::{Id, NameId, RegionId, VertexId};
 use squinch::import::mesh::{self as reader, MeshFile, read};
@@ -119,7 +119,11 @@ fn reader_of(format: Format) -> Option<reader::Format> {
 
 /// Writes and reads back.
 fn around(mesh: &Mesh, format: Format) -> MeshFile {
-    let files = encode(mesh, None, &[], format).unwrap_or_else(|e| panic!("{format:?}: {e}"));
+    around_with(mesh, format, &WriteOptions::default())
+}
+
+fn around_with(mesh: &Mesh, format: Format, options: &WriteOptions) -> MeshFile {
+    let files = encode(mesh, None, &[], format, options).unwrap_or_else(|e| panic!("{format:?}: {e}"));
     let of = |suffix: &str| {
         let place = format.suffixes().iter().position(|s| *s == suffix);
         place.and_then(|i| files.get(i).cloned())
@@ -130,9 +134,10 @@ fn around(mesh: &Mesh, format: Format) -> MeshFile {
     read(&main, reader, &beside).unwrap_or_else(|e| panic!("{format:?}: {e}"))
 }
 
-const READ_BACK: [Format; 9] = [
+const READ_BACK: [Format; 10] = [
     Format::Vtu,
     Format::Vtk,
+    Format::VtkText,
     Format::Msh,
     Format::Msh22,
     Format::Su2,
@@ -184,7 +189,8 @@ fn names_and_places_come_back() {
 #[test]
 fn second_order_comes_back() {
     let mesh = second_order(strip(4, PLAIN));
-    for format in [Format::Vtu, Format::Vtk, Format::Msh, Format::Msh22, Format::Inp, Format::Triangle] {
+    for format in [Format::Vtu, Format::Vtk, Format::VtkText, Format::Msh, Format::Msh22, Format::Inp, Format::Triangle]
+    {
         let back = around(&mesh, format).mesh;
         assert_eq!(back.order(), 2);
         assert_eq!((counts(&back), shape(&back)), (counts(&mesh), shape(&mesh)), "{format:?}");
@@ -194,9 +200,9 @@ fn second_order_comes_back() {
         assert_eq!(back.triangles.len(), 4 * mesh.triangles.len(), "{format:?}");
         let halves = if format == Format::Obj { 2 * mesh.edges.len() } else { 0 };
         assert_eq!(back.edges.len(), halves, "{format:?}");
-        assert!(format.losses(&mesh).iter().any(|loss| loss.starts_with("order 2")));
+        assert!(format.losses(&mesh, &WriteOptions::default()).iter().any(|loss| loss.starts_with("order 2")));
     }
-    let refused = encode(&mesh, None, &[], Format::Su2).expect_err("SU2 is straight");
+    let refused = encode(&mesh, None, &[], Format::Su2, &WriteOptions::default()).expect_err("SU2 is straight");
     assert_eq!(refused.kind(), std::io::ErrorKind::Unsupported);
 }
 
@@ -204,7 +210,7 @@ fn second_order_comes_back() {
 fn a_mesh_in_space_comes_back_where_it_was() {
     let frame = Frame { origin: [3.0, -1.0, 2.0], x: [0.0, 1.0, 0.0], y: [0.0, 0.0, 1.0] };
     let mesh = Mesh { frame: Some(frame), ..strip(3, PLAIN) };
-    for format in [Format::Vtu, Format::Vtk, Format::Msh, Format::Msh22, Format::Inp, Format::Obj] {
+    for format in [Format::Vtu, Format::Vtk, Format::VtkText, Format::Msh, Format::Msh22, Format::Inp, Format::Obj] {
         let back = around(&mesh, format).mesh;
         let places = back.places().zip(mesh.places());
         let far = places.map(|(p, q)| (0..3).map(|k| (p[k] - q[k]).abs()).fold(0.0, f64::max)).fold(0.0, f64::max);
@@ -231,7 +237,7 @@ fn empty_meshes_are_whole_files_or_refused() {
     }
     for format in [Format::Glb, Format::Gltf] {
         assert_eq!(
-            encode(&Mesh::default(), None, &[], format).expect_err("none").kind(),
+            encode(&Mesh::default(), None, &[], format, &WriteOptions::default()).expect_err("none").kind(),
             std::io::ErrorKind::Unsupported
         );
     }
@@ -243,7 +249,10 @@ fn named_nodes_are_physical_points_of_gmsh_and_said_to_be_lost_elsewhere() {
     let [tip, sensor] = ["tip", "sensor"].map(|name| mesh.names.intern(name));
     // Inside a region, on a boundary, and two of one name.
     mesh.named_nodes = vec![(VertexId(0), tip), (VertexId(4), sensor), (VertexId(8), tip)];
-    let text = String::from_utf8(encode(&mesh, None, &[], Format::Msh22).expect("written").remove(0)).expect("text");
+    let text = String::from_utf8(
+        encode(&mesh, None, &[], Format::Msh22, &WriteOptions::default()).expect("written").remove(0),
+    )
+    .expect("text");
     // Two regions and three boundaries come before.
     assert!(text.contains("0 6 \"tip\"") && text.contains("0 7 \"sensor\""), "{text}");
     let points: Vec<&str> = text.lines().filter(|line| line.split(' ').nth(1) == Some("15")).collect();
@@ -256,11 +265,11 @@ fn named_nodes_are_physical_points_of_gmsh_and_said_to_be_lost_elsewhere() {
         assert_eq!((shape(&back), back.nodes.len()), (shape(&mesh), mesh.nodes.len()), "{format:?}");
     }
     for format in READ_BACK {
-        let told = format.losses(&mesh).contains(&"names of points");
+        let told = format.losses(&mesh, &WriteOptions::default()).contains(&"names of points");
         assert_eq!(told, !matches!(format, Format::Msh | Format::Msh22), "{format:?}");
     }
     mesh.named_nodes = vec![(VertexId(999), tip)];
-    assert!(encode(&mesh, None, &[], Format::Msh).is_err());
+    assert!(encode(&mesh, None, &[], Format::Msh, &WriteOptions::default()).is_err());
 }
 
 #[test]
@@ -272,9 +281,9 @@ fn lists_that_do_not_fit_are_refused() {
         Mesh { nodes: Vec::new().into(), ..right.clone() },
         Mesh { edge_mids: vec![VertexId(0)], ..right.clone() },
     ];
-    for format in Format::ALL.into_iter().filter(|f| !matches!(f, Format::Svg | Format::Png)) {
+    for format in Format::ALL.into_iter().filter(|f| !f.is_picture()) {
         for mesh in &wrong {
-            let error = encode(mesh, None, &[], format).expect_err("no mesh");
+            let error = encode(mesh, None, &[], format, &WriteOptions::default()).expect_err("no mesh");
             assert_eq!(error.kind(), std::io::ErrorKind::InvalidInput, "{format:?}");
         }
     }
@@ -284,7 +293,7 @@ fn lists_that_do_not_fit_are_refused() {
 fn gltf_has_a_primitive_for_every_name() {
     for (mesh, parts) in [(strip(5, ODD), [1, 1]), (second_order(strip(5, ODD)), [4, 2])] {
         for format in [Format::Glb, Format::Gltf] {
-            let file = encode(&mesh, None, &[], format).expect("written").remove(0);
+            let file = encode(&mesh, None, &[], format, &WriteOptions::default()).expect("written").remove(0);
             let document = gltf::Gltf::from_slice(&file).expect("valid glTF");
             let blob = document.blob.clone().unwrap_or_else(|| {
                 use base64::Engine;
@@ -333,7 +342,7 @@ fn gltf_has_a_primitive_for_every_name() {
 
 #[test]
 fn inp_names_are_legal_and_faces_are_right() {
-    let file = encode(&strip(2, ODD), None, &[], Format::Inp).expect("written").remove(0);
+    let file = encode(&strip(2, ODD), None, &[], Format::Inp, &WriteOptions::default()).expect("written").remove(0);
     let text = String::from_utf8(file).expect("text");
     for line in [
         "*ELEMENT, TYPE=CPS3, ELSET=S_7",
@@ -345,6 +354,143 @@ fn inp_names_are_legal_and_faces_are_right() {
     }
     assert!(text.lines().any(|l| l == "** name region S_7 = 7"), "{text}");
     assert!(text.lines().filter(|l| l.starts_with('*') && !l.starts_with("**")).all(str::is_ascii));
+}
+
+// ---- for readers of others ----
+
+/// The text of a mesh in a format.
+fn text_of(mesh: &Mesh, format: Format, options: &WriteOptions) -> String {
+    String::from_utf8(encode(mesh, None, &[], format, options).expect("written").remove(0)).expect("text")
+}
+
+#[test]
+fn the_names_of_vtk_stand_behind_its_cell_types() {
+    let binary = encode(&strip(2, PLAIN), None, &[], Format::Vtk, &WriteOptions::default()).expect("written").remove(0);
+    let text = text_of(&strip(2, PLAIN), Format::VtkText, &WriteOptions::default());
+    for bytes in [binary.as_slice(), text.as_bytes()] {
+        let place = |word: &str| bytes.windows(word.len()).position(|w| w == word.as_bytes()).expect(word);
+        let order =
+            ["# vtk DataFile Version 3.0\n", "POINTS", "CELLS", "CELL_TYPES", "FIELD", "region:steel", "CELL_DATA"];
+        assert!(order.map(place).is_sorted());
+    }
+    // MFEM takes the array behind CELL_DATA, of no other name; deal.II needs its own.
+    assert!(text.contains("\nASCII\n") && text.contains("\nSCALARS MaterialID int 1\n"));
+    let cells = 8;
+    assert!(
+        text.contains(&format!("\nCELL_DATA {cells}\nSCALARS material int 1\nLOOKUP_TABLE default\n1\n")),
+        "{text}"
+    );
+}
+
+#[test]
+fn text_vtk_has_lines_where_asked_for() {
+    for mesh in [strip(3, ODD), second_order(strip(3, ODD))] {
+        let lines = WriteOptions { lines: Some(true), ..WriteOptions::default() };
+        for (options, cells) in [(WriteOptions::default(), 12), (lines, 12 + mesh.edges.len())] {
+            assert!(text_of(&mesh, Format::VtkText, &options).contains(&format!("\nCELL_TYPES {cells}\n")));
+            let back = around_with(&mesh, Format::VtkText, &options).mesh;
+            assert_eq!((counts(&back), shape(&back)), (counts(&mesh), shape(&mesh)));
+        }
+    }
+}
+
+#[test]
+fn a_plain_vtu_has_no_field_data() {
+    let mesh = strip(3, PLAIN);
+    let plain = WriteOptions { plain: true, ..WriteOptions::default() };
+    let text = text_of(&mesh, Format::Vtu, &plain);
+    assert!(!text.contains("FieldData") && text.contains("<UnstructuredGrid>\n<Piece "), "{text}");
+    let back = around_with(&mesh, Format::Vtu, &plain).mesh;
+    assert_eq!((shape(&back).0, back.edges.len()), (shape(&mesh).0, 0));
+    assert!(Format::Vtu.losses(&mesh, &plain).iter().any(|loss| loss.starts_with("names")));
+    assert!(Format::Vtu.losses(&mesh, &plain).iter().any(|loss| loss.starts_with("boundaries")));
+    let lines = WriteOptions { lines: Some(true), ..plain };
+    assert_eq!(shape(&around_with(&mesh, Format::Vtu, &lines).mesh), shape(&mesh));
+}
+
+#[test]
+fn boundaries_within_can_be_left_out_of_every_format() {
+    for (mesh, first) in [(strip(3, PLAIN), true), (second_order(strip(3, PLAIN)), false)] {
+        let rim = WriteOptions { interior_lines: false, ..WriteOptions::default() };
+        for format in READ_BACK.into_iter().filter(|f| first || f.holds_order(2).is_ok()) {
+            let (mut wanted, back) = (counts(&around(&mesh, format).mesh), around_with(&mesh, format, &rim).mesh);
+            wanted.1.remove("interface");
+            assert_eq!(counts(&back), wanted, "{format:?}");
+            let told = format.losses(&mesh, &rim).iter().any(|loss| loss.contains("--interior-lines off"));
+            assert_eq!(told, !matches!(format, Format::Stl | Format::Su2), "{format:?}");
+        }
+    }
+}
+
+#[test]
+fn pictures_of_space_can_do_without_lines() {
+    let mesh = strip(3, PLAIN);
+    let none = WriteOptions { lines: Some(false), ..WriteOptions::default() };
+    let back = around_with(&mesh, Format::Obj, &none).mesh;
+    assert_eq!((back.edges.len(), shape(&back).0), (0, shape(&mesh).0));
+    for format in [Format::Glb, Format::Gltf] {
+        let file = encode(&mesh, None, &[], format, &none).expect("written").remove(0);
+        let document = gltf::Gltf::from_slice(&file).expect("valid glTF");
+        let primitives: Vec<_> = document.meshes().flat_map(|mesh| mesh.primitives()).collect();
+        assert_eq!(primitives.len(), 2);
+        assert!(primitives.iter().all(|p| p.mode() == gltf::mesh::Mode::Triangles));
+        assert!(format.losses(&mesh, &none).iter().any(|loss| loss.starts_with("boundaries")));
+    }
+}
+
+#[test]
+fn markers_of_su2_can_stand_in_a_configuration() {
+    let names = ["all", "all", "outer wall (T=20 °C)", "outer_wall__T_20_°C_", "interface"];
+    let text = text_of(&strip(2, names), Format::Su2, &WriteOptions::default());
+    let tags: Vec<&str> = text.lines().filter_map(|line| line.strip_prefix("MARKER_TAG= ")).collect();
+    assert_eq!(tags, ["outer_wall__T_20_°C_", "outer_wall__T_20_°C__2"]);
+    let names = ["all", "all", "{a}:b,c;d=e%f\\g", "None", "interface"];
+    let text = text_of(&strip(2, names), Format::Su2, &WriteOptions::default());
+    let tags: Vec<&str> = text.lines().filter_map(|line| line.strip_prefix("MARKER_TAG= ")).collect();
+    assert_eq!(tags, ["_a__b_c_d_e_f_g", "None_"]);
+    let back = around(&strip(2, names), Format::Su2).mesh;
+    assert_eq!(counts(&back).1.keys().map(String::as_str).collect::<Vec<_>>(), ["None", names[2]]);
+}
+
+#[test]
+fn xdmf_has_one_grid_or_two() {
+    for (mesh, length) in [(strip(2, ODD), 8 * 4 + 10 * 4), (second_order(strip(2, ODD)), 8 * 7 + 10 * 4)] {
+        let single = WriteOptions { xdmf: XdmfGrids::Single, ..WriteOptions::default() };
+        let [one, two] = [single, WriteOptions::default()].map(|options| text_of(&mesh, Format::Xdmf, &options));
+        let document = roxmltree::Document::parse(&two).expect("XML");
+        assert_eq!(document.descendants().filter(|node| node.has_tag_name("Grid")).count(), 2);
+        let document = roxmltree::Document::parse(&one).expect("XML");
+        let domain = document.root_element().first_element_child().expect("a domain");
+        // meshio takes a domain of one grid and nothing else.
+        let children: Vec<_> = domain.children().filter(roxmltree::Node::is_element).collect();
+        assert_eq!(children.len(), 1);
+        let topology = children[0].children().find(|node| node.has_tag_name("Topology")).expect("a topology");
+        assert_eq!(topology.attribute("TopologyType"), Some("Mixed"));
+        assert_eq!(topology.attribute("NumberOfElements"), Some("18"));
+        let numbers = topology.first_element_child().and_then(|item| item.text()).expect("numbers");
+        assert_eq!(numbers.split_ascii_whitespace().count(), length);
+        let arrays: Vec<_> = children[0].children().filter(|node| node.has_tag_name("Attribute")).collect();
+        let of = |k: usize| arrays[k].first_element_child().and_then(|item| item.text()).expect("numbers");
+        let numbers = |k: usize| of(k).split_ascii_whitespace().map(|n| n.parse().unwrap()).collect::<Vec<u32>>();
+        assert_eq!((numbers(0).len(), numbers(1).len()), (18, 18));
+        assert!(numbers(0)[..8].iter().all(|&n| n > 0) && numbers(0)[8..].iter().all(|&n| n == 0));
+        assert!(numbers(1)[..8].iter().all(|&n| n == 0) && numbers(1)[8..].iter().all(|&n| n > 0));
+        let names = children[0].children().find(|node| node.has_tag_name("Information")).and_then(|n| n.text());
+        let names =
+            roxmltree::Document::parse(names.expect("names")).expect("XML within").root_element().children().count();
+        assert_eq!(names, 5);
+    }
+}
+
+#[test]
+fn what_a_reader_of_a_format_lacks_is_said() {
+    let mesh = second_order(strip(2, PLAIN));
+    let told = |format: Format, options: &WriteOptions| {
+        format.losses(&mesh, options).iter().any(|loss| loss.starts_with("order 2 for meshio"))
+    };
+    assert!(told(Format::Inp, &WriteOptions::default()));
+    assert!(told(Format::Xdmf, &WriteOptions { xdmf: XdmfGrids::Single, ..WriteOptions::default() }));
+    assert!(!told(Format::Xdmf, &WriteOptions::default()));
 }
 
 // ---- other writers ----
@@ -375,6 +521,19 @@ fn foreign() -> Vec<(&'static str, reader::Format, Vec<u8>)> {
         FIELD FieldData 2\nboundary:low%20side 1 1 int\n7\nregion:all 1 1 int\n1\nCELL_DATA 4\nFIELD FieldData 1\nregion 1 4 int\n0 7 1 1\n";
     let inp = "*Heading\nsquare\n*Node\n1, 0., 0.\n2, 1., 0., 0.\n5, 1, 1, 0\n9, 0, 1\n*Element, type=T3D2, elset=low side\n7, 1, 2\n\
         *ELEMENT, TYPE=CPE3, ELSET=all\n1, 1, 2,\n5\n2, 1, 5, 9\n*Step\n*End Step\n";
+    let parametric = msh22.replace(
+        "$Nodes\n4\n1 0 0 0\n2 1 0 0\n5 1 1 0\n9 0 1 0\n$EndNodes",
+        "$ParametricNodes\n4\n1 0 0 0 0 1\n2 1 0 0 1 3 0.5\n5 1 1 0 2 4 1 1\n9 0 1 0 2 4 0 1\n$EndParametricNodes",
+    );
+    // Of meshio 5.3.5, without its names, which it does not write.
+    let meshio =
+        vtk5.replace("vtktypeint64\n0 1 3", "vtktypeint32\n0 1 3").replace("region 1 4 int", "region 1 4 vtktypeint32");
+    let gmsh = "*Heading\n x.inp\n*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n5, 1, 1, 0\n9, 0, 1, 0\n******* E L E M E N T S *************\n\
+        *ELEMENT, type=T3D2, ELSET=Line1\n7, 1, 2\n*ELEMENT, type=CPS3, ELSET=Surface2\n1, 1, 2, 5\n\
+        *ELEMENT, type=CPS3, ELSET=Surface3\n2, 1, 5, 9\n*ELSET,ELSET=low side\n7, \n*ELSET,ELSET=all\n1, 2, \n";
+    let generated = "*NODE\n1, 0, 0\n2, 1, 0\n5, 1, 1\n9, 0, 1\n*ELEMENT, type=T3D2, ELSET=Eedges\n7, 1, 2\n\
+        *ELEMENT, TYPE=S3\n10, 1, 2, 5\n20, 1, 5, 9\n*ELSET, ELSET=everything, GENERATE\n1, 99\n\
+        *ELSET, ELSET=all, GENERATE\n10, 20, 10\n*ELSET, ELSET=low side\nEedges\n";
     let su2 = "% by hand\nNDIME=2\nNPOIN= 4 4\n0. 0. 0\n1. 0. 1\n1. 1. 2\n0. 1. 3\nNELEM= 2\n5\t0\t1\t2\t0\n5 0 2 3 1\n\
         NMARK= 1\nMARKER_TAG= low side\nMARKER_ELEMS= 1\n3 0 1\n";
     let obj = "# by hand\nvn 0 0 1\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\no all\nf 1//1 2//1 3//1\nf -4 -2 -1\n# name boundary l = low side\ng l\nl 1 2\n";
@@ -383,8 +542,12 @@ fn foreign() -> Vec<(&'static str, reader::Format, Vec<u8>)> {
         ("MSH 4.1", reader::Format::Msh, msh41.into()),
         ("binary MSH 2.2", reader::Format::Msh, binary),
         ("VTK 4.2", reader::Format::Vtk, vtk4.into()),
+        ("parametric MSH 2.2", reader::Format::Msh, parametric.into()),
         ("VTK 5.1", reader::Format::Vtk, vtk5.into()),
+        ("VTK 5.1 of meshio", reader::Format::Vtk, meshio.into()),
         ("INP", reader::Format::Inp, inp.into()),
+        ("INP of Gmsh", reader::Format::Inp, gmsh.into()),
+        ("INP with ranges and sets of sets", reader::Format::Inp, generated.into()),
         ("SU2", reader::Format::Su2, su2.into()),
         ("OBJ", reader::Format::Obj, obj.into()),
     ]
@@ -402,6 +565,27 @@ fn other_writers_forms_are_read() {
         assert_eq!(mesh.triangles.as_slice()[1], [0, 2, 3].map(VertexId), "{what}");
         assert!(notes.len() < 2, "{what}");
     }
+}
+
+#[test]
+fn element_sets_name_what_no_entity_names() {
+    let deck = |sets: &str| {
+        let text = format!(
+            "*NODE\n1, 0, 0\n2, 1, 0\n5, 1, 1\n9, 0, 1\n*ELEMENT, TYPE=CPS3, ELSET=Surface1\n1, 1, 2, 5\n\
+             *ELEMENT, TYPE=CPS3, ELSET=steel\n2, 1, 5, 9\n{sets}"
+        );
+        read(text.as_bytes(), reader::Format::Inp, &[])
+    };
+    let regions = |sets: &str| {
+        let file = deck(sets).expect("a deck");
+        (counts(&file.mesh).0.into_keys().collect::<Vec<_>>(), file.notes.len())
+    };
+    assert_eq!(regions(""), (vec!["Surface1".into(), "steel".into()], 0));
+    assert_eq!(regions("*ELSET, ELSET=a\n1, 2\n"), (vec!["a".into(), "steel".into()], 0));
+    // The smallest of several, and that is said.
+    assert_eq!(regions("*ELSET, ELSET=a\n1, 2\n*ELSET, ELSET=b\n1\n"), (vec!["b".into(), "steel".into()], 1));
+    let again = format!("*ELSET, ELSET=a, GENERATE\n{}", "1, 2\n".repeat(5000));
+    assert!(deck(&again).expect_err("no end").what.contains("again and again"));
 }
 
 #[test]
@@ -437,7 +621,7 @@ fn files() -> Vec<Input> {
     let mut files: Vec<_> = foreign().into_iter().map(|(_, format, bytes)| (format, bytes, Vec::new())).collect();
     for mesh in [strip(2, ODD), second_order(strip(2, PLAIN))] {
         for format in READ_BACK {
-            let Ok(mut written) = encode(&mesh, None, &[], format) else { continue };
+            let Ok(mut written) = encode(&mesh, None, &[], format, &WriteOptions::default()) else { continue };
             let reader = reader_of(format).expect("a format that is read");
             if format == Format::Triangle {
                 let [nodes, elements, segments] = <[_; 3]>::try_from(written).expect("three files");
@@ -454,7 +638,7 @@ fn files() -> Vec<Input> {
 /// Whatever is read can be judged, drawn and written.
 fn sound(mesh: &Mesh) {
     for format in [Format::Vtk, Format::Inp] {
-        encode(mesh, None, &[], format).expect("the lists fit");
+        encode(mesh, None, &[], format, &WriteOptions::default()).expect("the lists fit");
     }
 }
 

@@ -1,7 +1,7 @@
 //! VTU: what is written is read back bit for bit, other writers' encodings are understood, and no bytes do harm.
 
 use proptest::prelude::*;
-use squinch::export::{Format, encode, format_of, vtu};
+use squinch::export::{Format, WriteOptions, encode, format_of, vtu};
 use squinch::geometry::{Frame, Point};
 use squinch::ids::{CurveId, PointId, RegionId, VertexId};
 use squinch::import::mesh::{MeshFile, vtu::read};
@@ -158,7 +158,7 @@ fn formats_by_suffix() {
     assert_eq!(format_of(Path::new("b.vtu.png")), Some(Format::Png));
     assert_eq!(format_of(Path::new("vtu")), None);
     for format in Format::ALL {
-        let files = encode(&grid(2, PLAIN), None, &[], format).expect("written");
+        let files = encode(&grid(2, PLAIN), None, &[], format, &WriteOptions::default()).expect("written");
         assert_eq!(files.len(), format.suffixes().len());
         let begins: &[u8] = match format {
             Format::Vtu | Format::Xdmf => b"<?xml",

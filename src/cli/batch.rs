@@ -3,8 +3,9 @@
 mod record;
 
 use super::files::{Input, Staged};
-use super::mesh::{encode, mesh_format};
+use super::mesh::{encode, hold_order, mesh_format};
 use super::options::{Options, Resolved};
+use super::writing::Writing;
 use super::{Halt, Volume};
 use clap::Args;
 use record::{Desk, Line, Record};
@@ -41,6 +42,8 @@ pub struct Batch {
     /// Only every N-th input, from the I-th on: for N machines
     #[arg(long, value_name = "I/N", value_parser = shard, help_heading = "Batch")]
     shard: Option<Shard>,
+    #[command(flatten)]
+    writing: Writing,
     #[command(flatten)]
     options: Options,
 }
@@ -107,6 +110,7 @@ impl Batch {
     pub fn run(self, volume: Volume) -> Result<Exit, Halt> {
         let start = Instant::now();
         let Resolved { request, input_format } = self.options.resolve()?;
+        self.format.iter().try_for_each(|format| hold_order(*format, &request))?;
         let mut jobs = jobs(&self.inputs)?;
         if request.face.as_deref() == Some(EVERY_FACE) {
             jobs = jobs.into_iter().flat_map(|job| job.by_faces(&request, input_format)).collect();
@@ -188,7 +192,9 @@ impl Batch {
         }
         if let (Some(mesh), false) = (&outcome.mesh, outcome.exit == Exit::Bug) {
             for &format in &self.format {
-                for (suffix, bytes) in format.suffixes().iter().zip(encode(mesh, outcome, request, format)?) {
+                for (suffix, bytes) in
+                    format.suffixes().iter().zip(encode(mesh, outcome, request, format, &self.writing.options())?)
+                {
                     staged.add(&path(suffix), &bytes)?;
                     names.push(path(suffix).display().to_string());
                 }

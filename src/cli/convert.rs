@@ -2,6 +2,7 @@
 
 use super::files::{self, Input, Staged, unwritable};
 use super::mesh::mesh_format;
+use super::writing::Writing;
 use super::{Halt, Volume, check, say};
 use clap::Args;
 use squinch::export::{self, Format};
@@ -19,6 +20,8 @@ pub struct Convert {
     /// The format of the output, where the suffix is not to tell
     #[arg(long, value_parser = mesh_format, value_name = "FORMAT")]
     format: Option<Format>,
+    #[command(flatten)]
+    writing: Writing,
 }
 
 impl Convert {
@@ -26,16 +29,18 @@ impl Convert {
         let format = files::output_format(&self.output, self.format)?;
         let outputs = files::of_output(&self.output, format);
         files::each_once([self.mesh.clone()].into_iter().chain(outputs.clone()))?;
+        files::can_be_written(&outputs)?;
+        let options = self.writing.options();
         let input = Input::open(&self.mesh, None)?;
         let file = check::read(&input)?;
-        let encoded = export::encode(&file.mesh, None, &file.stamps, format);
+        let encoded = export::encode(&file.mesh, None, &file.stamps, format, &options);
         let encoded = encoded.map_err(|e| Halt::Unwritable(format!("{}: {e}", self.output.display())))?;
         let mut staged = Staged::default();
         outputs.iter().zip(&encoded).try_for_each(|(path, bytes)| staged.add(path, bytes)).map_err(unwritable)?;
         staged.commit().map_err(unwritable)?;
         if volume > Volume::Quiet {
             file.notes.iter().for_each(|note| say::line(&format!("  {}: {note}", input.path)));
-            say::losses(format, &file.mesh, volume);
+            say::losses(format, &file.mesh, &options);
         }
         Ok(Exit::Done)
     }

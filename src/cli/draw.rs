@@ -1,9 +1,10 @@
 //! `draw IN --stage S -o X.svg|X.png`: a picture of any stage of a drawing, or of a mesh file.
 
-use super::files::{Input, Staged, unwritable};
+use super::files::{self, Input, Staged, unwritable};
 use super::options::{Options, Resolved};
 use super::{Halt, Volume, check, remember};
 use clap::{Args, ValueEnum};
+use serde::Serialize;
 use squinch::canvas::Canvas;
 use squinch::domain::{Domain, Drawing};
 use squinch::export::picture::{MeshColour, PictureOptions, picture_of_domain, picture_of_drawing, picture_of_mesh};
@@ -55,14 +56,26 @@ enum Stage {
     Mesh,
 }
 
-#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Colour {
+/// What triangles are coloured by.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Colour {
     Quality,
     Region,
     Size,
 }
 
-fn window(text: &str) -> Result<Rect, String> {
+impl Colour {
+    pub fn of_mesh(self) -> MeshColour {
+        match self {
+            Self::Quality => MeshColour::Quality,
+            Self::Region => MeshColour::Region,
+            Self::Size => MeshColour::Size,
+        }
+    }
+}
+
+pub fn window(text: &str) -> Result<Rect, String> {
     let numbers: Result<Vec<f64>, _> = text.split(',').map(|part| part.trim().parse::<f64>()).collect();
     match numbers.as_deref() {
         Ok(&[x0, y0, x1, y1]) if x0 < x1 && y0 < y1 && [x0, y0, x1, y1].iter().all(|x| x.is_finite()) => {
@@ -80,10 +93,11 @@ impl Draw {
             None if self.output.as_os_str() == "-" => Format::Svg,
             _ => return Err(Halt::Usage(format!("-o {}: pictures are .svg or .png", self.output.display()))),
         };
+        files::can_be_written([&self.output])?;
         let input = Input::open(&self.input, input_format)?;
         let canvas = if check::is_mesh(&input) {
             let file = check::read(&input)?;
-            picture_of_mesh(&file.mesh, None, self.mesh_colour(), &self.picture(input.path, true))
+            picture_of_mesh(&file.mesh, None, self.colour.of_mesh(), &self.picture(input.path, true))
         } else {
             remember(&input, &request);
             self.stage(&input, &request).map_err(|failure| Halt::Failure(Box::new(failure), Some(Box::new(input))))?
@@ -134,15 +148,7 @@ impl Draw {
             _ => plan.refine(&domain, watch)?,
         };
         let mesh = refined.mesh.ok_or_else(|| pipeline::no_mesh(&refined.stop, "--timeout"))?;
-        Ok(picture_of_mesh(&mesh, Some(&domain), self.mesh_colour(), picture))
-    }
-
-    fn mesh_colour(&self) -> MeshColour {
-        match self.colour {
-            Colour::Quality => MeshColour::Quality,
-            Colour::Region => MeshColour::Region,
-            Colour::Size => MeshColour::Size,
-        }
+        Ok(picture_of_mesh(&mesh, Some(&domain), self.colour.of_mesh(), picture))
     }
 
     fn picture(&self, title: String, balls: bool) -> PictureOptions {

@@ -78,6 +78,27 @@ pub fn of_output(path: &Path, format: export::Format) -> Vec<PathBuf> {
     }
 }
 
+/// Every output has a folder that takes it: said before the work, not after.
+pub fn can_be_written<'a>(files: impl IntoIterator<Item = &'a PathBuf>) -> Result<(), Halt> {
+    files.into_iter().filter(|path| path.as_os_str() != "-").try_for_each(|path| {
+        let target = fs::canonicalize(path).unwrap_or_else(|_| path.clone());
+        let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        match fs::metadata(&target) {
+            Ok(there) if there.is_dir() => return Err(Halt::Unwritable(format!("{}: is a folder", path.display()))),
+            // A device, or a pipe.
+            Ok(there) if !there.is_file() => return Ok(()),
+            _ => {}
+        }
+        if !folder.is_dir() {
+            let what = format!("{}: there is no folder {}", path.display(), folder.display());
+            return Err(Halt::Unwritable(what));
+        }
+        // Only trying tells whether a file system takes files.
+        let mut trial = Staged::default();
+        trial.add(path, &[]).map_err(unwritable)
+    })
+}
+
 /// No output may be the input, or another output.
 pub fn each_once(files: impl IntoIterator<Item = PathBuf>) -> Result<(), Halt> {
     let mut seen: Vec<PathBuf> = Vec::new();

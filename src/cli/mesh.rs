@@ -3,10 +3,11 @@
 use super::check::REQUEST_STAMP;
 use super::files::{self, Input, Staged, unwritable};
 use super::options::{Options, Resolved};
+use super::writing::Writing;
 use super::{Halt, Volume, remember, say, write_case};
 use clap::Args;
 use squinch::domain::RepairKind;
-use squinch::export::{self, Format};
+use squinch::export::{self, Format, WriteOptions};
 use squinch::mesh;
 use squinch::pipeline::{self, Exit, Extent, Outcome};
 use squinch::request::Request;
@@ -24,7 +25,8 @@ pub struct Mesh {
     /// standard output; may be repeated
     #[arg(short, long, value_name = "OUT", required = true, help_heading = "Output")]
     output: Vec<PathBuf>,
-    /// Formats of the outputs, in their order, where the suffix is not to tell (msh22 is Gmsh 2.2; triangle is .node/.ele/.poly)
+    /// Formats of the outputs, in their order, where the suffix is not to tell (msh22 is Gmsh 2.2; vtk-text is VTK as text; triangle is
+    /// .node/.ele/.poly)
     #[arg(long, value_parser = mesh_format, value_name = "FORMAT", value_delimiter = ',', help_heading = "Output")]
     format: Vec<Format>,
     /// The report as JSON; - for standard output
@@ -34,6 +36,8 @@ pub struct Mesh {
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     case: Option<PathBuf>,
     #[command(flatten)]
+    writing: Writing,
+    #[command(flatten)]
     options: Options,
 }
 
@@ -41,9 +45,11 @@ impl Mesh {
     pub fn run(self, volume: Volume) -> Result<Exit, Halt> {
         let outputs = self.outputs()?;
         let files = outputs.iter().flat_map(|(path, format)| files::of_output(path, *format));
-        let others = [Some(&self.input), self.report.as_ref(), self.case.as_ref()].into_iter().flatten().cloned();
-        files::each_once(others.chain(files))?;
+        let files: Vec<PathBuf> = self.report.iter().chain(&self.case).cloned().chain(files).collect();
+        files::each_once([self.input.clone()].into_iter().chain(files.clone()))?;
         let Resolved { request, input_format } = self.options.resolve()?;
+        outputs.iter().try_for_each(|(_, format)| hold_order(*format, &request))?;
+        files::can_be_written(&files)?;
         let input = Input::open(&self.input, input_format)?;
         remember(&input, &request);
         let mut outcome = mesh_with_progress(&input, &request, volume);
@@ -54,10 +60,10 @@ impl Mesh {
         }
         let wrote = written?;
         say::summary(&outcome, &wrote, volume);
-        if let (Some(mesh), false) = (&outcome.mesh, wrote.is_empty()) {
+        if let (Some(mesh), false, Volume::Verbose) = (&outcome.mesh, wrote.is_empty(), volume) {
             // That a picture holds no mesh goes without saying.
-            let files = outputs.iter().filter(|(_, format)| !matches!(format, Format::Svg | Format::Png));
-            files.for_each(|(_, format)| say::losses(*format, mesh, volume));
+            let files = outputs.iter().filter(|(_, format)| !format.is_picture());
+            files.for_each(|(_, format)| say::losses(*format, mesh, &self.writing.options()));
         }
         if outcome.exit == Exit::Bug {
             write_case(&pipeline::ending(&outcome), "broken");
@@ -97,7 +103,7 @@ impl Mesh {
         // A mesh that broke down in our hands must not reach a solver.
         if let (Some(mesh), false) = (&outcome.mesh, outcome.exit == Exit::Bug) {
             for (path, format) in outputs {
-                let encoded = encode(mesh, outcome, request, *format);
+                let encoded = encode(mesh, outcome, request, *format, &self.writing.options());
                 let encoded = encoded.map_err(|e| Halt::Unwritable(format!("{}: {e}", path.display())))?;
                 for (file, bytes) in files::of_output(path, *format).iter().zip(encoded) {
                     staged.add(file, &bytes).map_err(unwritable)?;
@@ -132,14 +138,26 @@ pub fn mesh_with_progress(input: &Input, request: &Request, volume: Volume) -> O
 }
 
 /// A mesh as the bytes of its files, stamped with what it was asked for, and the tolerance where that had to be raised.
-pub fn encode(mesh: &mesh::Mesh, outcome: &Outcome, request: &Request, format: Format) -> io::Result<Vec<Vec<u8>>> {
+pub fn encode(
+    mesh: &mesh::Mesh,
+    outcome: &Outcome,
+    request: &Request,
+    format: Format,
+    options: &WriteOptions,
+) -> io::Result<Vec<Vec<u8>>> {
     let raised = outcome.report.input.repairs.first().filter(|repair| repair.kind == RepairKind::ToleranceRaised);
     let tolerance = raised.map(|repair| repair.size).or(request.tolerance);
     let request = toml::to_string(&Request { tolerance, ..request.clone() })
         .expect("a request holds only words, numbers and lists of them");
     let stamps =
         [("program".to_owned(), format!("squinch {}", env!("CARGO_PKG_VERSION"))), (REQUEST_STAMP.to_owned(), request)];
-    export::encode(mesh, outcome.domain.as_ref(), &stamps, format)
+    export::encode(mesh, outcome.domain.as_ref(), &stamps, format, options)
+}
+
+/// A format that cannot hold what is asked for is refused before there is a mesh.
+pub fn hold_order(format: Format, request: &Request) -> Result<(), Halt> {
+    let refused = |e: io::Error| Halt::Usage(format!("--order {}: {e}", u64::from(request.order)));
+    format.holds_order(u64::from(request.order) as u8).map_err(refused)
 }
 
 pub fn mesh_format(name: &str) -> Result<Format, String> {

@@ -11,6 +11,7 @@ mod options;
 mod reduce;
 mod replay;
 mod say;
+mod writing;
 
 use clap::{Parser, Subcommand};
 use files::{Input, Staged};

@@ -5,7 +5,7 @@ use super::{Halt, Volume};
 use indicatif::{ProgressBar, ProgressStyle};
 use miette::{LabeledSpan, MietteDiagnostic, NamedSource};
 use squinch::domain::{Repair, RepairKind};
-use squinch::export::Format;
+use squinch::export::{Format, WriteOptions};
 use squinch::mesh::Mesh;
 use squinch::mesh::verify::{Check, Excuse, Status, Verdict};
 use squinch::pipeline::{Exit, Outcome};
@@ -114,10 +114,9 @@ pub fn remarks(input: &InputReport, volume: Volume) {
 }
 
 /// What of a mesh a format does not hold.
-pub fn losses(format: Format, mesh: &Mesh, volume: Volume) {
-    if volume > Volume::Quiet {
-        format.losses(mesh).iter().for_each(|loss| line(&format!("  not kept by {}: {loss}", format.name())));
-    }
+pub fn losses(format: Format, mesh: &Mesh, options: &WriteOptions) {
+    let losses = format.losses(mesh, options);
+    losses.iter().for_each(|loss| line(&format!("  not kept by {}: {loss}", format.name())));
 }
 
 /// A message that points into a text.

@@ -24,13 +24,13 @@ use serde_json::json;
 use std::f32::consts::FRAC_1_SQRT_2;
 use std::io::{self, Write};
 
-/// Writes binary glTF.
+/// Writes binary glTF, the boundaries as lines where asked for.
 ///
 /// # Errors
 /// Those of `out`; `Unsupported` of no triangles; `InvalidInput` where the mesh's lists do not fit together, where coordinates
 /// exceed float32 or the file 4 GB.
-pub fn write_glb(mesh: &Mesh, out: &mut impl Write) -> io::Result<()> {
-    let (root, mut binary) = Scene::of(mesh)?.finish(None)?;
+pub fn write_glb(mesh: &Mesh, lines: bool, out: &mut impl Write) -> io::Result<()> {
+    let (root, mut binary) = Scene::of(mesh, lines)?.finish(None)?;
     let mut text = root.to_vec().map_err(io::Error::other)?;
     text.resize(text.len().next_multiple_of(4), b' ');
     binary.resize(binary.len().next_multiple_of(4), 0);
@@ -46,12 +46,12 @@ pub fn write_glb(mesh: &Mesh, out: &mut impl Write) -> io::Result<()> {
     out.write_all(&binary)
 }
 
-/// Writes glTF as JSON with everything inside.
+/// Writes glTF as JSON with everything inside, the boundaries as lines where asked for.
 ///
 /// # Errors
 /// As [`write_glb`].
-pub fn write_gltf(mesh: &Mesh, out: &mut impl Write) -> io::Result<()> {
-    let mut scene = Scene::of(mesh)?;
+pub fn write_gltf(mesh: &Mesh, lines: bool, out: &mut impl Write) -> io::Result<()> {
+    let mut scene = Scene::of(mesh, lines)?;
     let base64 = base64::engine::general_purpose::STANDARD.encode(&scene.binary);
     scene.binary.clear();
     let (root, _) = scene.finish(Some(format!("data:application/octet-stream;base64,{base64}")))?;
@@ -77,7 +77,7 @@ struct Scene {
 }
 
 impl Scene {
-    fn of(mesh: &Mesh) -> io::Result<Self> {
+    fn of(mesh: &Mesh, lines: bool) -> io::Result<Self> {
         let groups = Groups::of(mesh)?;
         if mesh.triangles.is_empty() {
             return unsupported("glTF has no meshes without triangles");
@@ -89,7 +89,10 @@ impl Scene {
         let mut scene = Self { root, buffer, binary: Vec::new() };
         let centre = centre(mesh);
         let positions = scene.positions(mesh, centre)?;
-        let primitives = scene.primitives(mesh, &groups, positions)?;
+        let mut primitives = scene.regions(mesh, &groups, positions)?;
+        if lines {
+            primitives.extend(scene.boundaries(mesh, &groups, positions)?);
+        }
         scene.nodes(mesh, primitives, centre)?;
         Ok(scene)
     }
@@ -132,7 +135,7 @@ impl Scene {
         Ok(self.root.push(json::Accessor { min: Some(min), max: Some(max), ..positions }))
     }
 
-    fn primitives(
+    fn regions(
         &mut self,
         mesh: &Mesh,
         groups: &Groups,
@@ -145,6 +148,16 @@ impl Scene {
             let extras = extras(&json!({ "region": groups.regions[i] }))?;
             primitives.push(self.primitive(Mode::Triangles, corners.collect(), positions, material, extras));
         }
+        Ok(primitives)
+    }
+
+    fn boundaries(
+        &mut self,
+        mesh: &Mesh,
+        groups: &Groups,
+        positions: Index<json::Accessor>,
+    ) -> io::Result<Vec<Primitive>> {
+        let mut primitives = Vec::new();
         let ink = (!mesh.edges.is_empty()).then(|| self.material("boundary", [0.02, 0.02, 0.02]));
         for ((edges, name), ink) in groups.edges().iter().zip(&groups.boundaries).zip(ink.iter().cycle()) {
             let ends = edges.iter().flat_map(|&i| straight_edges(mesh, i)).flatten().map(|v| v.0);

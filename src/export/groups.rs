@@ -181,6 +181,20 @@ pub fn sides(mesh: &Mesh) -> BTreeMap<[VertexId; 2], Vec<(TriangleId, usize)>> {
     sides
 }
 
+/// For every edge of the mesh whether triangles lie on both its sides; its lists must fit together ([`check`]).
+pub fn interior(mesh: &Mesh) -> impl Iterator<Item = bool> {
+    let sides = sides(mesh);
+    mesh.edges.iter().map(move |edge| sides.get(&undirected(edge.nodes)).is_some_and(|there| there.len() > 1))
+}
+
+/// The mesh without the edges that have triangles on both sides.
+pub fn without_interior(mesh: &Mesh) -> Mesh {
+    let kept: Vec<usize> = interior(mesh).enumerate().filter(|(_, inside)| !inside).map(|(i, _)| i).collect();
+    let edges = kept.iter().map(|&i| mesh.edges[i]).collect();
+    let edge_mids = kept.iter().filter_map(|&i| mesh.edge_mids.get(i).copied()).collect();
+    Mesh { edges, edge_mids, ..mesh.clone() }
+}
+
 /// The ends of an edge, smaller id first.
 pub fn undirected([a, b]: [VertexId; 2]) -> [VertexId; 2] {
     [a.min(b), a.max(b)]

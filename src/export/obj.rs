@@ -2,6 +2,8 @@
 //! blanks; a comment keeps what a name was. Coordinates have all their digits. Cells of order 2 are written as straight ones
 //! between all their nodes: four a triangle, two an edge.
 //!
+//! Readers that go wrong beside lines are served by leaving them out (`lines` false).
+//!
 //! Not held: order 2, the unit (a comment says it), links to curves, balls.
 
 use super::groups::{Groups, Kind, legal_names, name_comment, straight_edges, straight_triangles, word};
@@ -9,9 +11,11 @@ use crate::ids::VertexId;
 use crate::mesh::Mesh;
 use std::io::{self, Write};
 
+/// Writes the mesh, its boundaries as lines where asked for.
+///
 /// # Errors
 /// Those of `out`; `InvalidInput` where the mesh's lists do not fit together.
-pub fn write(mesh: &Mesh, out: &mut impl Write) -> io::Result<()> {
+pub fn write(mesh: &Mesh, lines: bool, out: &mut impl Write) -> io::Result<()> {
     let groups = Groups::of(mesh)?;
     writeln!(out, "# triangles by squinch")?;
     if let Some(unit) = &mesh.unit {
@@ -26,6 +30,9 @@ pub fn write(mesh: &Mesh, out: &mut impl Write) -> io::Result<()> {
         for &t in triangles {
             straight_triangles(mesh, t).try_for_each(|corners| element('f', &corners, out))?;
         }
+    }
+    if !lines {
+        return Ok(());
     }
     let boundaries = legal_names(&groups.boundaries, usize::MAX, word);
     for (i, edges) in groups.edges().iter().enumerate() {

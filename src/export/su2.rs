@@ -1,13 +1,17 @@
 //! SU2's native mesh, in two dimensions.
 //!
 //! Every edge that has a triangle on one side only is in exactly one marker: its boundary's, or `boundary` where the mesh has no
-//! name for it. Edges between two kept regions are in none: to SU2 a marker is a border of the flow. Names are written without
-//! blanks, and a comment keeps what a name was. Order 2 is refused: SU2 has straight cells only.
+//! name for it. Edges between two kept regions are in none: to SU2 a marker is a border of the flow. Order 2 is refused: SU2 has
+//! straight cells only.
+//!
+//! A configuration must be able to name every marker: SU2 splits its values at blanks and `( ) { } : ,`, its lines at `=` and `;`, begins
+//! a comment at `%`, goes on after `\` and reads `NONE` as no marker. These become `_` in tags (`NONE` becomes `NONE_`), tags stay apart
+//! whatever their case, and a comment keeps what a name was.
 //!
 //! Not held: regions (SU2 has one zone), the names of interfaces, the unit, the plane in space, links to curves, balls.
 
-use super::groups::{Groups, Kind, legal_names, name_comment, sides, word};
-use super::unsupported;
+use super::Format;
+use super::groups::{Groups, Kind, legal_names, name_comment, sides, undirected, word};
 use crate::ids::VertexId;
 use crate::mesh::Mesh;
 use std::collections::BTreeMap;
@@ -20,9 +24,7 @@ const UNNAMED: &str = "boundary";
 /// Those of `out`; `Unsupported` of order 2; `InvalidInput` where the mesh's lists do not fit together.
 pub fn write(mesh: &Mesh, out: &mut impl Write) -> io::Result<()> {
     let groups = Groups::of(mesh)?;
-    if mesh.order() > 1 {
-        return unsupported("SU2 has straight cells only: mesh with --order 1");
-    }
+    Format::Su2.holds_order(mesh.order())?;
     writeln!(out, "NDIME= 2\nNELEM= {}", mesh.triangles.len())?;
     for (i, [a, b, c]) in mesh.triangles.iter().enumerate() {
         writeln!(out, "5 {} {} {} {i}", a.0, b.0, c.0)?;
@@ -33,7 +35,7 @@ pub fn write(mesh: &Mesh, out: &mut impl Write) -> io::Result<()> {
     }
     let markers = markers(mesh, &groups);
     let names: Vec<&str> = markers.iter().map(|(name, _)| *name).collect();
-    let legal = legal_names(&names, usize::MAX, word);
+    let legal = legal_names(&names, usize::MAX, tag);
     writeln!(out, "NMARK= {}", markers.len())?;
     for ((name, edges), legal) in markers.iter().zip(&legal) {
         if legal != name {
@@ -47,6 +49,13 @@ pub fn write(mesh: &Mesh, out: &mut impl Write) -> io::Result<()> {
     Ok(())
 }
 
+/// A name as a marker's tag that a configuration can hold.
+fn tag(name: &str) -> String {
+    let cut = |c: char| matches!(c, '(' | ')' | '{' | '}' | ':' | ',' | '=' | ';' | '%' | '\\' | '|');
+    let tag = word(name).replace(cut, "_");
+    if tag.eq_ignore_ascii_case("NONE") { format!("{tag}_") } else { tag }
+}
+
 /// The edges of the rim by boundary, each as its triangle has it: the domain on the left.
 fn markers<'m>(mesh: &Mesh, groups: &Groups<'m>) -> Vec<(&'m str, Vec<[VertexId; 2]>)> {
     let mut rim: BTreeMap<[VertexId; 2], [VertexId; 2]> = BTreeMap::new();
@@ -57,7 +66,7 @@ fn markers<'m>(mesh: &Mesh, groups: &Groups<'m>) -> Vec<(&'m str, Vec<[VertexId;
     }
     let mut markers: Vec<(&str, Vec<_>)> = groups.boundaries.iter().map(|name| (*name, Vec::new())).collect();
     for edge in &mesh.edges {
-        if let Some(directed) = rim.remove(&super::groups::undirected(edge.nodes)) {
+        if let Some(directed) = rim.remove(&undirected(edge.nodes)) {
             markers[groups.boundary(edge)].1.push(directed);
         }
     }

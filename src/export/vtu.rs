@@ -18,6 +18,9 @@
 //! `String` ("Illegal data type"), while both it and VTK list the names of field arrays as they are. For meshio, too,
 //! no empty array is compressed.
 //!
+//! MFEM 4.10 refuses field data that stand before the piece, and lines beside triangles: a plain file has neither. Its attributes are
+//! all 1 then, whatever the arrays are called; names and boundaries reach it by MSH.
+//!
 //! Written here and not by the vtkio crate (0.7.0-rc2), which keeps a second model of the whole file in memory and
 //! compresses one block after the other; here each array is made, compressed in parallel blocks and written before
 //! the next.
@@ -42,17 +45,38 @@ const BLOCK: usize = 1 << 17;
 /// names.
 pub fn write(mesh: &Mesh, stamps: &[(String, String)], out: &mut impl Write) -> io::Result<()> {
     check(mesh)?;
-    let boundaries = boundary_numbers(mesh);
+    begin(out)?;
+    writeln!(out, "<FieldData>")?;
+    write_fields(mesh, stamps, &boundary_numbers(mesh), out)?;
+    writeln!(out, "</FieldData>")?;
+    write_piece(mesh, out)
+}
+
+/// Writes a mesh without field data, and so without names, boundaries as lines only where asked for.
+///
+/// # Errors
+/// As [`write`].
+pub fn write_plain(mesh: &Mesh, lines: bool, out: &mut impl Write) -> io::Result<()> {
+    check(mesh)?;
+    begin(out)?;
+    if lines {
+        return write_piece(mesh, out);
+    }
+    write_piece(&Mesh { edges: Vec::new(), edge_mids: Vec::new(), ..mesh.clone() }, out)
+}
+
+fn begin(out: &mut impl Write) -> io::Result<()> {
     writeln!(out, "<?xml version=\"1.0\"?>")?;
     writeln!(
         out,
         "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\" \
-         compressor=\"vtkZLibDataCompressor\">"
-    )?;
-    writeln!(out, "<UnstructuredGrid>\n<FieldData>")?;
-    write_fields(mesh, stamps, &boundaries, out)?;
+         compressor=\"vtkZLibDataCompressor\">\n<UnstructuredGrid>"
+    )
+}
+
+fn write_piece(mesh: &Mesh, out: &mut impl Write) -> io::Result<()> {
     let cells = mesh.triangles.len() + mesh.edges.len();
-    writeln!(out, "</FieldData>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{cells}\">\n<Points>", mesh.nodes.len())?;
+    writeln!(out, "<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{cells}\">\n<Points>", mesh.nodes.len())?;
     let points: Vec<f64> = mesh.places().flatten().collect();
     Array::of_f64("Points", 3, points).write(out)?;
     writeln!(out, "</Points>")?;
@@ -64,7 +88,7 @@ pub fn write(mesh: &Mesh, stamps: &[(String, String)], out: &mut impl Write) -> 
     writeln!(out, "<Cells>")?;
     write_cells(mesh, out)?;
     writeln!(out, "</Cells>\n<CellData>")?;
-    write_cell_data(mesh, &boundaries, out)?;
+    write_cell_data(mesh, &boundary_numbers(mesh), out)?;
     writeln!(out, "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>")
 }
 

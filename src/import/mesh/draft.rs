@@ -40,11 +40,6 @@ impl Draft {
         self.edges.push((nodes, name));
     }
 
-    /// The corners of a triangle that was read.
-    pub fn corners(&self, triangle: usize) -> Option<&[usize]> {
-        self.triangles.get(triangle).map(|(nodes, _)| &nodes[..3])
-    }
-
     pub fn finish(mut self) -> Result<MeshFile> {
         self.check()?;
         let order = if self.triangles.iter().any(|(nodes, _)| nodes.len() == 6) { 2 } else { 1 };

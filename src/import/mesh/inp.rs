@@ -1,6 +1,10 @@
 //! Abaqus' and CalculiX's input deck: `*NODE`, `*ELEMENT` of triangles (CPS3, CPE3, CAX3, S3, STRI3 and their likes of 6 nodes)
 //! and of lines (T2D2, B21, … and of 3 nodes), the element set as region or boundary; `*SURFACE` of element faces as boundary.
 //! Other keywords are passed over.
+//!
+//! The set of an element is the one that its `*ELEMENT` line names. Where that is none, or an entity of the program that wrote the
+//! deck (Gmsh's `Surface2`, `Line1`; FreeCAD's `Efaces`, `Eedges`), it is the smallest of the `*ELSET` lists that hold the element:
+//! there Gmsh writes its physical groups.
 
 use super::draft::{BOUNDARY, Draft, REGION};
 use super::{MeshFile, NameComments, Result, broken_at, lines, text, unsupported};
@@ -25,11 +29,43 @@ pub fn read(bytes: &[u8]) -> Result<MeshFile> {
 enum Section {
     Nodes,
     /// Nodes an element, and its set.
-    Triangles(usize, String),
-    Lines(usize, String),
+    Triangles(usize, Option<String>),
+    Lines(usize, Option<String>),
     Surface(String),
+    /// The last of the lists; whether its lines are ranges.
+    Set(bool),
     #[default]
     Other,
+}
+
+/// An element as it stands in the deck.
+struct Element {
+    tag: u64,
+    nodes: Vec<usize>,
+    set: Option<String>,
+}
+
+/// What bounds the triangles, in the order of the deck.
+enum Boundary {
+    Line(Element),
+    /// A side of a triangle, of the surface of this name.
+    Face {
+        ends: [usize; 2],
+        name: String,
+    },
+}
+
+/// What a list of elements holds.
+enum Member {
+    Element(u64),
+    /// From, to, and the step between.
+    Range([u64; 3]),
+    Set(String),
+}
+
+struct List {
+    name: String,
+    members: Vec<Member>,
 }
 
 #[derive(Default)]
@@ -38,8 +74,11 @@ struct Deck {
     names: NameComments,
     section: Section,
     nodes: BTreeMap<u64, usize>,
+    triangles: Vec<Element>,
+    boundaries: Vec<Boundary>,
+    lists: Vec<List>,
     /// Place among the triangles of an element's number.
-    triangles: BTreeMap<u64, usize>,
+    places: BTreeMap<u64, usize>,
     /// Numbers of an element that goes on in the next line.
     begun: Vec<u64>,
 }
@@ -48,8 +87,12 @@ impl Deck {
     fn keyword(&mut self, n: usize, line: &str) -> Result<()> {
         let mut parts = line.split(',').map(str::trim);
         let keyword = parts.next().unwrap_or_default().to_ascii_uppercase();
-        let parameters: BTreeMap<String, &str> =
-            parts.filter_map(|p| p.split_once('=')).map(|(k, v)| (k.trim().to_ascii_uppercase(), v.trim())).collect();
+        let parts: Vec<&str> = parts.collect();
+        let parameters: BTreeMap<String, &str> = parts
+            .iter()
+            .filter_map(|p| p.split_once('='))
+            .map(|(k, v)| (k.trim().to_ascii_uppercase(), v.trim()))
+            .collect();
         let set = parameters.get("ELSET").map(|set| (*set).to_owned());
         self.section = match keyword.as_str() {
             "NODE" => Section::Nodes,
@@ -58,6 +101,10 @@ impl Deck {
                 element(&kind, set).ok_or_else(|| {
                     unsupported(format!("line {n}: elements of type '{kind}'"), "only triangles and lines can be read")
                 })?
+            }
+            "ELSET" => {
+                self.lists.push(List { name: set.unwrap_or_else(|| REGION.into()), members: Vec::new() });
+                Section::Set(parts.iter().any(|part| part.eq_ignore_ascii_case("GENERATE")))
             }
             "SURFACE" => {
                 let name = parameters.get("NAME").copied().unwrap_or(BOUNDARY);
@@ -99,22 +146,38 @@ impl Deck {
                 }
             }
             Section::Surface(name) => {
-                let [element, face] = words.as_slice() else { return Ok(()) };
-                let tag = text(element).parse().ok();
-                let triangle = tag.and_then(|tag: u64| self.triangles.get(&tag));
-                let side = face.strip_prefix(b"S").or(face.strip_prefix(b"s")).and_then(number);
-                let corners = triangle.and_then(|&t| self.draft.corners(t));
-                let (Some(corners), Some(side @ (1.0 | 2.0 | 3.0))) = (corners, side) else {
-                    let what = format!("line {n}: '{}' is no face of a triangle", text(line));
-                    return Err(unsupported(what, "surfaces can be read as faces S1 to S3 of elements before them"));
-                };
-                let side = side as usize - 1;
-                let ends = vec![corners[side], corners[(side + 1) % 3]];
                 let name = name.clone();
-                self.draft.line(ends, &name);
+                self.face(n, line, &words, name)?;
+            }
+            Section::Set(ranges) => {
+                let members: Vec<Member> = if *ranges {
+                    let numbers: Vec<u64> = words.iter().map(whole).collect::<Result<_>>()?;
+                    let &[from, ref rest @ ..] = numbers.as_slice() else { return Ok(()) };
+                    let to = rest.first().copied().unwrap_or(from);
+                    vec![Member::Range([from, to, rest.get(1).copied().unwrap_or(1)])]
+                } else {
+                    let member = |word: &&[u8]| text(word).parse().map_or(Member::Set(text(word)), Member::Element);
+                    words.iter().map(member).collect()
+                };
+                self.lists.last_mut().expect("its keyword began the list").members.extend(members);
             }
             Section::Other => {}
         }
+        Ok(())
+    }
+
+    fn face(&mut self, n: usize, line: &[u8], words: &[&[u8]], name: String) -> Result<()> {
+        let [element, face] = words else { return Ok(()) };
+        let tag = text(element).parse().ok();
+        let triangle = tag.and_then(|tag: u64| self.places.get(&tag)).map(|&t| &self.triangles[t]);
+        let side = face.strip_prefix(b"S").or(face.strip_prefix(b"s")).and_then(number);
+        let (Some(triangle), Some(side @ (1.0 | 2.0 | 3.0))) = (triangle, side) else {
+            let what = format!("line {n}: '{}' is no face of a triangle", text(line));
+            return Err(unsupported(what, "surfaces can be read as faces S1 to S3 of elements before them"));
+        };
+        let side = side as usize - 1;
+        let ends = [triangle.nodes[side], triangle.nodes[(side + 1) % 3]];
+        self.boundaries.push(Boundary::Face { ends, name });
         Ok(())
     }
 
@@ -123,46 +186,137 @@ impl Deck {
         let find =
             |tag: &u64| self.nodes.get(tag).copied().ok_or_else(|| broken_at(n, format!("there is no node {tag}")));
         let mut nodes: Vec<usize> = numbers[1..].iter().map(find).collect::<Result<_>>()?;
+        let tag = numbers[0];
         match &self.section {
             Section::Triangles(size, set) if nodes.len() == *size => {
-                let set = self.names.region(set);
-                let place = self.triangles.len();
-                if self.triangles.insert(numbers[0], place).is_some() {
-                    return Err(broken_at(n, format!("element {} is given twice", numbers[0])));
+                if self.places.insert(tag, self.triangles.len()).is_some() {
+                    return Err(broken_at(n, format!("element {tag} is given twice")));
                 }
-                self.draft.triangle(nodes, &set);
+                self.triangles.push(Element { tag, nodes, set: set.clone() });
             }
             Section::Lines(size, set) if nodes.len() == *size => {
                 // The second of three nodes is the one within.
                 if nodes.len() == 3 {
                     nodes.swap(1, 2);
                 }
-                let set = self.names.boundary(set);
-                self.draft.line(nodes, &set);
+                self.boundaries.push(Boundary::Line(Element { tag, nodes, set: set.clone() }));
             }
             _ => return Err(broken_at(n, format!("an element has {} nodes", nodes.len()))),
         }
         Ok(())
     }
 
-    fn finish(self) -> Result<MeshFile> {
-        self.draft.finish()
+    fn finish(mut self) -> Result<MeshFile> {
+        let mut sets = self.sets()?;
+        let mut draft = self.draft;
+        for Element { tag, nodes, set } in self.triangles {
+            let name = sets.of(tag, set).unwrap_or_else(|| REGION.into());
+            draft.triangle(nodes, &self.names.region(&name));
+        }
+        for boundary in self.boundaries {
+            match boundary {
+                Boundary::Line(Element { tag, nodes, set }) => {
+                    let name = sets.of(tag, set).unwrap_or_else(|| BOUNDARY.into());
+                    draft.line(nodes, &self.names.boundary(&name));
+                }
+                Boundary::Face { ends, name } => draft.line(ends.to_vec(), &name),
+            }
+        }
+        let mut file = draft.finish()?;
+        if sets.in_several > 0 {
+            let n = sets.in_several;
+            file.notes.push(format!("{n} elements are in several element sets: each has the name of the smallest"));
+        }
+        Ok(file)
     }
+
+    /// Which lists hold each element.
+    fn sets(&mut self) -> Result<Sets> {
+        let lines = self.boundaries.iter().filter_map(|boundary| match boundary {
+            Boundary::Line(element) => Some(element),
+            Boundary::Face { .. } => None,
+        });
+        let mut by_set: BTreeMap<String, Vec<u64>> = BTreeMap::new();
+        let mut by_tag: BTreeMap<u64, Vec<usize>> = BTreeMap::new();
+        for element in self.triangles.iter().chain(lines) {
+            by_tag.insert(element.tag, Vec::new());
+            if let Some(set) = &element.set {
+                by_set.entry(set.to_ascii_lowercase()).or_default().push(element.tag);
+            }
+        }
+        // Ranges and sets of sets can say much in few bytes.
+        let mut left = 64 * by_tag.len() + 1000;
+        let mut sizes = Vec::new();
+        for (k, list) in self.lists.iter().enumerate() {
+            let mut size = 0;
+            for member in &list.members {
+                let (tags, from, step): (Vec<u64>, _, _) = match member {
+                    Member::Element(tag) => (vec![*tag], *tag, 1),
+                    Member::Range([from, to, step]) => {
+                        let there = by_tag.range(*from..=(*to).max(*from)).map(|(&tag, _)| tag);
+                        (there.take(left + 1).collect(), *from, (*step).max(1))
+                    }
+                    Member::Set(name) => (by_set.get(&name.to_ascii_lowercase()).cloned().unwrap_or_default(), 0, 1),
+                };
+                left = left.checked_sub(tags.len().max(1)).ok_or_else(|| {
+                    let what = format!("element set '{}': the sets list elements again and again", list.name);
+                    unsupported(what, "write each element into its sets once")
+                })?;
+                for tag in tags.into_iter().filter(|tag| (tag - from).is_multiple_of(step)) {
+                    if let Some(lists) = by_tag.get_mut(&tag).filter(|lists| lists.last() != Some(&k)) {
+                        lists.push(k);
+                        size += 1;
+                    }
+                }
+            }
+            sizes.push(size);
+        }
+        let names = std::mem::take(&mut self.lists).into_iter().map(|list| list.name).collect();
+        Ok(Sets { names, sizes, by_tag, in_several: 0 })
+    }
+}
+
+/// The lists of elements, by the elements that they hold.
+struct Sets {
+    names: Vec<String>,
+    sizes: Vec<usize>,
+    by_tag: BTreeMap<u64, Vec<usize>>,
+    /// How many elements had a choice.
+    in_several: usize,
+}
+
+impl Sets {
+    /// The set of an element with its own, if it has one.
+    fn of(&mut self, tag: u64, own: Option<String>) -> Option<String> {
+        if own.as_ref().is_some_and(|own| !is_entity(own)) {
+            return own;
+        }
+        let lists = self.by_tag.get(&tag).map(Vec::as_slice).unwrap_or_default();
+        self.in_several += usize::from(lists.len() > 1);
+        let smallest = lists.iter().min_by_key(|&&k| (self.sizes[k], k));
+        smallest.map(|&k| self.names[k].clone()).or(own)
+    }
+}
+
+/// Whether a set stands for an entity of the program that wrote the deck, which nobody named.
+fn is_entity(set: &str) -> bool {
+    let numbered = ["Line", "Curve", "Surface", "Volume"];
+    let is_number = |rest: &str| !rest.is_empty() && rest.bytes().all(|b| b.is_ascii_digit());
+    numbered.iter().any(|word| set.strip_prefix(word).is_some_and(is_number))
+        || ["Efaces", "Eedges", "Evolumes"].contains(&set)
 }
 
 /// What elements of a type are, `None` where they are neither triangles nor lines.
 fn element(kind: &str, set: Option<String>) -> Option<Section> {
-    let region = || set.clone().unwrap_or_else(|| REGION.into());
-    let boundary = || set.clone().unwrap_or_else(|| BOUNDARY.into());
     let starts = |words: &[&str]| words.iter().any(|word| kind.starts_with(word));
     if starts(&["CPS3", "CPE3", "CAX3", "S3", "STRI3", "M3D3", "SFM3D3", "DC2D3", "DS3", "R3D3"]) {
-        Some(Section::Triangles(3, region()))
+        Some(Section::Triangles(3, set))
     } else if starts(&["CPS6", "CPE6", "CAX6", "S6", "STRI65", "M3D6", "SFM3D6", "DC2D6", "DS6"]) {
-        Some(Section::Triangles(6, region()))
+        Some(Section::Triangles(6, set))
     } else if starts(&["T2D2", "T3D2", "B21", "B31", "R2D2"]) {
-        Some(Section::Lines(2, boundary()))
+        Some(Section::Lines(2, set))
     } else if starts(&["T2D3", "T3D3", "B22", "B32"]) {
-        Some(Section::Lines(3, boundary()))
+        Some(Section::Lines(3, set))
     } else {
         None
     }

@@ -16,7 +16,8 @@ pub fn read(bytes: &[u8]) -> Result<MeshFile> {
             "PhysicalNames" => reader.names()?,
             "Entities" if reader.version == 4 => reader.entities()?,
             "Nodes" if reader.version == 4 => reader.nodes_4()?,
-            "Nodes" => reader.nodes_2()?,
+            "Nodes" => reader.nodes_2(false)?,
+            "ParametricNodes" => reader.nodes_2(true)?,
             "Elements" if reader.version == 4 => reader.elements_4()?,
             "Elements" => reader.elements_2()?,
             _ => {}
@@ -229,12 +230,19 @@ impl Reader<'_> {
         Ok(())
     }
 
-    fn nodes_2(&mut self) -> Result<()> {
+    /// Nodes of 2.2. Parametric ones also say on which entity they lie, and where on it: a parameter on a curve, two on a surface.
+    fn nodes_2(&mut self, parametric: bool) -> Result<()> {
         let count = self.count_2()?;
         for _ in 0..count {
             let tag = self.words.int()?;
             let place = self.place()?;
             self.node(u64::try_from(tag).map_err(|_| broken(format!("{tag} is no number of a node")))?, place)?;
+            if parametric {
+                let (dimension, _) = (self.words.int()?, self.words.int()?);
+                for _ in 0..if matches!(dimension, 1 | 2) { dimension } else { 0 } {
+                    self.words.double()?;
+                }
+            }
         }
         Ok(())
     }

@@ -1,5 +1,5 @@
 //! Legacy VTK (`.vtk`), text or binary: unstructured grids of versions up to 4 (`CELLS` with sizes) and of 5.1 (`OFFSETS`,
-//! `CONNECTIVITY`). Groups are read as in VTU: the first of [`FOREIGN`] among the integer cell arrays, our own names from field arrays.
+//! `CONNECTIVITY`; meshio's types of numbers too). Groups are read as in VTU: the first of [`FOREIGN`] among the integer cell arrays, our own names from field arrays.
 
 use super::draft::{BOUNDARY, Draft, REGION};
 use super::vtu::FOREIGN;
@@ -58,10 +58,10 @@ impl<'a> Words<'a> {
     fn numbers(&mut self, count: usize, kind: &str) -> Result<Vec<f64>> {
         let short = || broken(format!("the file ends within an array of {count} {kind}"));
         let size = match kind {
-            "char" | "unsigned_char" | "signed_char" => 1,
-            "short" | "unsigned_short" => 2,
-            "int" | "unsigned_int" | "float" => 4,
-            "long" | "unsigned_long" | "double" | "vtktypeint64" | "vtkidtype" => 8,
+            "char" | "unsigned_char" | "signed_char" | "vtktypeint8" | "vtktypeuint8" => 1,
+            "short" | "unsigned_short" | "vtktypeint16" | "vtktypeuint16" => 2,
+            "int" | "unsigned_int" | "float" | "vtktypeint32" | "vtktypeuint32" => 4,
+            "long" | "unsigned_long" | "double" | "vtktypeint64" | "vtktypeuint64" | "vtkidtype" => 8,
             _ => return Err(unsupported(format!("an array is of '{kind}'"), "save it with plain numbers")),
         };
         if !self.binary {
@@ -79,7 +79,7 @@ impl<'a> Words<'a> {
             match kind {
                 "float" => f64::from(f32::from_bits(bits as u32)),
                 "double" => f64::from_bits(bits),
-                _ if kind.starts_with("unsigned") => bits as f64,
+                _ if kind.starts_with("unsigned") || kind.starts_with("vtktypeuint") => bits as f64,
                 _ => (((bits << unused) as i64) >> unused) as f64,
             }
         };
@@ -111,7 +111,8 @@ struct Grid {
     ends: Vec<f64>,
     types: Vec<f64>,
     data: BTreeMap<String, Vec<f64>>,
-    fields: BTreeMap<String, Vec<f64>>,
+    /// Of the data set as a whole: names, components, values.
+    fields: Vec<(String, usize, Vec<f64>)>,
     of: Of,
     cells: usize,
 }
@@ -140,23 +141,23 @@ impl Grid {
                     };
                     let sizes = [components, tuples].map(|word| word.parse::<usize>().unwrap_or(usize::MAX));
                     let values = words.numbers(sizes[0].saturating_mul(sizes[1]), &kind.to_ascii_lowercase())?;
-                    self.keep(decoded(name), values);
+                    self.keep(decoded(name), sizes[0], values);
                 }
             }
             "SCALARS" if self.of == Of::Cells => {
                 let components = if line.len() > 3 { count(3)? } else { 1 };
                 words.line(); // LOOKUP_TABLE
                 let values = words.numbers(self.cells.saturating_mul(components), &kind(2))?;
-                self.keep(decoded(&line[1]), values);
+                self.keep(decoded(&line[1]), components, values);
             }
             _ => {}
         }
         Ok(())
     }
 
-    fn keep(&mut self, name: String, values: Vec<f64>) {
+    fn keep(&mut self, name: String, components: usize, values: Vec<f64>) {
         match self.of {
-            Of::All => drop(self.fields.insert(name, values)),
+            Of::All => self.fields.push((name, components, values)),
             Of::Cells => drop(self.data.insert(name, values)),
             Of::Points => {}
         }
@@ -199,8 +200,9 @@ impl Grid {
         let regions = FOREIGN.into_iter().find_map(|name| self.data.get(name));
         let boundaries = self.data.get("boundary").or(regions);
         let names = |prefix: &str| -> BTreeMap<i64, String> {
-            let named = |(name, values): (&String, &Vec<f64>)| {
-                Some((*values.first()? as i64, name.strip_prefix(prefix)?.to_owned()))
+            let named = |(name, components, values): &(String, usize, Vec<f64>)| {
+                let number = *values.first().filter(|_| *components == 1)?;
+                Some((number as i64, name.strip_prefix(prefix)?.to_owned()))
             };
             self.fields.iter().filter_map(named).collect()
         };
@@ -217,9 +219,7 @@ impl Grid {
             let corners = (end >= 0.0).then(|| self.corners.get(from..end as usize)).flatten();
             let corners = corners.ok_or_else(|| broken(format!("cell {cell} has no corners")))?;
             from = end as usize;
-            let whole = |v: &f64| (*v >= 0.0 && v.fract() == 0.0).then_some(*v as usize);
-            let nodes: Option<Vec<usize>> = corners.iter().map(whole).collect();
-            let nodes = nodes.ok_or_else(|| broken(format!("cell {cell} has a corner that is no point")))?;
+            let nodes = nodes(corners).ok_or_else(|| broken(format!("cell {cell} has a corner that is no point")))?;
             match (kind as i64, nodes.len()) {
                 (5, 3) | (22, 6) => draft.triangle(nodes, &name(&region_names, regions, cell, REGION)),
                 (3, 2) | (21, 3) => draft.line(nodes, &name(&boundary_names, boundaries, cell, BOUNDARY)),
@@ -230,8 +230,21 @@ impl Grid {
                 }
             }
         }
+        // Our own text has the edges of a boundary in its field.
+        for (name, components, values) in &self.fields {
+            let Some(name) = name.strip_prefix("boundary:").filter(|_| matches!(components, 2 | 3)) else { continue };
+            for edge in values.chunks_exact(*components) {
+                let edge = nodes(edge).ok_or_else(|| broken(format!("an edge of '{name}' ends at no point")))?;
+                draft.line(edge, name);
+            }
+        }
         draft.finish()
     }
+}
+
+/// Numbers of points, where they can be some.
+fn nodes(numbers: &[f64]) -> Option<Vec<usize>> {
+    numbers.iter().map(|v| (*v >= 0.0 && v.fract() == 0.0).then_some(*v as usize)).collect()
 }
 
 /// A name with its `%20` undone.

@@ -1,0 +1,56 @@
+//! The options of writing, shared by the verbs that write meshes.
+
+use super::draw::{Colour, window};
+use clap::{Args, ValueEnum};
+use serde::Serialize;
+use squinch::export::{WriteOptions, XdmfGrids};
+use squinch::geometry::Rect;
+use squinch::request::Switch;
+
+/// How meshes are written where a format, or a reader of it, leaves a choice.
+#[derive(Args, Clone, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct Writing {
+    /// Boundaries with triangles on both sides: interfaces, and lines within a region
+    #[arg(long, value_enum, default_value_t = Switch::On, value_name = "on|off", help_heading = "Formats")]
+    interior_lines: Switch,
+    /// Boundaries as lines in .glb, .gltf, .obj, vtk-text and plain VTU [default: on; off in the last two]
+    #[arg(long, value_enum, value_name = "on|off", help_heading = "Formats")]
+    lines: Option<Switch>,
+    /// VTU without field data, and so without names, for readers that refuse it
+    #[arg(long, help_heading = "Formats")]
+    plain: bool,
+    /// XDMF with triangles and lines in one grid (meshio, ParaView) or in two (FEniCSx)
+    #[arg(long, value_enum, default_value_t = Grids::Double, value_name = "single|double", help_heading = "Formats")]
+    xdmf: Grids,
+    /// What the triangles of a picture are coloured by
+    #[arg(long, value_enum, default_value_t = Colour::Quality, value_name = "BY", help_heading = "Pictures")]
+    colour: Colour,
+    /// The window that a picture shows, in the units of the mesh [default: all of it]
+    #[arg(long, value_name = "X0,Y0,X1,Y1", value_parser = window, allow_hyphen_values = true, help_heading = "Pictures")]
+    #[serde(skip)]
+    view: Option<Rect>,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum, Serialize)]
+#[serde(rename_all = "kebab-case")]
+enum Grids {
+    Single,
+    Double,
+}
+
+impl Writing {
+    pub fn options(&self) -> WriteOptions {
+        WriteOptions {
+            plain: self.plain,
+            interior_lines: self.interior_lines.is_on(),
+            lines: self.lines.map(Switch::is_on),
+            xdmf: match self.xdmf {
+                Grids::Single => XdmfGrids::Single,
+                Grids::Double => XdmfGrids::Double,
+            },
+            colour: self.colour.of_mesh(),
+            view: self.view,
+        }
+    }
+}
