@@ -1,5 +1,6 @@
 //! From bytes to a judged mesh: read → arrange → split to turning → refine → verify. Each stage can be had alone.
 
+mod angles;
 mod healing;
 
 use crate::domain::{
@@ -173,7 +174,8 @@ impl Outcome {
                 None => break (domain, plan, refined?),
             }
         };
-        let Refined { mesh, stop, counters, insertions } = refined;
+        let refined = plan.leave_crowded(refined, &domain, watch)?;
+        let Refined { mesh, stop, counters, insertions, .. } = refined;
         self.report.stop = Some(StopReport::new(&stop));
         self.report.counters = counters;
         let mut mesh = mesh.ok_or_else(|| no_mesh(&stop, more))?;
@@ -191,6 +193,9 @@ impl Outcome {
         // Whatever the time: a mesh that nobody judged is worth nothing, and the judge's work is bounded by its size.
         let mut verdict = plan.judge(Some(&domain), &mesh);
         verdict.checks.extend(plan.densities(&domain, &mesh, &insertions));
+        if stop.angle_deg.is_some() {
+            self.report.stop = Some(StopReport::new(&stop).owing_angles(&verdict));
+        }
         self.report.mesh = Some(MeshReport::new(&mesh).with_straightened(&mesh, &straightened));
         self.report.quality = Some(Quality::of(Some(&domain), &mesh, &verdict));
         self.report.promise = Some(PromiseReport::new(&verdict));
@@ -442,7 +447,8 @@ impl From<Unarranged> for FailureReport {
 
 impl From<Stopped> for FailureReport {
     fn from(Stopped: Stopped) -> Self {
-        no_mesh(&Stop { reason: StopReason::Cancelled, owed: 0, places: Vec::new() }, "--timeout")
+        let stop = Stop { reason: StopReason::Cancelled, owed: 0, places: Vec::new(), angle_deg: None };
+        no_mesh(&stop, "--timeout")
     }
 }
 
@@ -459,7 +465,7 @@ pub fn no_mesh(stop: &Stop, more: &str) -> FailureReport {
             ("the vertex budget ended before there was a valid mesh", "give more by --max-vertices".into())
         }
         StopReason::Cancelled => ("the run was stopped before there was a valid mesh", format!("give more by {more}")),
-        StopReason::Done | StopReason::Arithmetic => (
+        StopReason::Done | StopReason::Arithmetic | StopReason::NoProgress => (
             "features are nearer to each other than the coordinates can tell apart",
             "move the drawing nearer to the origin, or weld by a larger --tolerance".into(),
         ),
@@ -603,8 +609,12 @@ impl Plan {
         if vertices <= budget {
             return Ok(());
         }
-        let stop =
-            Stop { reason: StopReason::VertexBudget, owed: (vertices - budget) as usize, places: demand.places() };
+        let stop = Stop {
+            reason: StopReason::VertexBudget,
+            owed: (vertices - budget) as usize,
+            places: demand.places(),
+            angle_deg: None,
+        };
         let (why, help) = if demand.by_size >= demand.by_slivers() {
             ("the sizes asked for", "ask for larger sizes, or give more by --max-vertices".to_owned())
         } else {
@@ -619,8 +629,8 @@ impl Plan {
         Err(FailureReport { what, help, ..no_mesh(&stop, "--max-vertices") })
     }
 
-    /// Refines a domain whose curves turn at most τ.
-    pub fn refine(&self, domain: &Domain, watch: &mut Watch) -> Result<Refined, FailureReport> {
+    /// Refines a domain whose curves turn at most τ to the angle asked for, as far as that goes.
+    fn refine_once(&self, domain: &Domain, watch: &mut Watch) -> Result<Refined, FailureReport> {
         if let Some(gcdr) = &self.gcdr {
             return gcdr.refine(domain, None, watch);
         }
@@ -705,8 +715,9 @@ fn split_to_turning(
         let turning = |c: &DomainCurve| c.curve.turning(0.0, 1.0);
         let most = domain.curves().iter().max_by(|a, b| turning(a).total_cmp(&turning(b)));
         let places = most.map(|c| c.curve.point(0.5)).into_iter().collect();
-        let failure =
-            no_mesh(&Stop { reason: StopReason::VertexBudget, owed: needed - max_vertices, places }, "--max-vertices");
+        let owed = needed - max_vertices;
+        let stop = Stop { reason: StopReason::VertexBudget, owed, places, angle_deg: None };
+        let failure = no_mesh(&stop, "--max-vertices");
         FailureReport {
             what: format!("pieces that turn at most {tau_rad:e} take {needed} vertices or more"),
             help: "let them turn more by --max-turning, or give more by --max-vertices".into(),
@@ -813,6 +824,7 @@ pub fn ending(outcome: &Outcome) -> String {
         Some(StopReason::VertexBudget) => "stopped: vertex budget".into(),
         Some(StopReason::Cancelled) => "stopped: timeout".into(),
         Some(StopReason::Arithmetic) => "stopped: arithmetic".into(),
+        Some(StopReason::NoProgress) => "stopped: no progress".into(),
     }
 }
 
