@@ -17,7 +17,7 @@ use crate::plane;
 use crate::plane::gcdr;
 use crate::plane::gcdr::parameters::radius_edge_of;
 use crate::plane::gcdr::steiner::{self, Disks, SteinerStrategy};
-use crate::plane::lopping::demand::Demand;
+use crate::plane::lopping::demand::{Circles, Demand};
 use crate::plane::lopping::{self, Lopping, RefineError, Refined, Shrinking};
 use crate::refine::{Stop, StopReason};
 use crate::report::{FailureKind, FailureReport, MeshReport, PromiseReport, Report, StopReport};
@@ -604,7 +604,7 @@ impl Plan {
     /// # Errors
     /// With the dearest places; and where the watch says stop.
     pub fn afford(&self, domain: &Domain, watch: &mut Watch) -> Result<(), FailureReport> {
-        let demand = Demand::of(domain, &self.options, watch)?;
+        let demand = self.demand(domain, watch)?;
         let (vertices, budget) = (demand.vertices(), self.options.max_vertices as f64);
         if vertices <= budget {
             return Ok(());
@@ -619,14 +619,21 @@ impl Plan {
             ("the sizes asked for", "ask for larger sizes, or give more by --max-vertices".to_owned())
         } else {
             let width = demand.width_over(budget);
+            let angle =
+                self.affordable_angle(domain, watch)?.map_or_else(String::new, |a| format!(" as --min-angle {a}"));
             let help = format!(
-                "curves run that near to each other: weld what is nearer than {width:.1e} by --tolerance, leave edges below a \
-                 length by --min-edge, or give more by --max-vertices"
+                "curves run that near to each other: ask for a smaller angle{angle}, weld what is nearer than {width:.1e} by \
+                 --tolerance, leave edges below a length by --min-edge, or give more by --max-vertices"
             );
             ("slivers between curves", help)
         };
         let what = format!("{why} take {vertices:.3e} vertices or more");
         Err(FailureReport { what, help, ..no_mesh(&stop, "--max-vertices") })
+    }
+
+    fn demand(&self, domain: &Domain, watch: &mut Watch) -> Result<Demand, Stopped> {
+        let circles = if self.gcdr.is_some() { Circles::Any } else { Circles::Empty };
+        Demand::of(domain, &self.options, circles, watch)
     }
 
     /// Refines a domain whose curves turn at most τ to the angle asked for, as far as that goes.

@@ -16,7 +16,7 @@ use crate::domain::Domain;
 use crate::plane::lopping::Refined;
 use crate::refine::StopReason;
 use crate::report::FailureReport;
-use crate::watch::Watch;
+use crate::watch::{Stopped, Watch};
 
 /// Up to this angle the engine is asked at once.
 const USUAL_DEG: f64 = 34.0;
@@ -100,6 +100,21 @@ impl Plan {
             StopReason::Arithmetic => self.refine_below(self.angle_deg().min(USUAL_DEG), refined, domain, watch),
             _ => Ok(refined),
         }
+    }
+
+    /// An angle of which the slivers take no more vertices than there are, by some margin.
+    ///
+    /// # Errors
+    /// Where the watch says stop.
+    pub(super) fn affordable_angle(&self, domain: &Domain, watch: &mut Watch) -> Result<Option<f64>, Stopped> {
+        const MARGIN: f64 = 3.0;
+        for angle in [15.0, 10.0, 5.0, 3.0, 2.0, 1.0, 0.5].into_iter().filter(|&angle| angle < self.angle_deg()) {
+            let vertices = self.at_angle(angle).demand(domain, watch)?.vertices();
+            if MARGIN * vertices <= self.options.max_vertices as f64 {
+                return Ok(Some(angle));
+            }
+        }
+        Ok(None)
     }
 
     fn angle_deg(&self) -> f64 {
