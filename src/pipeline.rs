@@ -1,5 +1,6 @@
 //! From bytes to a judged mesh: read → arrange → split to turning → refine → verify. Each stage can be had alone.
 
+mod angles;
 mod healing;
 
 use crate::domain::{
@@ -16,7 +17,7 @@ use crate::plane;
 use crate::plane::gcdr;
 use crate::plane::gcdr::parameters::radius_edge_of;
 use crate::plane::gcdr::steiner::{self, Disks, SteinerStrategy};
-use crate::plane::lopping::demand::Demand;
+use crate::plane::lopping::demand::{Circles, Demand};
 use crate::plane::lopping::{self, Lopping, RefineError, Refined, Shrinking};
 use crate::refine::{Stop, StopReason};
 use crate::report::{FailureKind, FailureReport, MeshReport, PromiseReport, Report, StopReport};
@@ -176,7 +177,8 @@ impl Outcome {
                 None => break (domain, plan, refined?),
             }
         };
-        let Refined { mesh, stop, counters, insertions } = refined;
+        let refined = plan.leave_crowded(refined, &domain, watch)?;
+        let Refined { mesh, stop, counters, insertions, .. } = refined;
         self.report.stop = Some(StopReport::new(&stop));
         self.report.counters = counters;
         let mut mesh = mesh.ok_or_else(|| no_mesh(&stop, more))?;
@@ -194,6 +196,9 @@ impl Outcome {
         // Whatever the time: a mesh that nobody judged is worth nothing, and the judge's work is bounded by its size.
         let mut verdict = plan.judge(Some(&domain), &mesh);
         verdict.checks.extend(plan.densities(&domain, &mesh, &insertions));
+        if stop.angle_deg.is_some() {
+            self.report.stop = Some(StopReport::new(&stop).owing_angles(&verdict));
+        }
         self.report.mesh = Some(MeshReport::new(&mesh).with_straightened(&mesh, &straightened));
         self.report.quality = Some(Quality::of(Some(&domain), &mesh, &verdict));
         self.report.promise = Some(PromiseReport::new(&verdict));
@@ -483,7 +488,8 @@ impl From<Unarranged> for FailureReport {
 
 impl From<Stopped> for FailureReport {
     fn from(Stopped: Stopped) -> Self {
-        no_mesh(&Stop { reason: StopReason::Cancelled, owed: 0, places: Vec::new() }, "--timeout")
+        let stop = Stop { reason: StopReason::Cancelled, owed: 0, places: Vec::new(), angle_deg: None };
+        no_mesh(&stop, "--timeout")
     }
 }
 
@@ -500,7 +506,7 @@ pub fn no_mesh(stop: &Stop, more: &str) -> FailureReport {
             ("the vertex budget ended before there was a valid mesh", "give more by --max-vertices".into())
         }
         StopReason::Cancelled => ("the run was stopped before there was a valid mesh", format!("give more by {more}")),
-        StopReason::Done | StopReason::Arithmetic => (
+        StopReason::Done | StopReason::Arithmetic | StopReason::NoProgress => (
             "features are nearer to each other than the coordinates can tell apart",
             "move the drawing nearer to the origin, or weld by a larger --tolerance".into(),
         ),
@@ -639,20 +645,26 @@ impl Plan {
     /// # Errors
     /// With the dearest places; and where the watch says stop.
     pub fn afford(&self, domain: &Domain, watch: &mut Watch) -> Result<(), FailureReport> {
-        let demand = Demand::of(domain, &self.options, watch)?;
+        let demand = self.demand(domain, watch)?;
         let (vertices, budget) = (demand.vertices(), self.options.max_vertices as f64);
         if vertices <= budget {
             return Ok(());
         }
-        let stop =
-            Stop { reason: StopReason::VertexBudget, owed: (vertices - budget) as usize, places: demand.places() };
+        let stop = Stop {
+            reason: StopReason::VertexBudget,
+            owed: (vertices - budget) as usize,
+            places: demand.places(),
+            angle_deg: None,
+        };
         let (why, help) = if demand.by_size >= demand.by_slivers() {
             ("the sizes asked for", "ask for larger sizes, or give more by --max-vertices".to_owned())
         } else {
             let width = demand.width_over(budget);
+            let angle =
+                self.affordable_angle(domain, watch)?.map_or_else(String::new, |a| format!(" as --min-angle {a}"));
             let help = format!(
-                "curves run that near to each other: weld what is nearer than {width:.1e} by --tolerance, leave edges below a \
-                 length by --min-edge, or give more by --max-vertices"
+                "curves run that near to each other: ask for a smaller angle{angle}, weld what is nearer than {width:.1e} by \
+                 --tolerance, leave edges below a length by --min-edge, or give more by --max-vertices"
             );
             ("slivers between curves", help)
         };
@@ -660,8 +672,13 @@ impl Plan {
         Err(FailureReport { what, help, ..no_mesh(&stop, "--max-vertices") })
     }
 
-    /// Refines a domain whose curves turn at most τ.
-    pub fn refine(&self, domain: &Domain, watch: &mut Watch) -> Result<Refined, FailureReport> {
+    fn demand(&self, domain: &Domain, watch: &mut Watch) -> Result<Demand, Stopped> {
+        let circles = if self.gcdr.is_some() { Circles::Any } else { Circles::Empty };
+        Demand::of(domain, &self.options, circles, watch)
+    }
+
+    /// Refines a domain whose curves turn at most τ to the angle asked for, as far as that goes.
+    fn refine_once(&self, domain: &Domain, watch: &mut Watch) -> Result<Refined, FailureReport> {
         if let Some(gcdr) = &self.gcdr {
             return gcdr.refine(domain, None, watch);
         }
@@ -746,8 +763,9 @@ fn split_to_turning(
         let turning = |c: &DomainCurve| c.curve.turning(0.0, 1.0);
         let most = domain.curves().iter().max_by(|a, b| turning(a).total_cmp(&turning(b)));
         let places = most.map(|c| c.curve.point(0.5)).into_iter().collect();
-        let failure =
-            no_mesh(&Stop { reason: StopReason::VertexBudget, owed: needed - max_vertices, places }, "--max-vertices");
+        let owed = needed - max_vertices;
+        let stop = Stop { reason: StopReason::VertexBudget, owed, places, angle_deg: None };
+        let failure = no_mesh(&stop, "--max-vertices");
         FailureReport {
             what: format!("pieces that turn at most {tau_rad:e} take {needed} vertices or more"),
             help: "let them turn more by --max-turning, or give more by --max-vertices".into(),
@@ -854,6 +872,7 @@ pub fn ending(outcome: &Outcome) -> String {
         Some(StopReason::VertexBudget) => "stopped: vertex budget".into(),
         Some(StopReason::Cancelled) => "stopped: timeout".into(),
         Some(StopReason::Arithmetic) => "stopped: arithmetic".into(),
+        Some(StopReason::NoProgress) => "stopped: no progress".into(),
     }
 }
 

@@ -280,11 +280,24 @@ pub struct StopReport {
     pub reason: StopReason,
     pub owed: usize,
     pub places: Vec<[f64; 2]>,
+    /// The smallest angle that the mesh was refined to, where it is another than was asked for: `--min-angle` with it ends.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub angle_deg: Option<f64>,
 }
 
 impl StopReport {
     pub fn new(stop: &Stop) -> Self {
-        Self { reason: stop.reason, owed: stop.owed, places: stop.places.iter().map(|p| [p.x, p.y]).collect() }
+        let places = stop.places.iter().map(|p| [p.x, p.y]).collect();
+        Self { reason: stop.reason, owed: stop.owed, places, angle_deg: stop.angle_deg }
+    }
+
+    /// Of a mesh that was refined to a smaller angle than asked for: what it owes is what the judge finds below the angle.
+    pub fn owing_angles(mut self, verdict: &Verdict) -> Self {
+        if let Some(check) = verdict.checks.iter().find(|check| check.name == "min_angle") {
+            self.owed = check.broken;
+            self.places = check.worst.iter().map(|worst| worst.at).collect();
+        }
+        self
     }
 }
 

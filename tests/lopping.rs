@@ -11,7 +11,7 @@ use squinch::ids::PointId;
 use squinch::mesh::verify::{Status, Verdict, guaranteed_angle, verify};
 use squinch::mesh::{BallReason, Mesh, quality};
 use squinch::plane::Midpoint;
-use squinch::plane::lopping::demand::Demand;
+use squinch::plane::lopping::demand::{Circles, Demand};
 use squinch::plane::lopping::{self, Options, Refined, Shrinking, arc_turning};
 use squinch::refine::StopReason;
 use squinch::size::Sizing;
@@ -247,7 +247,7 @@ fn balls_answer_to_acute_corners_only() {
 /// What is told before a run, and what the run takes.
 fn told_and_taken(drawing: &Drawing, options: &Options) -> (f64, f64) {
     let domain = domain_of(drawing, 0.5);
-    let told = Demand::of(&domain, options, &mut |_| true).expect("nobody says stop").vertices();
+    let told = Demand::of(&domain, options, Circles::Empty, &mut |_| true).expect("nobody says stop").vertices();
     (told, refine(&domain, options).mesh.expect("a mesh").nodes.len() as f64)
 }
 

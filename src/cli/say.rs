@@ -422,9 +422,15 @@ fn stop_row(report: &Report, row: &dyn Fn(&str, &str)) {
         StopReason::VertexBudget => "the vertex budget ran out",
         StopReason::Cancelled => "the time ran out",
         StopReason::Arithmetic => "coordinates cannot be told apart any more",
+        StopReason::NoProgress => "the angles got no larger",
     };
     let place = stop.places.first().map_or_else(String::new, |at| format!(", one at {}", place(*at)));
     row("stopped", &format!("{reason}; {} still owed{place}", plural(stop.owed, "cell", "cells")));
+    let held = report.quality.as_ref().map(|quality| quality.min_unexcused_angle_deg);
+    if let (Some(angle), Some(held)) = (stop.angle_deg, held) {
+        let held = format!("the mesh holds {:.2}° outside of excused places", (held * 100.0).floor() / 100.0);
+        row("", &format!("{held}: --min-angle {angle} asks for no more, and is kept"));
+    }
 }
 
 fn time(report: &Report) -> String {

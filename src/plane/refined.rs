@@ -10,6 +10,8 @@ use crate::refine::{Counters, Stop};
 pub struct Refined {
     /// `None` where the budget ended before the mesh was valid.
     pub mesh: Option<Mesh>,
+    /// Of the triangulation, inside of kept regions or not.
+    pub vertices: usize,
     pub stop: Stop,
     pub counters: Counters,
     /// What was inserted, in order, by an engine that was asked to record it.

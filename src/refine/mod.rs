@@ -1,4 +1,4 @@
-//! What refinement in any dimension shares: the worst-first queue, the counters, and the reason to stop.
+//! What refinement in any dimension shares: the worst-first queue, whether it comes to an end, the counters, and the reason to stop.
 
 use crate::geometry::Point;
 use std::collections::{BTreeMap, VecDeque};
@@ -48,12 +48,68 @@ impl<T> WorstFirst<T> {
         }
     }
 
+    /// Badness of what was handed out last, to within 1/256.
+    pub fn badness(&self) -> f64 {
+        self.top as f64 / (BUCKETS - 1) as f64
+    }
+
     pub fn len(&self) -> usize {
         self.len
     }
 
     pub fn is_empty(&self) -> bool {
         self.len == 0
+    }
+}
+
+/// Whether a worst-first refinement still gets anywhere, told by the badness of what it works on.
+///
+/// A refinement that ends works through the worst of its cells, then through those that are less bad, with relapses, until none is left. One that
+/// does not end comes as far as the angle that the drawing allows, and from there on makes as many bad cells as it removes. So its *mildest* badness,
+/// the least at which there was nothing worse left, stays where it is while the mesh grows.
+pub struct Headway {
+    patience: Patience,
+    /// The mildest badness since the queue was empty last.
+    mildest: f64,
+    /// Cells or vertices when it was met.
+    since: usize,
+}
+
+/// What must come together for a refinement to be given up.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Patience {
+    /// The mesh has grown by this factor since the mildest badness was met.
+    pub growth: f64,
+    /// That badness was no larger than this: what is worse is the drawing's own detail, however long it takes.
+    pub mild: f64,
+    /// What is worked on is worse than it by this.
+    pub relapse: f64,
+}
+
+impl Headway {
+    /// Small meshes grow by large factors and end all the same.
+    const SMALL: f64 = 1000.0;
+
+    pub fn new(patience: Patience) -> Self {
+        Self { patience, mildest: 1.0, since: 0 }
+    }
+
+    /// Notes that there is nothing bad at `size`.
+    pub fn rest(&mut self, size: usize) {
+        (self.mildest, self.since) = (1.0, size);
+    }
+
+    /// Notes what is worked on when the mesh has a size; `false`: to no end. A badness of 1 says only that it comes first.
+    pub fn goes_on(&mut self, badness: f64, size: usize) -> bool {
+        if badness >= 1.0 {
+            return true;
+        }
+        if badness < self.mildest {
+            (self.mildest, self.since) = (badness, size);
+        }
+        let Patience { growth, mild, relapse } = self.patience;
+        let grown = size as f64 > growth * self.since as f64 + Self::SMALL;
+        !(grown && self.mildest <= mild && badness >= self.mildest + relapse)
     }
 }
 
@@ -69,6 +125,9 @@ pub enum StopReason {
     /// Features nearer to each other than the coordinates can tell apart.
     #[serde(rename = "arithmetic")]
     Arithmetic,
+    /// Angles do not get larger any more, however many vertices are inserted.
+    #[serde(rename = "no progress")]
+    NoProgress,
 }
 
 /// The end of a refinement: why, what is owed, and where.
@@ -79,6 +138,8 @@ pub struct Stop {
     pub owed: usize,
     /// Some of the places where refinement is owed.
     pub places: Vec<Point>,
+    /// The smallest angle that the mesh was refined to, in degrees, where it is another than was asked for.
+    pub angle_deg: Option<f64>,
 }
 
 /// What a refinement counted, by name in alphabetical order.
@@ -113,5 +174,24 @@ mod tests {
         assert!(queue.is_empty());
         queue.push("again", 0.3);
         assert_eq!(queue.pop(), Some("again"));
+        assert!((queue.badness() - 0.3).abs() < 1.0 / 128.0);
+    }
+
+    #[test]
+    fn headway_ends_where_the_mesh_grows_and_nothing_gets_milder() {
+        let patience = Patience { growth: 2.0, mild: 0.5, relapse: 0.1 };
+        let mut headway = Headway::new(patience);
+        assert!(
+            headway.goes_on(0.9, 1_000) && headway.goes_on(0.8, 100_000),
+            "what is that bad may take as long as it likes"
+        );
+        assert!(headway.goes_on(0.4, 200_000));
+        assert!(headway.goes_on(0.6, 400_000), "it has not grown by the factor");
+        assert!(headway.goes_on(0.45, 500_000), "that is no relapse");
+        assert!(headway.goes_on(1.0, 500_000), "what comes first tells nothing");
+        assert!(!headway.goes_on(0.6, 500_000));
+        headway.rest(500_000);
+        assert!(headway.goes_on(0.45, 600_000) && headway.goes_on(0.7, 1_200_000));
+        assert!(!headway.goes_on(0.7, 1_300_000));
     }
 }

@@ -25,7 +25,7 @@ pub struct Sizing {
     pub chord_error: Option<f64>,
     /// Largest turning of the curve along a mesh edge.
     pub edge_turning_rad: Option<f64>,
-    /// Growth of a named boundary's limit, a unit of distance away from it; `None`: the limit acts on the boundary alone.
+    /// Growth of the limit of a named boundary or region, a unit of distance away from it; `None`: the limit acts there alone.
     pub grade: Option<f64>,
     pub sources: Vec<Source>,
     /// Edges no longer than the value of an expression at their place.
@@ -178,15 +178,19 @@ impl SizeField {
             }
             Source::Boundary { .. } | Source::Region { .. } => None,
         });
-        let limited = domain.curves().enumerate().filter(|&(id, _)| curve_edges[id] < everywhere);
-        let graded = limited.filter_map(|(id, c)| {
+        let region_edges: IdVec<RegionId, f64> =
+            domain.regions().iter().map(|r| named_region(domain.name(r.name))).collect();
+        // As far from a region as from its border, outside of it; inside, what grows is above the region's own limit.
+        let graded = domain.curves().enumerate().filter_map(|(id, c)| {
+            let beside = c.sides.iter().flatten().map(|&region| region_edges[region]);
+            let edge = beside.fold(curve_edges[id], f64::min);
             let carrier = Carrier::Curve(c.curve.clone());
-            Some(Growing { carrier, edge: curve_edges[id], grade: sizing.grade? })
+            (edge < everywhere).then_some(Growing { carrier, edge, grade: sizing.grade? })
         });
         let (growing, flat): (Vec<Growing>, Vec<Growing>) = near.chain(graded).partition(|g| g.grade > 0.0);
         let grades = growing.iter().map(|g| g.grade);
         Self {
-            region_edges: domain.regions().iter().map(|r| named_region(domain.name(r.name))).collect(),
+            region_edges,
             region_areas: domain
                 .regions()
                 .iter()

@@ -222,9 +222,10 @@ impl<'s> Gcdr<'s> {
         let stopped = beginning.part_hulls(options.max_vertices, watch).is_err();
         if stopped || beginning.points.len() > options.max_vertices {
             let reason = if stopped { StopReason::Cancelled } else { StopReason::VertexBudget };
-            let stop = Stop { reason, owed: 1, places: Vec::new() };
+            let stop = Stop { reason, owed: 1, places: Vec::new(), angle_deg: None };
             return Ok(Start::Ended(Box::new(Refined {
                 mesh: None,
+                vertices: beginning.points.len(),
                 stop,
                 counters: Counters::default(),
                 insertions: Vec::new(),
@@ -235,7 +236,7 @@ impl<'s> Gcdr<'s> {
         let sin_min = libm::sin(options.angle_min_rad);
         let mut gcdr = Self {
             suspects: Vec::new(),
-            bad: Suspects::default(),
+            bad: Suspects::new(options.angle_min_rad, triangles::patience(strategy.order(), options.angle_min_rad)),
             carver: Carver::default(),
             cavity: Cavity::default(),
             touched: Vec::new(),
@@ -291,7 +292,7 @@ impl<'s> Gcdr<'s> {
         if self.reason != StopReason::Done {
             return false;
         }
-        match self.bad.pop() {
+        match self.bad.next(self.alive) {
             Some(suspect) => self.split_triangle(suspect),
             None => return false,
         }
@@ -343,7 +344,8 @@ impl<'s> Gcdr<'s> {
         self.counters.add("predicates", kernel.orient + kernel.in_circle);
         self.counters.add("exact_fallbacks", kernel.exact_fallbacks);
         self.counters.add("cavity_triangles", kernel.cavity_triangles);
-        Ok(Refined { mesh, stop: Stop { reason: self.reason, owed, places }, counters: self.counters, insertions })
+        let stop = Stop { reason: self.reason, owed, places, angle_deg: None };
+        Ok(Refined { mesh, vertices: self.alive, stop, counters: self.counters, insertions })
     }
 
     fn is_side(&self, id: PieceId) -> bool {

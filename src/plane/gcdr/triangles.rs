@@ -9,8 +9,20 @@ use crate::mesh::InsertionKind;
 use crate::plane::constrained::Look;
 use crate::plane::insert::{self, Location};
 use crate::plane::lopping::splittri::{circumcircle, sin2_smallest};
+use crate::plane::suspects::DETAIL_RAD;
 use crate::plane::triangulation::{GHOST, Side};
-use crate::refine::StopReason;
+use crate::refine::{Patience, StopReason};
+
+/// Badness of an octave of length: 2^-40 is as short as it gets.
+const OCTAVE: f64 = 1.0 / 40.0;
+
+/// How long angles may take to get larger with a strategy's order of triangles.
+pub(super) fn patience(order: Order, angle_min_rad: f64) -> Patience {
+    match order {
+        Order::SmallestAngle => suspects::by_angle(1.0 - libm::sin(DETAIL_RAD) / libm::sin(angle_min_rad)),
+        Order::ShortestEdge | Order::SmallestCircle => suspects::by_length(OCTAVE),
+    }
+}
 
 impl Gcdr<'_> {
     pub(super) fn corners(&self, t: TriangleId) -> [Point; 3] {
@@ -49,8 +61,8 @@ impl Gcdr<'_> {
     }
 
     fn push_skinny(&mut self, suspect: Suspect, corners: [Point; 3], sin2: f64) {
-        // Lengths by octaves below the unit to which the domain is scaled: 2^-40 is as short as it gets.
-        let octaves = |length: f64| -libm::log2(length) / 40.0;
+        // Lengths by octaves below the unit to which the domain is scaled.
+        let octaves = |length: f64| -libm::log2(length) * OCTAVE;
         let badness = match self.strategy.order() {
             _ if self.doomed(suspect.0).is_some() => 1.0,
             // By the sine: its square would crowd what is nearly good enough.
@@ -81,6 +93,10 @@ impl Gcdr<'_> {
         }
         if self.is_spent() {
             self.reason = StopReason::VertexBudget;
+            return self.bad.push_skinny(suspect, 1.0);
+        }
+        if self.bad.is_stuck() {
+            self.reason = StopReason::NoProgress;
             return self.bad.push_skinny(suspect, 1.0);
         }
         let parent = skinny.then(|| self.latest_of_shortest(vertices));

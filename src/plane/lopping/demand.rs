@@ -1,18 +1,24 @@
 //! What a mesh takes at least, told before it is made.
 //!
 //! *Slivers.* Beside a place where the face is w wide, an edge of the border is no longer than w·(cot κ + tan κ): the apex of its triangle
-//! is no farther away than w, both angles at the edge are κ or more, and the apex is not in the edge's diametral circle. So a sliver of
-//! length L takes L/(w·(cot κ + tan κ)) vertices on either side; a corner of angle θ takes about 1/θ for every doubling of the distance
-//! from its ball. Within two radii of a ball at birth triangles are excused, and so are those with a circumradius below `min_edge` (edges
-//! up to twice that). Widths are seen along normals at samples, and a stretch counts by its widest.
+//! is no farther away than w, both angles at the edge are κ or more, and the apex is not in the edge's diametral circle; where it may be
+//! there ([`Circles::Any`]), no longer than 2w·cot κ. So a sliver of length L takes L/(w·(cot κ + tan κ)) vertices on either side. What shape it
+//! has does not matter: a strip with free ends, a thin region in another, a ring; a needle, of angle θ, takes about 1/θ for every doubling of
+//! the distance from the ball of its tip. Within the ball at birth triangles are excused, without corner arcs within two radii; with
+//! constrained refinement, all between two curves that meet at a sharp corner. So are triangles with a circumradius below `min_edge` (edges up to
+//! twice that). Widths are seen along normals at samples, and a stretch counts by its widest.
+//!
+//! *How sure that is.* Where the same curve lies across from end to end of a stretch, there is no other width between the samples. Straight
+//! lines and arcs of circles are only ever halved by corner lopping, so that pieces no longer than ℓ are a power of two of them. Other stretches
+//! count half, and a curve with slivers on either side counts by the side that takes more.
 //!
 //! *Sizes.* A region takes its area over that of the largest triangle, a curve its length over the longest edge, its turning over that of
-//! an edge, and √(κ/8E) a unit of length for a chord error E. There are at most two triangles a vertex.
+//! an edge, and √(κ/8E) a unit of length for a chord error E. There are at most two triangles a vertex. That is halved: curvatures are known
+//! by samples only. Sizes that vary with the place are left out.
 //!
-//! Sizes that vary with the place are left out. Of both counts the larger is halved: a curve with slivers on either side is counted twice,
-//! and widths and curvatures are known by samples only. Runs take some ten times as many.
+//! Where no stretch is sure, runs take some ten times as many.
 
-use super::Options;
+use super::{Midpoint, Options};
 use crate::curve::{Curve, End};
 use crate::domain::{Domain, DomainCurve};
 use crate::geometry::boxes::BoxHierarchy;
@@ -32,13 +38,16 @@ const SAMPLES_MAX: usize = 4096;
 /// Slivers that tell of what width the others are.
 const SAMPLE: usize = 8192;
 
-/// Within so many radii of a ball at birth triangles are excused.
+/// Within so many radii of a ball at birth triangles are excused where there are no corner arcs.
 const EXCUSED_RADII: f64 = 2.0;
+
+/// Slivers of fewer vertices are not looked at more closely.
+const CHEAP: f64 = 1000.0;
 
 /// Stretches are halved until the widths on them differ by no more than this factor.
 const ALIKE: f64 = 1.25;
 
-/// For curves with slivers on both sides, and for what samples do not see.
+/// For what samples do not see.
 const CAUTION: f64 = 0.5;
 
 /// A stretch of a curve with another curve near beside it.
@@ -50,6 +59,16 @@ pub struct Sliver {
     pub length: f64,
     /// Whether it belongs to a region.
     pub kept: bool,
+    curve: CurveId,
+    side: usize,
+    t: [f64; 2],
+}
+
+/// Whether the engine keeps the diametral circles of edges on curves empty, as corner lopping does.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Circles {
+    Empty,
+    Any,
 }
 
 /// How many vertices a mesh takes at least, and where.
@@ -68,12 +87,18 @@ impl Demand {
     ///
     /// # Errors
     /// [`Stopped`] where the watch says so.
-    pub fn of(domain: &Domain, options: &Options, watch: &mut Watch) -> Result<Self, Stopped> {
+    pub fn of(domain: &Domain, options: &Options, circles: Circles, watch: &mut Watch) -> Result<Self, Stopped> {
         let mut demand = Self::default();
         demand.add_sizes(domain, &SizeField::new(&options.sizing, domain));
-        let least_edge = 2.0 * options.sizing.min_edge.unwrap_or(0.0);
-        let found = slivers(domain, watch)?.into_iter().filter(|s| s.kept);
-        demand.slivers = found.map(|s| (s.vertices(options.angle_min_rad, least_edge), s)).collect();
+        let radii = if options.corner_arcs.is_some() { 1.0 } else { EXCUSED_RADII };
+        let survey = Survey::until(domain, radii, watch, |_| false)?;
+        let price = Price { survey: &survey, options, circles };
+        let found = survey.found.iter().filter(|sliver| sliver.kept);
+        let slivers: Vec<(f64, Sliver)> = found.map(|sliver| (price.vertices(sliver), *sliver)).collect();
+        let mut sides: IdVec<CurveId, [f64; 2]> = vec![[0.0; 2]; domain.curves().len()].into();
+        slivers.iter().for_each(|(vertices, sliver)| sides[sliver.curve][sliver.side] += vertices);
+        let dearer = |sliver: &Sliver| usize::from(sides[sliver.curve][1] > sides[sliver.curve][0]);
+        demand.slivers = slivers.into_iter().filter(|(_, sliver)| sliver.side == dearer(sliver)).collect();
         demand.slivers.sort_by(|a, b| b.0.total_cmp(&a.0));
         Ok(demand)
     }
@@ -151,20 +176,66 @@ fn edges_on(curve: &Curve, longest: f64, field: &SizeField) -> f64 {
 }
 
 impl Sliver {
-    /// Vertices on one side of it, of a mesh with angles of κ and more; edges up to `least_edge` need none.
-    pub fn vertices(&self, kappa_rad: f64, least_edge: f64) -> f64 {
+    /// Vertices that one side of it is likely to take, of a mesh with angles of κ and more.
+    fn vertices(&self, kappa_rad: f64) -> f64 {
         let slope = libm::tan(kappa_rad);
-        let longest = (self.width * (1.0 / slope + slope)).max(least_edge);
+        let longest = self.width * (1.0 / slope + slope);
         CAUTION * (self.length / longest - 1.0).max(0.0)
     }
 }
 
-/// The slivers of a domain, kept or not, in the order of its curves; each is found from both sides.
-///
-/// # Errors
-/// [`Stopped`] where the watch says so.
-pub fn slivers(domain: &Domain, watch: &mut Watch) -> Result<Vec<Sliver>, Stopped> {
-    slivers_until(domain, EXCUSED_RADII, watch, |_| false)
+/// What slivers take at least.
+struct Price<'a> {
+    survey: &'a Survey<'a>,
+    options: &'a Options,
+    circles: Circles,
+}
+
+impl Price<'_> {
+    /// Vertices on one side of a sliver.
+    fn vertices(&self, sliver: &Sliver) -> f64 {
+        if self.circles == Circles::Any && self.survey.lies_in_corner(sliver) {
+            return 0.0;
+        }
+        let rough = CAUTION * (sliver.length / self.longest(sliver.width) - 1.0).max(0.0);
+        if rough < CHEAP { rough } else { self.on_stretch(sliver, 0) }
+    }
+
+    /// The longest edge beside a place of some width.
+    fn longest(&self, width: f64) -> f64 {
+        let slope = libm::tan(self.options.angle_min_rad);
+        let factor = match self.circles {
+            Circles::Empty => 1.0 / slope + slope,
+            Circles::Any => 2.0 / slope,
+        };
+        (factor * width).max(2.0 * self.options.sizing.min_edge.unwrap_or(0.0))
+    }
+
+    /// Vertices on a stretch, in parts where it is not sure what lies beside the whole.
+    fn on_stretch(&self, stretch: &Sliver, depth: u32) -> f64 {
+        const DEPTH: u32 = 6;
+        match self.survey.sure_width(stretch) {
+            Some(width) => (stretch.length / self.piece(stretch.curve, self.longest(width)) - 1.0).max(0.0),
+            None if depth == DEPTH => CAUTION * (stretch.length / self.longest(stretch.width) - 1.0).max(0.0),
+            None => self.survey.halves(stretch).iter().map(|half| self.on_stretch(half, depth + 1)).sum(),
+        }
+    }
+
+    /// The longest piece of a curve that is no longer than `longest`, where the curve is halved, and its halves are, and so on.
+    fn piece(&self, id: CurveId, longest: f64) -> f64 {
+        let DomainCurve { curve, ends, .. } = &self.survey.domain.curves()[id];
+        let bisected = self.circles == Circles::Empty
+            && self.options.midpoint == Midpoint::Bisector
+            && self.options.sizing.min_edge.is_none()
+            && matches!(curve, Curve::Line(_) | Curve::Arc(_))
+            && ends.iter().all(|&end| self.survey.ball(end) == 0.0);
+        if !bisected {
+            return longest;
+        }
+        // A piece that is longer by no more than rounding passes.
+        let length = curve.length();
+        length / libm::exp2(libm::ceil(libm::log2(length / longest) - 1e-6).max(0.0))
+    }
 }
 
 /// The slivers of a domain with the vertices that each is likely to take, kept or not, until these are more than `most`; where those narrower
@@ -180,43 +251,16 @@ pub fn costly_slivers(
     above: f64,
     watch: &mut Watch,
 ) -> Result<Vec<(f64, Sliver)>, Stopped> {
-    let taken = |sliver: &Sliver| sliver.vertices(kappa_rad, 0.0);
+    let taken = |sliver: &Sliver| sliver.vertices(kappa_rad);
     let (mut counted, mut all, mut wide) = (0, 0.0, 0.0);
-    let found = slivers_until(domain, 1.0, watch, |found| {
+    let survey = Survey::until(domain, 1.0, watch, |found| {
         let new = || found[counted..].iter();
         all += new().map(taken).sum::<f64>();
         wide += new().filter(|sliver| sliver.width >= above).map(taken).sum::<f64>();
         counted = found.len();
         wide > most || all > most && counted > SAMPLE
     })?;
-    Ok(found.into_iter().map(|sliver| (taken(&sliver), sliver)).collect())
-}
-
-/// The slivers of a domain so many radii from sharp corners, as long as those found so far are not enough.
-fn slivers_until(
-    domain: &Domain,
-    radii: f64,
-    watch: &mut Watch,
-    mut enough: impl FnMut(&[Sliver]) -> bool,
-) -> Result<Vec<Sliver>, Stopped> {
-    let mut survey = Survey {
-        domain,
-        boxes: BoxHierarchy::new(domain.curves().iter().map(|c| c.curve.bounds())),
-        lfs0: domain.lfs0(),
-        radii,
-        found: Vec::new(),
-    };
-    for id in domain.curves().ids() {
-        let queued = domain.curves().len() - id.index();
-        Progress { phase: "estimating", vertices: domain.points().len(), queued }.tell(watch)?;
-        for side in [0, 1] {
-            survey.look_along(id, side);
-        }
-        if enough(&survey.found) {
-            break;
-        }
-    }
-    Ok(survey.found)
+    Ok(survey.found.into_iter().map(|sliver| (taken(&sliver), sliver)).collect())
 }
 
 struct Survey<'a> {
@@ -226,6 +270,63 @@ struct Survey<'a> {
     /// So many radii of the balls of its ends a curve is left out at either end.
     radii: f64,
     found: Vec<Sliver>,
+}
+
+impl<'a> Survey<'a> {
+    /// The slivers of a domain so many radii from sharp corners, in the order of its curves, as long as those found so far are not enough; each is
+    /// found from both sides.
+    fn until(
+        domain: &'a Domain,
+        radii: f64,
+        watch: &mut Watch,
+        mut enough: impl FnMut(&[Sliver]) -> bool,
+    ) -> Result<Self, Stopped> {
+        let boxes = BoxHierarchy::new(domain.curves().iter().map(|c| c.curve.bounds()));
+        let mut survey = Self { domain, boxes, lfs0: domain.lfs0(), radii, found: Vec::new() };
+        for id in domain.curves().ids() {
+            let queued = domain.curves().len() - id.index();
+            Progress { phase: "estimating", vertices: domain.points().len(), queued }.tell(watch)?;
+            for side in [0, 1] {
+                survey.look_along(id, side);
+            }
+            if enough(&survey.found) {
+                break;
+            }
+        }
+        Ok(survey)
+    }
+
+    /// The width of a stretch, where one and the same curve lies across from end to end: of two straight lines that in the middle, for as many
+    /// edges as the mean width allows are no more than there are; of others the largest seen, and a twentieth for what is between.
+    fn sure_width(&self, stretch: &Sliver) -> Option<f64> {
+        const INSIDE: u32 = 16;
+        let Sliver { curve, side, t: [t0, t1], length, .. } = *stretch;
+        let across = |share: f64| self.across(curve, side, t0 + share * (t1 - t0), length);
+        let (opposite, middle) = across(0.5)?;
+        let beside = |share: f64| across(share).filter(|&(other, _)| other == opposite).map(|(_, width)| width);
+        let (first, last) = (beside(1e-3)?, beside(1.0 - 1e-3)?);
+        if [curve, opposite].iter().all(|&id| self.domain.curves()[id].curve.is_straight()) {
+            // An edge is a few widths long: along it, the width is another by that much of the slope.
+            return Some(middle * (1.0 + 4.0 * (first - last).abs() / length));
+        }
+        let inside = (1..INSIDE).map(|k| beside(f64::from(k) / f64::from(INSIDE)));
+        inside.chain([Some(first), Some(last)]).try_fold(middle, |most, width| Some(most.max(width?))).map(|w| 1.05 * w)
+    }
+
+    fn halves(&self, stretch: &Sliver) -> [Sliver; 2] {
+        let shape = &self.domain.curves()[stretch.curve].curve;
+        let [t0, t1] = stretch.t;
+        let middle = 0.5 * (t0 + t1);
+        [[t0, middle], [middle, t1]].map(|t| Sliver { t, length: shape.length_of(t[0], t[1]), ..*stretch })
+    }
+
+    /// Whether a sliver lies between two curves that meet at a corner.
+    fn lies_in_corner(&self, sliver: &Sliver) -> bool {
+        let [t0, t1] = sliver.t;
+        let across = self.across(sliver.curve, sliver.side, 0.5 * (t0 + t1), sliver.length);
+        let ends = |id: CurveId| self.domain.curves()[id].ends;
+        across.is_some_and(|(other, _)| ends(other).iter().any(|end| ends(sliver.curve).contains(end)))
+    }
 }
 
 impl Survey<'_> {
@@ -249,7 +350,8 @@ impl Survey<'_> {
             }
             let middle = 0.5 * (t0 + t1);
             if largest <= ALIKE * least && least < f64::INFINITY {
-                self.found.push(Sliver { at: shape.point(middle), width: largest, length, kept });
+                let t = [t0, t1];
+                self.found.push(Sliver { at: shape.point(middle), width: largest, length, kept, curve: id, side, t });
             } else if t0 < middle && middle < t1 {
                 stretches.extend([[t0, middle], [middle, t1]]);
             }
@@ -281,25 +383,30 @@ impl Survey<'_> {
 
     /// The distance to the first other curve along the normal; infinite where none is within the sixteenth part of `length`.
     fn width_at(&self, id: CurveId, side: usize, t: f64, length: f64) -> f64 {
+        self.across(id, side, t, length).map_or(f64::INFINITY, |(_, width)| width)
+    }
+
+    /// The first other curve along the normal within the sixteenth part of `length`, and its distance.
+    fn across(&self, id: CurveId, side: usize, t: f64, length: f64) -> Option<(CurveId, f64)> {
         let shape = &self.domain.curves()[id].curve;
         let from = shape.point(t);
         let along = shape.tangent(t, End::Start);
         let normal = Vec2::new(-along.y, along.x) * if side == 0 { 1.0 } else { -1.0 };
         let mut nearest = length / SLENDER;
-        let mut width = f64::INFINITY;
+        let mut found = None;
         self.boxes.meeting(Rect::from_points(from, from + nearest * normal), |i| {
             let other = CurveId::from_index(i);
             if other != id {
-                let other = &self.domain.curves()[other].curve;
-                for t in other.line_crossings(from, normal, 0.0, 1.0) {
-                    let away = (other.point(t) - from).dot(normal);
+                let shape = &self.domain.curves()[other].curve;
+                for t in shape.line_crossings(from, normal, 0.0, 1.0) {
+                    let away = (shape.point(t) - from).dot(normal);
                     if 0.0 < away && away <= nearest {
-                        (nearest, width) = (away, away);
+                        (nearest, found) = (away, Some((other, away)));
                     }
                 }
             }
             true
         });
-        width
+        found
     }
 }

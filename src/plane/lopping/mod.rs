@@ -42,7 +42,7 @@ use super::harvest::Harvest;
 use super::insert::{Cavity, Delaunay};
 pub use super::refined::{RefineError, Refined};
 use super::subcurves::{Midpoint, Subcurves};
-use super::suspects::{self, Suspect, Suspects};
+use super::suspects::{self, DETAIL_RAD, Suspect, Suspects};
 use crate::domain::Domain;
 use crate::geometry::{self, Point};
 use crate::ids::{BallId, CurveId, IdVec, PieceId, PointId, TriangleId, VertexId};
@@ -194,11 +194,13 @@ impl Lopping {
         let delaunay = beginning.triangulate(options.midpoint).map_err(|e| e.scaled(1.0 / scale))?;
         let Beginning { origins, subcurves, balls, .. } = beginning;
         let sin_min = libm::sin(options.angle_min_rad);
+        let sin_detail = libm::sin(DETAIL_RAD);
+        let patience = suspects::by_angle(1.0 - sin_detail * sin_detail / (sin_min * sin_min));
         let mut lopping = Self {
             suspects: subcurves.ids().collect(),
             intruded: VecDeque::new(),
             arcs_due: if options.corner_arcs.is_some() { balls.ids().collect() } else { VecDeque::new() },
-            bad: Suspects::default(),
+            bad: Suspects::new(options.angle_min_rad, patience),
             fresh: Vec::new(),
             carved: false,
             carver: Carver::default(),
@@ -257,7 +259,7 @@ impl Lopping {
         if let Some(ball) = self.arcs_due.pop_front() {
             return Rule::PlaceArcs(ball);
         }
-        match self.bad.pop() {
+        match self.bad.next(self.origins.len()) {
             Some(suspect) => Rule::Split(suspect),
             None => Rule::Rest,
         }
@@ -300,7 +302,9 @@ impl Lopping {
         };
         let mesh = self.is_conforming().then(|| self.mesh().scaled(1.0 / self.scale));
         self.count_kernel();
-        Ok(Refined { mesh, stop: Stop { reason, owed, places }, counters: self.counters, insertions: Vec::new() })
+        let stop = Stop { reason, owed, places, angle_deg: None };
+        let vertices = self.origins.len();
+        Ok(Refined { mesh, vertices, stop, counters: self.counters, insertions: Vec::new() })
     }
 
     fn mesh(&self) -> Mesh {

@@ -69,6 +69,10 @@ impl Lopping {
             self.reason = StopReason::VertexBudget;
             return self.bad.push_skinny(suspect, 1.0);
         }
+        if self.bad.is_stuck() {
+            self.reason = StopReason::NoProgress;
+            return self.bad.push_skinny(suspect, 1.0);
+        }
         if self.options.corner_arcs.is_some() && self.balls.holding_all(corners, self.resolution).is_some() {
             return;
         }
