@@ -1,10 +1,9 @@
 //! Curves, names and seeds as found in a file: nothing promised, nothing cleaned.
 
 use crate::curve::Curve;
-use crate::geometry::{Frame, Point, Rect};
 use crate::geometry::{Frame, Point, Rect, finest_decimal};
 use crate::ids::{ClipId, IdVec, LayerId, NameId, Names, ShapeId};
-use crate::ids::{IdVec, LayerId, NameId, Names, ShapeId};
+
 use std::collections::BTreeMap;
 
 /// A drawing as found.

@@ -197,8 +197,6 @@ pub fn read(bytes: &[u8], format: Format, stem: &str, options: &Options) -> Resu
         Format::Node => poly::read_node(bytes, stem),
         Format::Outline => outline::read(bytes, stem),
         Format::Dxf => dxf::read(bytes, stem, &options.dxf, &options.selection),
-        Format::Svg => svg::read(bytes, stem, &options.svg),
-        Format::Dxf => dxf::read(bytes, stem),
         Format::Svg => svg::read(bytes, stem, &options.svg, &options.selection),
         #[cfg(feature = "cad")]
         Format::Step => step::read(bytes, stem, options.face.as_deref()),

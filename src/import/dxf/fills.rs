@@ -42,7 +42,7 @@ impl Fill {
 
     /// Adds the area as a filled shape.
     fn paint(&self, drawing: &mut Drawing) {
-        let shape = drawing.shapes.push(Shape { name: self.name, even_odd: true, entity: self.entity.clone() });
+        let shape = drawing.shapes.push(Shape::new(self.name, true, self.entity.clone()));
         for outline in &self.loops {
             drawing.curves.extend(self.drawn(outline).map(|drawn| DrawnCurve { shape: Some(shape), ..drawn }));
         }
