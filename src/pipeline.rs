@@ -433,6 +433,9 @@ fn scaled(mut drawing: Drawing, factor: f64) -> Drawing {
     for entity in &mut drawing.off_plane {
         entity.ends = entity.ends.map(point);
     }
+    for label in &mut drawing.labels {
+        label.at = point(label.at);
+    }
     for seed in &mut drawing.seeds {
         seed.at = point(seed.at);
         if let crate::domain::SeedKind::Region { max_area: Some(area), .. } = &mut seed.kind {

@@ -17,6 +17,8 @@ pub struct Drawing {
     pub curves: Vec<DrawnCurve>,
     pub points: Vec<DrawnPoint>,
     pub seeds: Vec<Seed>,
+    /// Texts; one that stands alone in a region names it, where nothing else does.
+    pub labels: Vec<Label>,
     /// The filled shapes of a picture, in the order in which they are painted.
     pub shapes: IdVec<ShapeId, Shape>,
     /// What shapes and curves are cut by.
@@ -159,6 +161,13 @@ pub struct DrawnPoint {
     pub at: Point,
     pub name: Option<NameId>,
     pub entity: String,
+}
+
+/// A text of a drawing.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Label {
+    pub at: Point,
+    pub name: NameId,
 }
 
 /// A point that says something of the face it lies in.

@@ -10,8 +10,8 @@ mod planar;
 
 pub use arrange::{ArrangeError, ArrangeOptions, Loose, Repair, RepairKind, Unarranged};
 pub use drawing::{
-    Clip, Drawing, DrawnCurve, DrawnPoint, FaceInfo, FillRule, Layer, OffPlane, Seed, SeedKind, Shape, SizeRequest,
-    Skipped, Unmatched,
+    Clip, Drawing, DrawnCurve, DrawnPoint, FaceInfo, FillRule, Label, Layer, OffPlane, Seed, SeedKind, Shape,
+    SizeRequest, Skipped, Unmatched,
 };
 pub use features::Features;
 pub use locate::Locator;

@@ -53,6 +53,8 @@ pub struct Incident {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Region {
     pub name: NameId,
+    /// Whether the drawing or the user gave the name: else it is that of the layer of its outline, or `region`, with a number.
+    pub is_named: bool,
     /// Exact area, by Green over the curves themselves.
     pub area: f64,
     pub max_area: Option<f64>,

@@ -217,13 +217,16 @@ fn sum(slivers: &[(f64, Sliver)]) -> f64 {
 
 fn areas(domain: &Domain) -> Areas {
     let mut areas = Areas::new();
+    let mut unnamed = 0;
     for region in domain.regions().iter() {
-        // Of regions without a name the only one is `region`, the largest of several `region1`.
-        let name = match domain.name(region.name) {
-            "region" => "region1",
-            name => name,
+        // Regions without a name are told from each other by their size only: the largest is the first.
+        let name = if region.is_named {
+            domain.name(region.name).to_owned()
+        } else {
+            unnamed += 1;
+            format!("\u{0}{unnamed}")
         };
-        *areas.entry(name.to_owned()).or_default() += region.area;
+        *areas.entry(name).or_default() += region.area;
     }
     areas
 }

@@ -273,6 +273,7 @@ impl Drawing {
         }
         unit.off_plane.iter_mut().for_each(|entity| entity.ends = entity.ends.map(|end| scaled(end, factor)));
         unit.points.iter_mut().for_each(|p| p.at = scaled(p.at, factor));
+        unit.labels.iter_mut().for_each(|label| label.at = scaled(label.at, factor));
         for seed in &mut unit.seeds {
             seed.at = scaled(seed.at, factor);
             if let super::SeedKind::Region { max_area: Some(area), .. } = &mut seed.kind {

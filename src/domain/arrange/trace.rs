@@ -7,9 +7,9 @@ use crate::curve::End;
 use crate::domain::locate::{Axis, Hit, Locator, Side, Sight, left_of};
 use crate::domain::{Domain, Incident, Region, SeedKind};
 use crate::geometry::{Point, Rect};
-use crate::ids::{CurveId, Id, IdVec, NameId, PointId, RegionId};
+use crate::ids::{CurveId, Id, IdVec, LayerId, NameId, PointId, RegionId};
 use crate::watch::{Progress, Stopped, Watch};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Axis-parallel lines tried through a component before its place counts as undecided; each fails only by passing within rounding of
 /// a vertex or along a curve.
@@ -421,11 +421,12 @@ pub(super) fn keep(
         return Err(nothing_to_mesh(network, faces, rule).into());
     }
     let areas = face_areas(faces);
+    let labels = read_labels(network, domain, faces, watch)?;
     let named = |face: usize| match said[face] {
         Some(Said::Region(name, max_area)) => Some((name, max_area)),
-        _ => painted[face].map(|name| (name, None)),
+        Some(Said::Hole) | None => painted[face].or(labels[face]).map(|name| (name, None)),
     };
-    let region_of = name_regions(domain, faces, &kept, named, &areas);
+    let region_of = name_regions(network, domain, faces, &kept, named, &areas);
     let region = |half: Half| faces.face(half).and_then(|face| region_of[face]);
     for id in domain.curves.ids() {
         let sides = [Side::Left, Side::Right].map(|side| region(Half { curve: id, side }));
@@ -475,6 +476,26 @@ fn read_seeds(
     Ok(said)
 }
 
+/// The text that stands in each face, where there is one only.
+fn read_labels(
+    network: &Network,
+    domain: &Domain,
+    faces: &Faces,
+    watch: &mut Watch,
+) -> Result<Vec<Option<NameId>>, Stopped> {
+    let labels = &network.drawing.labels;
+    let mut said: Vec<BTreeSet<NameId>> = vec![BTreeSet::new(); faces.cycles.len()];
+    let locator = Locator::new(domain);
+    for (k, label) in labels.iter().enumerate() {
+        tracing(domain, labels.len() - k).tell(watch)?;
+        let sight = locator.sight(label.at);
+        if let Some(face) = sight.and_then(|Sight { curve, side, .. }| faces.face(Half { curve, side })) {
+            said[face].insert(label.name);
+        }
+    }
+    Ok(said.into_iter().map(|names| if names.len() == 1 { names.first().copied() } else { None }).collect())
+}
+
 /// The area of every bounded face: its own cycle less the outlines of the components in it.
 fn face_areas(faces: &Faces) -> Vec<f64> {
     let mut areas: Vec<f64> = faces.cycles.iter().map(|c| c.area).collect();
@@ -489,6 +510,7 @@ fn face_areas(faces: &Faces) -> Vec<f64> {
 /// One region for each name and area limit that is given, in order of the names; then one for each other kept face, the largest
 /// first, under a name that no other region has.
 fn name_regions(
+    network: &Network,
     domain: &mut Domain,
     faces: &Faces,
     kept: &[bool],
@@ -508,7 +530,7 @@ fn name_regions(
     for group in named.chunk_by(|a, b| a.0 == b.0 && a.1 == b.1) {
         let (name, max_area, _) = group[0];
         let area = group.iter().map(|g| areas[g.2]).sum();
-        let id = domain.regions.push(Region { name, area, max_area });
+        let id = domain.regions.push(Region { name, is_named: true, area, max_area });
         group.iter().for_each(|g| region_of[g.2] = Some(id));
     }
     let place = |face: usize| {
@@ -520,14 +542,49 @@ fn name_regions(
         let lower = a.1[0].total_cmp(&b.1[0]).then(a.1[1].total_cmp(&b.1[1]));
         b.0.total_cmp(&a.0).then(lower).then(a.2.cmp(&b.2))
     });
-    let taken: BTreeSet<String> = domain.regions.iter().map(|r| domain.name(r.name).to_owned()).collect();
-    let alone = (placed.len() == 1).then(|| "region".to_owned());
-    let free = alone.into_iter().chain((1..).map(|k| format!("region{k}"))).filter(|name| !taken.contains(name));
-    for ((area, _, face), name) in placed.into_iter().zip(free) {
+    let outlines: Vec<Option<&str>> =
+        placed.iter().map(|&(_, _, face)| layer_of_outline(network, faces, face)).collect();
+    let names = numbered(domain, &outlines);
+    for ((area, _, face), name) in placed.into_iter().zip(names) {
         let name = domain.names.intern(&name);
-        region_of[face] = Some(domain.regions.push(Region { name, area, max_area: None }));
+        region_of[face] = Some(domain.regions.push(Region { name, is_named: false, area, max_area: None }));
     }
     region_of
+}
+
+/// The layer that most of the outline of a face is drawn on; `None` where the file has no layers, or for the one that every file has.
+fn layer_of_outline<'a>(network: &Network<'a>, faces: &Faces, face: usize) -> Option<&'a str> {
+    let drawing = network.drawing;
+    let mut lengths: BTreeMap<LayerId, f64> = BTreeMap::new();
+    for half in &faces.cycles[face].halves {
+        let piece = &network.pieces[half.curve];
+        if let Some(layer) = drawing.curves[piece.source as usize].layer {
+            *lengths.entry(layer).or_default() += extent(piece.bounds);
+        }
+    }
+    let (&layer, _) = lengths.iter().max_by(|a, b| a.1.total_cmp(b.1))?;
+    Some(drawing.layers[layer].name.as_str()).filter(|name| !name.is_empty() && *name != "0")
+}
+
+/// Names that no region has yet: of the layer, or `region`; with a number where several would have one.
+fn numbered(domain: &Domain, outlines: &[Option<&str>]) -> Vec<String> {
+    let mut taken: BTreeSet<String> = domain.regions.iter().map(|r| domain.name(r.name).to_owned()).collect();
+    let bases: Vec<&str> = outlines.iter().map(|outline| outline.unwrap_or("region")).collect();
+    let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
+    bases.iter().for_each(|&base| *counts.entry(base).or_default() += 1);
+    let mut last: BTreeMap<&str, usize> = BTreeMap::new();
+    let mut names = Vec::with_capacity(bases.len());
+    for base in bases {
+        let mut name = base.to_owned();
+        let number = last.entry(base).or_default();
+        while taken.contains(&name) || counts[base] > 1 && name == base {
+            *number += 1;
+            name = format!("{base}{number}");
+        }
+        taken.insert(name.clone());
+        names.push(name);
+    }
+    names
 }
 
 /// Says why no face is kept, at the first free end if that is why.
