@@ -58,8 +58,8 @@ impl Contour {
         contour.take_base(wide);
         contour.close(wide, notes);
         contour.find_nose()?;
-        contour.refuse_winding(wide)?;
         contour.refuse_crossed(samples)?;
+        contour.refuse_winding(wide)?;
         Ok(contour)
     }
 
@@ -100,7 +100,9 @@ impl Contour {
     }
 
     /// Closes a blunt end by shearing either surface to its middle, in proportion to the way from the nose.
-    pub fn sharpen(&mut self) {
+    ///
+    /// Where the surfaces run nearer to each other than the end is high, they would cross: the points from there on are left out.
+    pub fn sharpen(&mut self, notes: &mut Vec<String>) {
         let (tail, nose, n) = (self.tail(), self.nose_point(), self.points.len());
         let chord = tail - nose;
         let (from_first, from_last) = (tail - self.first(), tail - self.last());
@@ -110,6 +112,13 @@ impl Contour {
         }
         (self.points[0], self.points[n - 1]) = (tail, tail);
         self.base.clear();
+        notes.push("The blunt trailing edge was sheared to a point.".into());
+        if let Some(Meeting { upper, lower, .. }) = meeting_at_tail(&self.points, true, chord.hypot())
+            && (upper + 1..=lower).contains(&self.nose)
+        {
+            let out = self.leave_out_behind(upper, lower);
+            notes.push(format!("Points near the trailing edge where the surfaces would cross, left out: {out}."));
+        }
     }
 
     /// Leaves out the loop behind the place where the surfaces meet before the trailing edge, if it is smaller than a thousandth of the chord;
@@ -125,15 +134,9 @@ impl Contour {
         let ends_in_a_point = (self.first() - self.last()).hypot() < SHARP * wide;
         let meeting = meeting_at_tail(&self.points, ends_in_a_point, wide);
         let Some(Meeting { at, upper, lower, reach }) = meeting else { return };
-        let n = self.points.len();
         if ends_in_a_point && self.thickness_behind(upper, lower) <= decimal {
-            let mut kept = vec![self.points[0]];
-            kept.extend(&self.points[upper + 1..=lower]);
-            kept.push(self.points[n - 1]);
-            // Points at the meeting itself touch as well.
-            let touching = n - kept.len();
-            if touching > 0 && kept.len() >= 4 {
-                self.points = kept;
+            let touching = self.leave_out_behind(upper, lower);
+            if touching > 0 {
                 let place = format!("near ({}, {})", at.x, at.y);
                 notes.push(format!(
                     "The surfaces touch {place}, before the trailing edge: {touching} points there were left out."
@@ -149,6 +152,21 @@ impl Contour {
                 at.x, at.y
             ));
         }
+    }
+
+    /// Leaves out the points behind the edges `upper` and `lower`, but for the two ends, and says how many those are.
+    fn leave_out_behind(&mut self, upper: usize, lower: usize) -> usize {
+        let n = self.points.len();
+        let mut kept = vec![self.points[0]];
+        kept.extend(&self.points[upper + 1..=lower]);
+        kept.push(self.points[n - 1]);
+        // Fewer are no section.
+        if kept.len() < 4 {
+            return 0;
+        }
+        self.nose = self.nose.saturating_sub(upper);
+        self.points = kept;
+        n - self.points.len()
     }
 
     /// How far the surfaces lie apart behind points `upper` and `lower`, at most: upright, at their points.

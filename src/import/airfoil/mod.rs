@@ -149,8 +149,7 @@ fn check(options: &AirfoilOptions) -> Result<(), ImportError> {
 fn draw(mut contours: Vec<Contour>, options: &AirfoilOptions, drawing: &mut Drawing) -> Result<(), ImportError> {
     if options.trailing_edge == TrailingEdge::Sharp {
         for contour in contours.iter_mut().filter(|c| !c.is_sharp()) {
-            contour.sharpen();
-            drawing.notes.push("The blunt trailing edge was sheared to a point.".into());
+            contour.sharpen(&mut drawing.notes);
         }
     }
     if let Some(chord) = options.chord {

@@ -136,7 +136,7 @@ impl Row {
         let is_blank = |c: char| c.is_whitespace() || c == ';';
         let fields = line.split(is_blank).map(plain).filter(|f| !f.is_empty());
         let Some(first) = fields.clone().next() else { return Self::Blank };
-        if ["#", "!", "%", "//"].iter().any(|mark| first.starts_with(mark)) {
+        if ["#", "!", "%", "//"].iter().any(|mark| first.starts_with(mark)) && !is_lost(first) {
             return Self::Comment;
         }
         let is_dotted = fields.clone().nth(1).is_some_and(|f| f.len() > 1 && f.bytes().all(|b| b == b'.'));
@@ -604,7 +604,7 @@ fn starts_beside(samples: &[Sample]) -> bool {
     let is_inside = (rest.x0..=rest.x1).contains(&p0.x);
     let is_upright = step.y.abs() > step.x.abs();
     let closes = without <= SAME * wide && with > SAME * wide && (step.hypot() > 2.0 * (p2 - p1).hypot() || is_inside);
-    let closes_better = without < 0.5 * with && with > 0.02 * wide && (is_inside || is_upright);
+    let closes_better = without < 0.4 * with && with > 0.02 * wide && (is_inside || is_upright);
     let is_far = p0.x < rest.x0 - 0.3 * wide
         || p0.x > rest.x1 + 0.3 * wide
         || p0.y < rest.y0 - 0.5 * wide
@@ -612,16 +612,18 @@ fn starts_beside(samples: &[Sample]) -> bool {
     let turns_back = step.x * (p2.x - p1.x) < 0.0 && step.x.abs() > 0.05 * wide;
     // A base runs from the last point to the first, not past either and back.
     let opposite = |a: Vec2, b: Vec2| a.dot(b) < -0.9 * a.hypot() * b.hypot();
-    let folds = is_upright && with > 0.02 * wide && (opposite(p0 - p1, last - p1) || opposite(p0 - last, p1 - last));
+    let folds = step.x.abs() <= 1e-3 * step.y.abs()
+        && with > 0.02 * wide
+        && (opposite(p0 - p1, last - p1) || opposite(p0 - last, p1 - last));
     closes || closes_better || is_far || turns_back || folds
 }
 
 // ---- units, elements ----
 
-/// Sections as wide as 100 are in percent of chord, unless the header speaks of a unit of length.
+/// Sections about as wide as 100 are in percent of chord, unless the header speaks of a unit of length.
 fn unscale_percent(elements: &mut [Vec<Sample>], header: &[&str], notes: &mut Vec<String>) {
-    // The nose of a cambered section and a flap's edge lie that far beyond the ends of the chord.
-    const PERCENT: std::ops::RangeInclusive<f64> = 99.5..=100.5;
+    // The nose of a cambered section, a rotor blade's tab and an end that was cut off lie that far from the ends of the chord.
+    const PERCENT: std::ops::RangeInclusive<f64> = 98.5..=101.5;
     const UNITS: [&str; 8] = ["mm", "cm", "millimetre", "millimetres", "millimeter", "millimeters", "inch", "inches"];
     let Some(bounds) = bounds_of(elements.iter().flatten().map(|s| s.at)) else { return };
     let mut words = header.iter().flat_map(|line| line.split(|c: char| !c.is_alphabetic()));

@@ -25,7 +25,7 @@ pub(super) struct Section {
 impl Section {
     pub fn build(contour: &Contour, edge: TrailingEdge, notes: &mut Vec<String>) -> Result<Self, ImportError> {
         let failed = |e: CurveError| ImportError::at(contour.lines[0], e.to_string(), HELP);
-        let whole = interpolate(contour, notes).map_err(failed)?;
+        let whole = interpolate(contour, notes)?;
         let at_nose = parameter_of_point(&whole, contour.nose, contour.points.len());
         let cut_off = contour.is_sharp() && matches!(edge, TrailingEdge::Blunt | TrailingEdge::Round);
         let (from, to) = if cut_off { truncation(contour, &whole, at_nose)? } else { (0.0, 1.0) };
@@ -80,9 +80,10 @@ fn parameter_of_point(whole: &Curve, i: usize, n: usize) -> f64 {
 }
 
 /// One curve through all points: the smoothest that does not cross itself.
-fn interpolate(contour: &Contour, notes: &mut Vec<String>) -> Result<Curve, CurveError> {
+fn interpolate(contour: &Contour, notes: &mut Vec<String>) -> Result<Curve, ImportError> {
     let crossing = |curve: &Curve| first_crossing(&outline(curve, &contour.base)).map(|(at, _)| at);
-    let spline = Curve::natural_spline(&contour.points)?;
+    let spline =
+        Curve::natural_spline(&contour.points).map_err(|e| ImportError::at(contour.lines[0], e.to_string(), HELP))?;
     let Some(at) = crossing(&spline) else { return Ok(spline) };
     let place = format!("near ({:.4}, {:.4})", at.x, at.y);
     let tame = monotone_cubic(&contour.points);
@@ -92,8 +93,14 @@ fn interpolate(contour: &Contour, notes: &mut Vec<String>) -> Result<Curve, Curv
         ));
         return Ok(tame);
     }
+    let straight = piecewise_linear(&contour.points);
+    if let Some(at) = crossing(&straight) {
+        // As read the contour crosses itself nowhere: it does by what was asked for.
+        let what = format!("the surfaces cross at ({}, {}) where the trailing edge is sheared to a point", at.x, at.y);
+        return Err(ImportError::at(contour.lines[0], what, "keep it: --trailing-edge keep"));
+    }
     notes.push(format!("Smooth surfaces would cross {place}; straight lines join the points instead."));
-    Ok(piecewise_linear(&contour.points))
+    Ok(straight)
 }
 
 /// Centripetal knots over 0..1: steps in proportion to the square root of the distance.
