@@ -958,7 +958,7 @@ fn a_hatch_on_a_layer_of_its_own_is_a_region() {
     let frame = "0 LWPOLYLINE; 8 frame; 70 1; 10 -5; 20 -5; 10 15; 20 -5; 10 15; 20 15; 10 -5; 20 15";
     let ring = hatch(0, &(square_path(3, [0.0, 0.0], 10.0) + &square_path(16, [2.0, 2.0], 3.0)));
     let drawing = drawn(&format!("{frame}; {ring}"));
-    assert!(noted(&drawing, "regions of their own extent"));
+    assert!(noted(&drawing, "a region of its own extent"));
     let found = regions(&drawing);
     assert_eq!(found[0].0, "steel");
     near(found[0].1, 91.0);
@@ -1098,7 +1098,7 @@ fn what_leaves_the_plane_is_named_and_can_be_projected() {
     let flatten = DxfOptions { flatten_z: true, ..DxfOptions::default() };
     let flat = with(flatten, &plain(stray));
     near(measure(&flat), 6.0);
-    assert!(flat.off_plane.is_empty() && noted(&flat, "1 entities leave the XY plane"));
+    assert!(flat.off_plane.is_empty() && noted(&flat, "projected onto it: 1."));
     // A circle in a plane turned by 60° about the x axis is half as high as wide.
     let circle = "0 CIRCLE; 10 1; 20 2; 30 3; 40 2; 210 0; 220 -0.8660254037844386; 230 0.5";
     near(measure(&with(flatten, &plain(circle))), 4.0 * PI * 0.5);

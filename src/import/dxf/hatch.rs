@@ -42,7 +42,8 @@ pub(super) fn outlines(record: &Record, notices: &mut Notices) -> Result<Vec<Vec
     }
     let mut loops: Vec<Vec<Curve>> = Vec::new();
     for path in &paths {
-        if path.flags & flag::POLYLINE != 0 {
+        // A polygon has no other paths.
+        if path.flags & flag::POLYLINE != 0 || record.kind == "MPOLYGON" {
             let vertices = bulged_vertices(record, &mut path.pairs.iter().copied())?;
             loops.push(segments(record, &vertices, true)?);
         } else {
