@@ -1,9 +1,9 @@
 //! What the DXF reader takes, what it makes of it, and how it refuses.
 
 use proptest::prelude::*;
-use squinch::curve::Curve;
+use squinch::curve::{Curve, End};
 use squinch::domain::{ArrangeOptions, Drawing, FillRule, SeedKind};
-use squinch::geometry::Point;
+use squinch::geometry::{Point, Vec2};
 use squinch::import::{DxfOptions, Format, ImportError, LineTypes, Options, Selection, read};
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -266,12 +266,16 @@ fn splines_through_fit_points() {
     let fit = "11 0; 21 0; 31 0; 11 1; 21 1; 31 0; 11 2; 21 0; 31 0";
     let open = drawn(&format!("0 SPLINE; 70 8; 71 3; 74 3; {fit}"));
     let points = [Point::new(0.0, 0.0), Point::new(1.0, 1.0), Point::new(2.0, 0.0)];
-    assert_eq!(*only(&open), Curve::natural_spline(&points).unwrap());
+    assert_eq!(*only(&open), Curve::fitted_spline(&points, [None, None]).unwrap());
     assert!(noted(&open, "fit points"));
     let closed = drawn(&format!("0 SPLINE; 70 1; 71 3; 74 3; {fit}"));
     assert_eq!(*only(&closed), Curve::periodic_spline(&points).unwrap());
     let tangents = drawn(&format!("0 SPLINE; 70 8; 71 3; 12 1; 22 0; 32 0; {fit}"));
     assert!(noted(&tangents, "tangents"));
+    assert!(only(&tangents).direction_at(End::Start).cross(Vec2::new(1.0, 0.0)).abs() < 1e-15);
+    // By chord length: the natural cubic through 0, 1 and 9 on a line, whose parameter is the place itself, stays on it at even pace.
+    let uneven = drawn("0 SPLINE; 70 8; 71 3; 74 3; 11 0; 21 0; 11 1; 21 0; 11 9; 21 0");
+    near_point(only(&uneven).point(0.5), (4.5, 0.0));
 }
 
 #[test]
@@ -632,7 +636,7 @@ fn same(a: &Drawing, b: &Drawing) {
 #[test]
 fn line_ends_and_blanks_do_not_matter() {
     let plain = whole(&sampler());
-    assert_eq!(plain.curves.len(), 4 + 1 + 1 + 2 + 1);
+    assert_eq!(plain.curves.len(), 4 + 1 + 1 + 2 + 1 + 2);
     let lf = text(&sampler());
     for dress in [
         lf.replace('\n', "\r\n"),
@@ -949,14 +953,14 @@ fn a_boundary_of_a_hatch_that_repeats_nothing_is_an_outline_of_its_layer() {
     let hole = "0 CIRCLE; 8 steel; 10 5; 20 5; 40 2";
     near(measure(&drawn(&format!("{hole}; {}", hatch(0, &square_path(3, [0.0, 0.0], 10.0))))), 100.0 - 4.0 * PI);
     // One loop repeats the plate, up to its digits, and one is new.
-    let both = hatch(0, &(square_path(3, [0.0004, -0.0003], 10.0) + &square_path(16, [2.0, 2.0], 3.0)));
+    let both = hatch(0, &(square_path(3, [0.0004, -0.0003], 10.0) + &square_path(18, [2.0, 2.0], 3.0)));
     near(measure(&drawn(&format!("{PLATE}; {both}"))), 100.0 - 9.0);
 }
 
 #[test]
 fn a_hatch_on_a_layer_of_its_own_is_a_region() {
     let frame = "0 LWPOLYLINE; 8 frame; 70 1; 10 -5; 20 -5; 10 15; 20 -5; 10 15; 20 15; 10 -5; 20 15";
-    let ring = hatch(0, &(square_path(3, [0.0, 0.0], 10.0) + &square_path(16, [2.0, 2.0], 3.0)));
+    let ring = hatch(0, &(square_path(3, [0.0, 0.0], 10.0) + &square_path(18, [2.0, 2.0], 3.0)));
     let drawing = drawn(&format!("{frame}; {ring}"));
     assert!(noted(&drawing, "a region of its own extent"));
     let found = regions(&drawing);
