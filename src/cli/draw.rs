@@ -85,7 +85,11 @@ impl Draw {
             _ => return Err(Halt::Usage(format!("-o {}: pictures are .svg or .png", self.output.display()))),
         };
         let input = Input::open(&self.input, input_format)?;
-        let canvas = if check::is_mesh(&input) {
+        let is_mesh = check::is_mesh(&input);
+        if is_mesh && self.colour == Colour::Layer {
+            return Err(Halt::Usage("--colour layer: only for drawings; a mesh has --colour region".into()));
+        }
+        let canvas = if is_mesh {
             let file = check::read(&input)?;
             picture_of_mesh(&file.mesh, None, self.mesh_colour(), &self.picture(input.path, true))
         } else {

@@ -11,8 +11,9 @@ use std::collections::BTreeSet;
 const COPY: f64 = 1e-4;
 /// And no farther than this, whatever the digits.
 const FARTHEST_COPY: f64 = 1e-2;
-/// A polygon that stands for a curve leaves it by no more than this share of its sides: one of twelve sides for a circle does.
-const SAGITTA: f64 = 0.07;
+/// A polygon that stands for a curve, its corners on it, leaves it by no more than this share of its sides: one of six sides for a circle
+/// does. LibreCAD writes hatched circles with seven; a part whose outlines touch at corner after corner would fall apart.
+const SAGITTA: f64 = 0.15;
 
 /// The hatched area of one entity.
 pub(super) struct Fill {
