@@ -1,10 +1,10 @@
 //! What the DXF reader takes, what it makes of it, and how it refuses.
 
 use proptest::prelude::*;
-use squinch::curve::Curve;
+use squinch::curve::{Curve, End};
 use squinch::domain::{ArrangeOptions, Drawing, FillRule, SeedKind};
-use squinch::geometry::Point;
-use squinch::import::{Format, ImportError, Options, Selection, read};
+use squinch::geometry::{Point, Vec2};
+use squinch::import::{DxfOptions, Format, ImportError, LineTypes, Options, Selection, read};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 // ---- files in short: `0 LINE; 8 rim; 10 0` is three pairs ----
@@ -266,12 +266,16 @@ fn splines_through_fit_points() {
     let fit = "11 0; 21 0; 31 0; 11 1; 21 1; 31 0; 11 2; 21 0; 31 0";
     let open = drawn(&format!("0 SPLINE; 70 8; 71 3; 74 3; {fit}"));
     let points = [Point::new(0.0, 0.0), Point::new(1.0, 1.0), Point::new(2.0, 0.0)];
-    assert_eq!(*only(&open), Curve::natural_spline(&points).unwrap());
+    assert_eq!(*only(&open), Curve::fitted_spline(&points, [None, None]).unwrap());
     assert!(noted(&open, "fit points"));
     let closed = drawn(&format!("0 SPLINE; 70 1; 71 3; 74 3; {fit}"));
     assert_eq!(*only(&closed), Curve::periodic_spline(&points).unwrap());
     let tangents = drawn(&format!("0 SPLINE; 70 8; 71 3; 12 1; 22 0; 32 0; {fit}"));
     assert!(noted(&tangents, "tangents"));
+    assert!(only(&tangents).direction_at(End::Start).cross(Vec2::new(1.0, 0.0)).abs() < 1e-15);
+    // By chord length: the natural cubic through 0, 1 and 9 on a line, whose parameter is the place itself, stays on it at even pace.
+    let uneven = drawn("0 SPLINE; 70 8; 71 3; 74 3; 11 0; 21 0; 11 1; 21 0; 11 9; 21 0");
+    near_point(only(&uneven).point(0.5), (4.5, 0.0));
 }
 
 #[test]
@@ -632,7 +636,7 @@ fn same(a: &Drawing, b: &Drawing) {
 #[test]
 fn line_ends_and_blanks_do_not_matter() {
     let plain = whole(&sampler());
-    assert_eq!(plain.curves.len(), 4 + 1 + 1 + 2 + 1);
+    assert_eq!(plain.curves.len(), 4 + 1 + 1 + 2 + 1 + 2);
     let lf = text(&sampler());
     for dress in [
         lf.replace('\n', "\r\n"),
@@ -862,4 +866,271 @@ fn the_last_decimal_is_that_of_the_text() {
     let block = "0 BLOCK; 2 B; 10 0; 20 0; 0 LINE; 8 0; 10 0; 20 0; 11 1.5; 21 1; 0 ENDBLK";
     let drawing = whole(&(section("BLOCKS", block) + &plain("0 INSERT; 2 B; 10 0; 20 0; 41 2; 42 -4; 50 30")));
     near(drawing.curves[0].last_decimal, 0.4);
+}
+
+// ---- line types ----
+
+fn with(options: DxfOptions, short: &str) -> Drawing {
+    let options = Options { dxf: options, ..Options::default() };
+    read(text(short).as_bytes(), Format::Dxf, "stem", &options).unwrap_or_else(|e| panic!("{e}\n{short}"))
+}
+
+const LEFT_OUT: &str = "of a line type that draws no edge (--line-types all keeps it)";
+
+#[test]
+fn line_types_that_draw_no_edge_are_left_out() {
+    let auxiliary = [
+        "CENTER",
+        "center2",
+        "CenterX2",
+        "PHANTOM",
+        "HIDDEN2",
+        "DASHDOT",
+        "DASHDOTX2",
+        "DIVIDE",
+        "BORDER2",
+        "ACAD_ISO04W100",
+        "ACAD_ISO10W100",
+        "ACAD_ISO15W100",
+        "ISO12W050",
+    ];
+    for name in auxiliary {
+        let file = plain(&format!("0 CIRCLE; 6 {name}; 10 0; 20 0; 40 9; {SQUARE}"));
+        let drawing = whole(&file);
+        assert_eq!((drawing.curves.len(), skipped(&drawing)), (4, vec![("CIRCLE", 1, LEFT_OUT)]), "{name}");
+        let all = with(DxfOptions { line_types: LineTypes::All, ..DxfOptions::default() }, &file);
+        assert_eq!(all.curves.len(), 5, "{name}");
+    }
+    for name in ["DASHED", "Continuous", "BYLAYER", "DOT", "ACAD_ISO02W100", "ACAD_ISO03W100", "ISO9000"] {
+        assert_eq!(drawn(&format!("0 CIRCLE; 6 {name}; 10 0; 20 0; 40 9; {SQUARE}")).curves.len(), 5, "{name}");
+    }
+}
+
+#[test]
+fn line_types_come_from_layers_and_insertions() {
+    let tables = section("TABLES", "0 TABLE; 2 LAYER; 0 LAYER; 2 axes; 70 0; 62 7; 6 CENTER; 0 ENDTAB");
+    let block = "0 BLOCK; 2 B; 10 0; 20 0; 0 LINE; 8 0; 10 0; 20 0; 11 1; 21 1; 0 LINE; 8 0; 6 BYBLOCK; 10 1; 20 1; 11 2; 21 1; 0 ENDBLK";
+    let file = |insert: &str| {
+        let entities = format!("{SQUARE}; 0 INSERT; {insert}; 2 B; 10 0; 20 0");
+        whole(&(tables.clone() + &section("BLOCKS", block) + &plain(&entities))).curves.len() - 4
+    };
+    assert_eq!(file("8 part"), 2);
+    assert_eq!(file("8 axes"), 0);
+    assert_eq!(file("8 part; 6 HIDDEN"), 1, "the entity by block");
+    assert_eq!(file("8 axes; 6 CONTINUOUS"), 1, "the entity by layer 0, which the block is on");
+}
+
+#[test]
+fn where_nothing_else_is_drawn_all_line_types_are_edges() {
+    let drawing = drawn("0 CIRCLE; 6 CENTER; 10 0; 20 0; 40 9; 0 POINT; 10 0; 20 0");
+    assert_eq!(drawing.curves.len(), 1);
+    assert!(noted(&drawing, "All is drawn in line types for centre, hidden or phantom lines"));
+    assert_eq!(skipped(&drawing), []);
+}
+
+// ---- hatches beside outlines ----
+
+fn square_path(flags: u8, [x, y]: [f64; 2], side: f64) -> String {
+    let (u, v) = (x + side, y + side);
+    format!("92 {flags}; 72 0; 73 1; 93 4; 10 {x}; 20 {y}; 10 {u}; 20 {y}; 10 {u}; 20 {v}; 10 {x}; 20 {v}; 97 0;")
+}
+
+fn regions(drawing: &Drawing) -> Vec<(String, f64)> {
+    let domain = drawing.arrange(&ArrangeOptions::default()).unwrap();
+    domain.regions().iter().map(|r| (domain.name(r.name).to_owned(), r.area)).collect()
+}
+
+const PLATE: &str = "0 LWPOLYLINE; 8 steel; 70 1; 10 0; 20 0; 10 10; 20 0; 10 10; 20 10; 10 0; 20 10";
+
+#[test]
+fn a_boundary_of_a_hatch_that_repeats_nothing_is_an_outline_of_its_layer() {
+    let hole = hatch(0, &square_path(3, [2.0, 2.0], 3.0));
+    let drawing = drawn(&format!("{PLATE}; {hole}"));
+    assert_eq!((drawing.curves.len(), drawing.fill), (8, FillRule::EvenOdd));
+    assert!(noted(&drawing, "outlines of their layers"));
+    near(measure(&drawing), 100.0 - 9.0);
+    // The outer loop as a hatch, the hole by a line.
+    let hole = "0 CIRCLE; 8 steel; 10 5; 20 5; 40 2";
+    near(measure(&drawn(&format!("{hole}; {}", hatch(0, &square_path(3, [0.0, 0.0], 10.0))))), 100.0 - 4.0 * PI);
+    // One loop repeats the plate, up to its digits, and one is new.
+    let both = hatch(0, &(square_path(3, [0.0004, -0.0003], 10.0) + &square_path(18, [2.0, 2.0], 3.0)));
+    near(measure(&drawn(&format!("{PLATE}; {both}"))), 100.0 - 9.0);
+}
+
+#[test]
+fn a_hatch_on_a_layer_of_its_own_is_a_region() {
+    let frame = "0 LWPOLYLINE; 8 frame; 70 1; 10 -5; 20 -5; 10 15; 20 -5; 10 15; 20 15; 10 -5; 20 15";
+    let ring = hatch(0, &(square_path(3, [0.0, 0.0], 10.0) + &square_path(18, [2.0, 2.0], 3.0)));
+    let drawing = drawn(&format!("{frame}; {ring}"));
+    assert!(noted(&drawing, "a region of its own extent"));
+    let found = regions(&drawing);
+    assert_eq!(found[0].0, "steel");
+    near(found[0].1, 91.0);
+    near(found.iter().map(|r| r.1).sum(), 400.0);
+    assert_eq!(found.len(), 3, "what is left of the frame is drawn, too: {found:?}");
+    // It also crosses an outline, and takes what it covers.
+    let half = hatch(0, &square_path(3, [10.0, 0.0], 10.0));
+    let found = regions(&drawn(&format!("{frame}; {half}")));
+    near(found[0].1, 100.0);
+    near(found.iter().map(|r| r.1).sum(), 450.0);
+    let text = squinch::import::outline::to_json(&drawn(&format!("{frame}; {half}")));
+    let again = squinch::import::outline::read(text.as_bytes(), "stem").unwrap();
+    assert_eq!(again.fill, FillRule::EvenOddAndShapes);
+    near(measure(&again), 450.0);
+}
+
+#[test]
+fn what_is_hatched_on_a_layer_of_its_own_is_no_hole() {
+    // A bush in a bore: by the outlines alone its ring is a hole.
+    let circles = [9.0, 4.0, 2.0].map(|r| format!("0 CIRCLE; 8 rim; 10 0; 20 0; 40 {r}")).join("; ");
+    let disc = |r: f64| format!("92 1; 93 1; 72 2; 10 0; 20 0; 40 {r}; 50 0; 51 360; 73 1; 97 0;");
+    let bush = hatch(0, &(disc(4.0) + &disc(2.0)));
+    let found = regions(&drawn(&format!("{circles}; {bush}")));
+    assert_eq!(found[0].0, "steel");
+    near(found[0].1, 12.0 * PI);
+    // On the layer of the outlines, these decide.
+    let same = circles.replace("rim", "steel");
+    near(measure(&drawn(&format!("{same}; {bush}"))), (81.0 - 16.0 + 4.0) * PI);
+}
+
+#[test]
+fn a_hatch_names_what_is_not_a_hole_of_it() {
+    // The hole lies in the middle, and is no island of the hatch.
+    let hole = "0 CIRCLE; 8 rim; 10 5; 20 5; 40 4.9";
+    let plate = PLATE.replace("steel", "rim");
+    let drawing = drawn(&format!("{plate}; {hole}; {}", hatch(0, &square_path(3, [0.0, 0.0], 10.0))));
+    let found = regions(&drawing);
+    assert_eq!((found.len(), found[0].0.as_str()), (1, "steel"));
+    near(found[0].1, 100.0 - 4.9 * 4.9 * PI);
+}
+
+#[test]
+fn a_polygon_of_few_corners_in_a_circle_is_an_outline_of_its_own() {
+    let polygon = |corners: u32| {
+        let corner = |i: u32| {
+            let (sin, cos) = (f64::from(i) * 2.0 * PI / f64::from(corners)).sin_cos();
+            format!("10 {}; 20 {};", 4.0 * cos, 4.0 * sin)
+        };
+        let path = format!("92 2; 72 0; 73 1; 93 {corners}; {} 97 0;", (0..corners).map(corner).collect::<String>());
+        measure(&drawn(&format!("0 CIRCLE; 8 steel; 10 0; 20 0; 40 4; {}", hatch(0, &path))))
+    };
+    near(polygon(4), 16.0 * PI - 32.0);
+    // As LibreCAD writes small circles.
+    near(polygon(7), 16.0 * PI);
+}
+
+#[test]
+fn a_polygon_with_holes_is_read_as_a_hatch() {
+    let polygon =
+        hatch(0, &(square_path(2, [0.0, 0.0], 10.0) + &square_path(2, [2.0, 2.0], 3.0))).replace("HATCH", "MPOLYGON");
+    near(measure(&drawn(&polygon)), 91.0);
+}
+
+#[test]
+fn islands_go_by_their_nesting_where_all_paths_are_external() {
+    let nested = [(0.0, 10.0), (2.0, 6.0), (4.0, 2.0)].map(|(at, side)| square_path(3, [at, at], side)).concat();
+    for (style, area) in [(0, 100.0 - 36.0 + 4.0), (1, 100.0 - 36.0), (2, 100.0)] {
+        near(measure(&drawn(&hatch(style, &nested))), area);
+    }
+}
+
+// ---- curves as they are written ----
+
+#[test]
+fn end_tangents_of_splines_through_fit_points() {
+    // Between two points, with tangents of 45° up and down: by chord length the cubic of Hermite data (4/√2, ±4/√2).
+    let chord = "0 LINE; 10 4; 20 0; 11 0; 21 0";
+    let spline = "0 SPLINE; 70 8; 71 3; 74 2; 12 3; 22 3; 13 0.1; 23 -0.1; 11 0; 21 0; 11 4; 21 0";
+    let m = 4.0 / 2f64.sqrt();
+    // ∫ y dx of Hermite curves with y = m(u(1−u)), x = 4 h(u) + m(…), by the control points of the Bézier curve.
+    let bezier = [(0.0, 0.0), (m / 3.0, m / 3.0), (4.0 - m / 3.0, m / 3.0), (4.0, 0.0)];
+    let cross = |i: usize, j: usize| bezier[i].0 * bezier[j].1 - bezier[i].1 * bezier[j].0;
+    let under = (6.0 * cross(0, 1)
+        + 3.0 * cross(0, 2)
+        + cross(0, 3)
+        + 3.0 * cross(1, 2)
+        + 3.0 * cross(1, 3)
+        + 6.0 * cross(2, 3))
+        / 20.0;
+    near(measure(&drawn(&format!("{spline}; {chord}"))), under.abs());
+}
+
+#[test]
+fn knots_and_weights_as_writers_take_liberties() {
+    let spline = |knots: &str, weights: &str| {
+        format!(
+            "0 SPLINE; 70 8; 71 2; 72 7; 73 4; 42 0.000000001; {knots}; 10 0; 20 0; {weights} 10 2; 20 4; {weights} 10 4; 20 4; {weights} 10 6; 20 0; {weights}"
+        )
+    };
+    let clean = "40 0; 40 0; 40 0; 40 1; 40 2; 40 2; 40 2";
+    let plain_curve = only(&drawn(&spline(clean, ""))).clone();
+    let negative = only(&drawn(&spline(clean, "41 -1;"))).clone();
+    let jitter = drawn(&spline("40 0; 40 0; 40 -0.0000000001; 40 1; 40 2; 40 2; 40 2", ""));
+    assert!(noted(&jitter, "out of order"));
+    for t in [0.0, 0.3, 0.5, 0.8, 1.0] {
+        for curve in [&negative, only(&jitter)] {
+            assert!(curve.point(t).distance(plain_curve.point(t)) < 1e-12);
+        }
+    }
+    refused(&plain(&spline("40 0; 40 0; 40 -0.001; 40 1; 40 2; 40 2; 40 2", "")));
+    refused(&plain(&spline(clean, "41 -1;").replacen("41 -1", "41 1", 1)));
+}
+
+#[test]
+fn full_turns_with_few_digits() {
+    let ellipse = |to: &str| drawn(&format!("0 ELLIPSE; 10 0; 20 0; 11 2; 21 0; 40 0.5; 41 0.0; 42 {to}"));
+    for to in ["6.283185307179586", "6.28318", "6.2832", "6.283", "6.28"] {
+        near(measure(&ellipse(to)), 2.0 * PI);
+    }
+    assert!(noted(&ellipse("6.283"), "miss a full turn"));
+    for to in ["6.2", "6.27", "6.2830000", "3.14159"] {
+        assert!(only(&ellipse(to)).start().distance(only(&ellipse(to)).end()) > 1e-9, "{to}");
+    }
+    near(measure(&drawn("0 ARC; 10 0; 20 0; 40 1; 50 0; 51 359.99")), PI);
+    near(
+        measure(&drawn(&hatch(0, "92 1; 93 1; 72 3; 10 0; 20 0; 11 2; 21 0; 40 0.5; 50 0; 51 359.9; 73 1; 97 0"))),
+        2.0 * PI,
+    );
+}
+
+// ---- what leaves the plane ----
+
+#[test]
+fn what_leaves_the_plane_is_named_and_can_be_projected() {
+    let stray = "0 LINE; 5 A1; 10 0; 20 0; 30 0; 11 4; 21 0; 31 0.1; 0 LINE; 10 4; 20 0; 11 0; 21 3; 0 LINE; 10 0; 20 3; 11 0; 21 0";
+    let drawing = drawn(stray);
+    assert_eq!(drawing.curves.len(), 2);
+    assert_eq!(drawing.off_plane.len(), 1);
+    assert!(drawing.off_plane[0].entity.starts_with("LINE (handle A1"));
+    assert_eq!(drawing.off_plane[0].ends, [Point::new(0.0, 0.0), Point::new(4.0, 0.0)]);
+    let flatten = DxfOptions { flatten_z: true, ..DxfOptions::default() };
+    let flat = with(flatten, &plain(stray));
+    near(measure(&flat), 6.0);
+    assert!(flat.off_plane.is_empty() && noted(&flat, "projected onto it: 1."));
+    // A circle in a plane turned by 60° about the x axis is half as high as wide.
+    let circle = "0 CIRCLE; 10 1; 20 2; 30 3; 40 2; 210 0; 220 -0.8660254037844386; 230 0.5";
+    near(measure(&with(flatten, &plain(circle))), 4.0 * PI * 0.5);
+    let disc = "0 LWPOLYLINE; 70 1; 38 5; 10 -2; 20 0; 42 1; 10 2; 20 0; 42 1; 210 0; 220 -0.8660254037844386; 230 0.5";
+    near(measure(&with(flatten, &plain(disc))), 4.0 * PI * 0.5);
+    // An ellipse by its own axes, of which the major one leaves the plane.
+    let ellipse = "0 ELLIPSE; 10 0; 20 0; 30 0; 11 2; 21 0; 31 2; 40 0.5; 41 0; 42 6.283185307179586; 210 -0.7071067811865476; 220 0; 230 0.7071067811865476";
+    near(measure(&with(flatten, &plain(ellipse))), PI * 2.0 * 2f64.sqrt());
+    assert_eq!(skipped(&with(flatten, &plain("0 CIRCLE; 10 0; 20 0; 40 1; 210 1; 220 0; 230 0"))).len(), 1);
+}
+
+#[test]
+fn a_multiline_is_its_parallel_lines() {
+    let corner = |x: f64, y: f64, mx: f64, my: f64| {
+        format!(
+            "11 {x}; 21 {y}; 31 0; 12 1; 22 0; 32 0; 13 {mx}; 23 {my}; 33 0; 74 2; 41 1.4142135623730951; 41 0; 75 0; 74 2; 41 -1.4142135623730951; 41 0; 75 0;"
+        )
+    };
+    let r = 0.5f64.sqrt();
+    let corners = [(0.0, 0.0, r, r), (10.0, 0.0, -r, r), (10.0, 10.0, -r, -r), (0.0, 10.0, r, -r)];
+    let corners: String = corners.into_iter().map(|(x, y, mx, my)| corner(x, y, mx, my)).collect();
+    let walls = drawn(&format!("0 MLINE; 2 STANDARD; 40 2; 70 1; 71 3; 72 4; 73 2; 10 0; 20 0; {corners}"));
+    near(measure(&walls), 144.0 - 64.0);
+    let open = drawn(&format!("0 MLINE; 2 STANDARD; 40 2; 70 1; 71 1; 72 4; 73 2; 10 0; 20 0; {corners}"));
+    assert_eq!(open.curves.len(), 6);
+    assert!(noted(&open, "without caps"));
 }

@@ -21,13 +21,13 @@ pub struct Draw {
     /// A drawing, or a mesh (.vtu, .msh, …); - for standard input
     #[arg(value_name = "IN")]
     input: PathBuf,
-    /// What to draw; a mesh file is drawn as it is
-    #[arg(long, value_enum, default_value_t = Stage::Mesh, value_name = "STAGE")]
-    stage: Stage,
+    /// What to draw; a mesh file is drawn as it is [default: mesh, or drawing with --colour layer]
+    #[arg(long, value_enum, value_name = "STAGE")]
+    stage: Option<Stage>,
     /// Where the picture goes: .svg or .png; - for standard output, as SVG
     #[arg(short, long, value_name = "OUT")]
     output: PathBuf,
-    /// What triangles are coloured by
+    /// What triangles are coloured by; layer: curves as found, by their layers
     #[arg(long, value_enum, default_value_t = Colour::Quality, value_name = "BY")]
     colour: Colour,
     /// The window to show, in the drawing's units [default: all of it]
@@ -63,6 +63,7 @@ pub enum Colour {
     Quality,
     Region,
     Size,
+    Layer,
 }
 
 impl Colour {
@@ -87,6 +88,9 @@ pub fn window(text: &str) -> Result<Rect, String> {
 
 impl Draw {
     pub fn run(self, _volume: Volume) -> Result<Exit, Halt> {
+        if self.colour == Colour::Layer && self.shown() != Stage::Drawing {
+            return Err(Halt::Usage("--colour layer: only with --stage drawing".into()));
+        }
         let Resolved { request, input_format } = self.options.resolve()?;
         let format = match format_of(&self.output) {
             Some(format @ (Format::Svg | Format::Png)) => format,
@@ -95,7 +99,11 @@ impl Draw {
         };
         files::can_be_written([&self.output])?;
         let input = Input::open(&self.input, input_format)?;
-        let canvas = if check::is_mesh(&input) {
+        let is_mesh = check::is_mesh(&input);
+        if is_mesh && self.colour == Colour::Layer {
+            return Err(Halt::Usage("--colour layer: only for drawings; a mesh has --colour region".into()));
+        }
+        let canvas = if is_mesh {
             let file = check::read(&input)?;
             picture_of_mesh(&file.mesh, None, self.colour.of_mesh(), &self.picture(input.path, true))
         } else {
@@ -115,13 +123,13 @@ impl Draw {
         let watch: &mut Watch = &mut pipeline::timer(request);
         let drawing = pipeline::read(&input.source(), request)?;
         let arranged = pipeline::arrange(&drawing, request, watch);
-        let mut picture = self.picture(drawing.title.clone(), self.stage != Stage::Mesh);
-        if matches!(self.stage, Stage::Drawing | Stage::Domain) {
+        let mut picture = self.picture(drawing.title.clone(), self.shown() != Stage::Mesh);
+        if matches!(self.shown(), Stage::Drawing | Stage::Domain) {
             picture.repairs = arranged.as_ref().map(|domain| domain.repairs().to_vec()).unwrap_or_default();
             // A picture shows no notes.
             picture.unhealed = pipeline::unhealed(&drawing, request, &mut Vec::new(), watch);
         }
-        if self.stage == Stage::Drawing {
+        if self.shown() == Stage::Drawing {
             let marks = arranged.err().and_then(mark).into_iter().collect();
             return Ok(picture_of_drawing(&drawing, &PictureOptions { marks, ..picture }));
         }
@@ -136,23 +144,45 @@ impl Draw {
         watch: &mut Watch,
         picture: &PictureOptions,
     ) -> Result<Canvas, FailureReport> {
-        if self.stage == Stage::Domain {
+        if self.shown() == Stage::Domain {
             return Ok(picture_of_domain(arranged, picture));
         }
         let (domain, plan) = Plan::new(drawing, arranged, request, watch)?;
-        if self.stage == Stage::Subcurves {
+        if self.shown() == Stage::Subcurves {
             return Ok(picture_of_domain(&domain, picture));
         }
-        let refined = match self.stage {
+        let refined = match self.shown() {
             Stage::Triangulation => plan.conform(&domain, watch)?,
             _ => plan.refine(&domain, watch)?,
         };
         let mesh = refined.mesh.ok_or_else(|| pipeline::no_mesh(&refined.stop, "--timeout"))?;
         Ok(picture_of_mesh(&mesh, Some(&domain), self.colour.of_mesh(), picture))
+        Ok(picture_of_mesh(&mesh, Some(&domain), self.mesh_colour(), picture))
+    }
+
+    fn shown(&self) -> Stage {
+        self.stage.unwrap_or(if self.colour == Colour::Layer { Stage::Drawing } else { Stage::Mesh })
+    }
+
+    fn mesh_colour(&self) -> MeshColour {
+        match self.colour {
+            Colour::Quality => MeshColour::Quality,
+            Colour::Region => MeshColour::Region,
+            Colour::Size => MeshColour::Size,
+            // Of drawings only; a mesh has regions.
+            Colour::Layer => MeshColour::Region,
+        }
     }
 
     fn picture(&self, title: String, balls: bool) -> PictureOptions {
-        PictureOptions { width_px: self.width, view: self.view, balls, title, ..PictureOptions::default() }
+        PictureOptions {
+            layers: self.colour == Colour::Layer,
+            width_px: self.width,
+            view: self.view,
+            balls,
+            title,
+            ..PictureOptions::default()
+        }
     }
 }
 

@@ -5,11 +5,12 @@ use super::options::{Options, Resolved};
 use super::{Halt, Volume, remember, say};
 use clap::Args;
 use serde::Serialize;
-use squinch::domain::{Domain, Drawing, FaceInfo, Repair, Skipped};
-use squinch::ids::Id;
+use squinch::domain::{ArrangeOptions, Domain, Drawing, FaceInfo, Layer, Loose, Repair, Skipped};
+use squinch::ids::{Id, IdVec, LayerId, PointId};
 use squinch::pipeline::{self, Exit};
 use squinch::report::{FailureReport, SCHEMA, kinds};
-use std::collections::BTreeMap;
+use squinch::watch::Watch;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 use std::path::PathBuf;
 
@@ -38,6 +39,7 @@ impl Inspect {
         let arranged = pipeline::arrange(&drawing, &request, watch);
         let unarranged = arranged.as_ref().err().map(|failure| failure.kind.exit());
         let mut findings = Findings::new(&input.path, &drawing, arranged);
+        findings.layers = layers(&drawing, watch);
         findings.unhealed = pipeline::unhealed(&drawing, &request, &mut findings.notes, watch);
         let text = if self.json {
             serde_json::to_string_pretty(&findings).expect("findings are strings, numbers and lists of them") + "\n"
@@ -64,6 +66,8 @@ struct Findings {
     curves: BTreeMap<&'static str, usize>,
     points: usize,
     seeds: usize,
+    /// Of formats that have layers.
+    layers: Vec<LayerFindings>,
     boundaries: Vec<Boundary>,
     /// Absent where the drawing could not be arranged.
     domain: Option<DomainFindings>,
@@ -75,6 +79,18 @@ struct Findings {
     /// With `--tolerance 0`: what the default would have mended.
     unhealed: Vec<Repair>,
     flaws: Vec<Flaw>,
+}
+
+/// A layer, by itself.
+#[derive(Serialize)]
+struct LayerFindings {
+    name: String,
+    entities: usize,
+    /// How many of them in which line type.
+    line_types: BTreeMap<String, usize>,
+    closed_loops: usize,
+    /// Within its closed loops; absent where they cannot be arranged.
+    area: Option<f64>,
 }
 
 #[derive(Serialize)]
@@ -134,6 +150,7 @@ impl Findings {
             curves: kinds(drawing),
             points: drawing.points.len(),
             seeds: drawing.seeds.len(),
+            layers: Vec::new(),
             boundaries: boundaries(drawing),
             domain: arranged.as_ref().ok().map(DomainFindings::new),
             faces: drawing.faces.clone(),
@@ -173,6 +190,7 @@ impl Findings {
                 ),
             );
         }
+        self.layers.iter().for_each(|layer| row("layer", &layer.row()));
         for b in &self.boundaries {
             row(
                 "boundary",
@@ -212,6 +230,69 @@ fn face_row(face: &FaceInfo) -> String {
     };
     let name = if face.name.is_empty() { String::new() } else { format!(" {}", face.name) };
     format!("#{}{name}: normal ({normal}), {what}", face.id)
+}
+
+fn layers(drawing: &Drawing, watch: &mut Watch) -> Vec<LayerFindings> {
+    let options = ArrangeOptions { loose: Loose::Drop, ..ArrangeOptions::default() };
+    let mut finding = |id: LayerId, layer: &Layer| {
+        let curves: Vec<_> = drawing.curves.iter().filter(|c| c.layer == Some(id)).cloned().collect();
+        let alone = Drawing {
+            curves,
+            names: drawing.names.clone(),
+            shapes: drawing.shapes.clone(),
+            fill: drawing.fill,
+            ..Drawing::default()
+        };
+        let domain = alone.arrange_watched(&options, watch).ok();
+        LayerFindings {
+            name: layer.name.clone(),
+            entities: layer.line_types.values().sum(),
+            line_types: layer.line_types.clone(),
+            closed_loops: domain.as_ref().map_or(0, closed_loops),
+            area: domain.map(|domain| domain.measure()),
+        }
+    };
+    drawing.layers.enumerate().map(|(id, layer)| finding(id, layer)).collect()
+}
+
+/// The number of outlines that hang together nowhere.
+fn closed_loops(domain: &Domain) -> usize {
+    let mut above: IdVec<PointId, PointId> = domain.points().ids().collect();
+    let mut loops = BTreeSet::new();
+    let outlines = || domain.curves().iter().filter(|curve| curve.sides[0] != curve.sides[1]);
+    for curve in outlines() {
+        let [a, b] = curve.ends.map(|end| root(&mut above, end));
+        above[a] = b;
+    }
+    outlines().for_each(|curve| _ = loops.insert(root(&mut above, curve.ends[0])));
+    loops.len()
+}
+
+/// The point that stands for all that hang together with this one; ways to it are halved as they are gone.
+fn root(above: &mut IdVec<PointId, PointId>, mut point: PointId) -> PointId {
+    while above[point] != point {
+        above[point] = above[above[point]];
+        point = above[point];
+    }
+    point
+}
+
+impl LayerFindings {
+    fn row(&self) -> String {
+        let entities = say::plural(self.entities, "entity", "entities");
+        if self.entities == 0 {
+            return format!("{}: {entities}", self.name);
+        }
+        let line_types: Vec<String> = match self.line_types.len() {
+            1 => self.line_types.keys().cloned().collect(),
+            _ => self.line_types.iter().map(|(name, count)| format!("{name} {count}")).collect(),
+        };
+        let line_types = line_types.into_iter().filter(|name| !name.is_empty());
+        let loops = say::plural(self.closed_loops, "closed loop", "closed loops");
+        let area = self.area.map(|area| format!("area {}", say::number(area, 9)));
+        let parts = [entities].into_iter().chain(line_types).chain([loops]).chain(area);
+        format!("{}: {}", self.name, parts.collect::<Vec<_>>().join(", "))
+    }
 }
 
 fn boundaries(drawing: &Drawing) -> Vec<Boundary> {

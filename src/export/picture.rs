@@ -8,7 +8,7 @@ use crate::canvas::{Anchor, Canvas, Colour, Frame, Label, Paint, Path, Pixel, St
 use crate::curve::{Curve, End};
 use crate::domain::{Domain, Drawing, Repair, SeedKind};
 use crate::geometry::{Point, Rect, Vec2, bounds_of};
-use crate::ids::{CurveId, NameId, Names, PointId, RegionId, TriangleId};
+use crate::ids::{CurveId, LayerId, NameId, Names, PointId, RegionId, TriangleId};
 use crate::mesh::{BallReason, Mesh};
 use markers::Mended;
 use std::collections::{BTreeMap, BTreeSet};
@@ -32,6 +32,8 @@ pub struct PictureOptions {
     pub view: Option<Rect>,
     /// Protecting balls as dashed circles.
     pub balls: bool,
+    /// Of a drawing: curves by their layers, not by their names.
+    pub layers: bool,
     /// Places to point at, each with a label: flaws.
     pub marks: Vec<(Point, String)>,
     /// What was mended, marked by kind; where many crowd, one marker has their number beside it.
@@ -48,6 +50,7 @@ impl Default for PictureOptions {
             width_px: 1200,
             view: None,
             balls: true,
+            layers: false,
             marks: Vec::new(),
             repairs: Vec::new(),
             unhealed: Vec::new(),
@@ -105,13 +108,13 @@ fn along(scale: &[(f64, u32)], value: f64) -> Colour {
 
 /// A drawing as found: curves by name, points, seeds.
 pub fn picture_of_drawing(drawing: &Drawing, options: &PictureOptions) -> Canvas {
-    let used = distinct(drawing.curves.iter().map(|c| c.name));
-    let legend = Legend { lines: entries(&used, &drawing.names), ..Legend::default() }.with_markers(options);
+    let (ranks, lines) = if options.layers { by_layer(drawing) } else { by_name(drawing) };
+    let kinds = lines.len();
+    let legend = Legend { lines, ..Legend::default() }.with_markers(options);
     let caption = [counted(drawing.curves.len(), "curve"), counted(drawing.points.len(), "point")].join(", ");
     let bounds = drawing.bounds().unwrap_or(Rect::ZERO);
     let mut sheet = Sheet::new(bounds, options, &caption, &legend);
-    let curves = drawing.curves.iter().map(|c| (rank(&used, c.name), &c.curve));
-    sheet.curves(used.len(), curves);
+    sheet.curves(kinds, ranks.into_iter().zip(drawing.curves.iter().map(|c| &c.curve)));
     sheet.canvas.layer("points", true);
     for p in &drawing.points {
         sheet.dot(p.at, INK);
@@ -129,6 +132,22 @@ pub fn picture_of_drawing(drawing: &Drawing, options: &PictureOptions) -> Canvas
         sheet.label(seed.at, what, FAINT, false);
     }
     sheet.finish(options, &legend)
+}
+
+/// The colour of every drawn curve by its name, as a place in the list of those that are used.
+fn by_name(drawing: &Drawing) -> (Vec<usize>, Vec<String>) {
+    let used = distinct(drawing.curves.iter().map(|c| c.name));
+    (drawing.curves.iter().map(|c| rank(&used, c.name)).collect(), entries(&used, &drawing.names))
+}
+
+/// The same by its layer; what is on none comes first.
+fn by_layer(drawing: &Drawing) -> (Vec<usize>, Vec<String>) {
+    let used: Vec<Option<LayerId>> =
+        drawing.curves.iter().map(|c| c.layer).collect::<BTreeSet<_>>().into_iter().collect();
+    let name =
+        |layer: &Option<LayerId>| layer.map_or("no layer", |layer| drawing.layers[layer].name.as_str()).to_owned();
+    let ranks = drawing.curves.iter().map(|c| used.partition_point(|layer| *layer < c.layer)).collect();
+    (ranks, used.iter().map(name).collect())
 }
 
 /// A domain: regions filled, curves by name, the points of P, acute corners ringed with their angle.

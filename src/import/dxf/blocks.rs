@@ -124,7 +124,7 @@ impl<'f, 'a> Sketch<'f, 'a> {
                 .push(format!("Curves lie at heights from {low} to {high}: all were laid into one plane."));
         }
         if self.flattened > 0 {
-            let note = format!("{} entities leave the XY plane: they were projected onto it.", self.flattened);
+            let note = format!("Entities that leave the XY plane, and were projected onto it: {}.", self.flattened);
             self.drawing.notes.push(note);
         }
         self.drawing.notes.extend(self.notices.into_notes());

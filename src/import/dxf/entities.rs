@@ -1,6 +1,7 @@
 //! One entity → its curves, in the coordinates of the drawing or of the block that it stands in.
 
 use super::hatch;
+use super::mline::mline;
 use super::sections::{Record, finest};
 use super::spline::spline;
 use crate::curve::{Curve, CurveError};
@@ -114,6 +115,7 @@ pub(super) fn figure<'a>(
         "ELLIPSE" => ellipse(record, notices),
         "LWPOLYLINE" => light_polyline(record, notices),
         "POLYLINE" => polyline(record, followers, notices),
+        "MLINE" => mline(record, notices),
         "SPLINE" | "HELIX" => spline(record, notices),
         "SOLID" | "TRACE" | "3DFACE" => face(record),
         "POINT" => {
@@ -127,7 +129,12 @@ pub(super) fn figure<'a>(
             Ok(Figure::Fill { loops, last_decimal: record.last_decimal(&[10, 20, 11, 21]) })
         }
         "INSERT" => insert(record),
-        kind => Err(Refusal::Skip(why_not(kind))),
+        kind => {
+            if kind == "WIPEOUT" {
+                notices.add("What wipeouts cover (WIPEOUT) is read as if they were not there.");
+            }
+            Err(Refusal::Skip(why_not(kind)))
+        }
     }
 }
 
@@ -148,7 +155,6 @@ fn why_not(kind: &str) -> &'static str {
         "IMAGE" | "WIPEOUT" | "OLEFRAME" | "OLE2FRAME" | "PDFUNDERLAY" | "DWFUNDERLAY" | "DGNUNDERLAY" => "a picture",
         "VIEWPORT" => "a view",
         "MESH" => "a surface in space",
-        "MLINE" => "a multiline (explode it into lines)",
         _ => "no entity that is read here",
     }
 }
@@ -171,6 +177,10 @@ impl Plane {
         let [x, y, z] = normal;
         if x.abs().max(y.abs()) <= FLAT * z.abs() {
             return Ok(if z < 0.0 { Self::Below } else { Self::Above });
+        }
+        if z.abs() <= FLAT * x.abs().max(y.abs()) {
+            // Seen from its side, nothing of an area is left.
+            return Err(Refusal::Skip(TILTED));
         }
         /// A normal nearer to the z axis than this has its x axis by the y axis (arbitrary axis algorithm).
         const NEAR_Z: f64 = 1.0 / 64.0;

@@ -11,8 +11,9 @@ use std::collections::BTreeSet;
 const COPY: f64 = 1e-4;
 /// And no farther than this, whatever the digits.
 const FARTHEST_COPY: f64 = 1e-2;
-/// A polygon that stands for a curve leaves it by no more than this share of its sides: one of twelve sides for a circle does.
-const SAGITTA: f64 = 0.07;
+/// A polygon that stands for a curve, its corners on it, leaves it by no more than this share of its sides: one of six sides for a circle
+/// does. LibreCAD writes hatched circles with seven; a part whose outlines touch at corner after corner would fall apart.
+const SAGITTA: f64 = 0.15;
 
 /// The hatched area of one entity.
 pub(super) struct Fill {
@@ -81,22 +82,17 @@ pub(super) fn add(fills: &[Fill], drawing: &mut Drawing) {
         own.into_iter().for_each(|outline| fresh.extend(fill.drawn(outline)));
     }
     drawing.curves.append(&mut fresh);
-    let outlines = Outlines::of(drawing);
-    let places: Vec<Option<Place>> = fills
-        .iter()
-        .zip(&regions)
-        .map(|(fill, &is_region)| (!is_region).then(|| outlines.place(fill)).flatten())
-        .collect();
-    for (fill, place) in fills.iter().zip(places) {
+    let mut outlines = Outlines::of(drawing);
+    let places: Vec<Option<Place>> = fills.iter().map(|fill| outlines.place(fill)).collect();
+    for ((fill, place), is_region) in fills.iter().zip(places).zip(regions) {
         match place {
-            Some(Place::Inside(at)) => fill.name(at, drawing),
+            Some(Place::Inside(at) | Place::Unknown(at)) if !is_region => fill.name(at, drawing),
             // What is hatched is there, even if the outlines alone would make a hole of it; on a layer of outlines they decide.
-            Some(Place::Outside) if !is_alone(fill) => {}
-            Some(Place::Unknown(at)) => fill.name(at, drawing),
-            Some(Place::Outside) | None => {
+            Some(_) if is_region || is_alone(fill) => {
                 told.regions += 1;
                 fill.paint(drawing);
             }
+            Some(_) | None => {}
         }
     }
     if !drawing.shapes.is_empty() {
@@ -114,24 +110,13 @@ struct Told {
 }
 
 impl Told {
-    fn notes(&self) -> Vec<String> {
-        let mut notes = Vec::new();
-        if self.copies > 0 {
-            notes.push(format!(
-                "Hatches name the regions that they lie in: {} of their boundaries repeat other outlines.",
-                self.copies
-            ));
-        }
-        if self.outlines > 0 {
-            notes.push(format!(
-                "{} boundaries of hatches repeat no outline: they are outlines of their layers.",
-                self.outlines
-            ));
-        }
-        if self.regions > 0 {
-            notes.push(format!("{} hatches on layers of their own are regions of their own extent.", self.regions));
-        }
-        notes
+    fn notes(&self) -> impl Iterator<Item = String> {
+        let notes = [
+            (self.copies, "Hatches name the regions that they lie in; boundaries of them that repeat other outlines"),
+            (self.outlines, "Boundaries of hatches that repeat no outline, and are outlines of their layers"),
+            (self.regions, "Hatches on layers of their own, each a region of its own extent"),
+        ];
+        notes.into_iter().filter(|(count, _)| *count > 0).map(|(count, what)| format!("{what}: {count}."))
     }
 }
 
@@ -150,14 +135,19 @@ struct Outlines<'a> {
     curves: Vec<&'a DrawnCurve>,
     tree: BoxHierarchy,
     bounds: Rect,
+    /// Curves that may still be looked at for the places of hatches: some seconds.
+    left: usize,
 }
+
+/// See [`Outlines::left`].
+const LOOKED_AT: usize = 1 << 25;
 
 impl<'a> Outlines<'a> {
     fn of(drawing: &'a Drawing) -> Self {
         let curves: Vec<&DrawnCurve> = drawing.curves.iter().collect();
         let tree = BoxHierarchy::new(curves.iter().map(|c| c.curve.bounds()));
         let bounds = tree.boxes().iter().copied().reduce(|a, b| a.union(b)).unwrap_or_default();
-        Self { curves, tree, bounds }
+        Self { curves, tree, bounds, left: LOOKED_AT }
     }
 
     /// Whether an outline runs along these all the way, up to the digits in which both are written, or as a polygon that stands for them.
@@ -188,7 +178,7 @@ impl<'a> Outlines<'a> {
     }
 
     /// Where a hatch lies: the middle of its longest stretch on a few lines across, rather of one that is also inside by the outlines.
-    fn place(&self, fill: &Fill) -> Option<Place> {
+    fn place(&mut self, fill: &Fill) -> Option<Place> {
         /// Heights of the lines, shares of the whole that no drawing has its corners at.
         const LINES: [f64; 5] = [0.5037, 0.2963, 0.7193, 0.1043, 0.8989];
         let bounds = fill.curves().map(Curve::bounds).reduce(|a, b| a.union(b))?;
@@ -201,7 +191,7 @@ impl<'a> Outlines<'a> {
                 continue;
             }
             let drawn = self.crossings(y);
-            let is_known = drawn.len().is_multiple_of(2);
+            let is_known = self.left > 0 && drawn.len().is_multiple_of(2);
             let mut places = [&hatched[..], &drawn[..]].concat();
             places.sort_by(f64::total_cmp);
             for ends in places.windows(2) {
@@ -226,13 +216,14 @@ impl<'a> Outlines<'a> {
     }
 
     /// Where the outlines cross a height, from left to right; copies once.
-    fn crossings(&self, y: f64) -> Vec<f64> {
+    fn crossings(&mut self, y: f64) -> Vec<f64> {
         let mut met = Vec::new();
         let across = Rect::new(self.bounds.x0, y, self.bounds.x1, y);
         self.tree.meeting(across, |i| {
             met.push(&self.curves[i].curve);
-            true
+            met.len() < self.left
         });
+        self.left = self.left.saturating_sub(met.len());
         let mut places = crossings(met, y);
         let same = 1e-9 * self.bounds.width(); // as arranging welds
         places.dedup_by(|b, a| *b - *a <= same);

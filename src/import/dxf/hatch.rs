@@ -17,6 +17,10 @@ mod flag {
     pub const OUTERMOST: i64 = 16;
 }
 
+/// Paths times pairs of a hatch up to which loops are compared each with each, to see which lie in which. The flags tell that, too, but
+/// many a writer has all paths external, or none; those of larger hatches are believed.
+const COMPARED: usize = 1 << 22;
+
 /// A path with the pairs that describe it.
 struct Path<'r, 'a> {
     flags: i64,
@@ -30,19 +34,21 @@ pub(super) fn outlines(record: &Record, notices: &mut Notices) -> Result<Vec<Vec
         notices.add("Boxes that keep hatches clear of text were left out.");
         paths.retain(|p| p.flags & flag::TEXT_BOX == 0);
     }
-    // Islands: 0 hatches every other area, 1 ends at the second, 2 looks at none. Older files do not say which paths are which.
-    let style = record.integer(75, 0)?;
-    let counted = match style {
-        1 => flag::EXTERNAL | flag::OUTERMOST,
-        2 => flag::EXTERNAL,
-        _ => 0,
+    // Islands: 0 hatches every other area, 1 ends at the second, 2 looks at none.
+    let (most, counted) = match record.integer(75, 0)? {
+        1 => (1, flag::EXTERNAL | flag::OUTERMOST),
+        2 => (0, flag::EXTERNAL),
+        _ => (usize::MAX, 0),
     };
-    if paths.iter().any(|p| p.flags & counted != 0) {
+    let pairs = paths.iter().map(|path| path.pairs.len()).sum();
+    let is_small = paths.len().saturating_mul(pairs) <= COMPARED;
+    if !is_small && paths.iter().any(|p| p.flags & counted != 0) {
         paths.retain(|p| p.flags & counted != 0);
     }
     let mut loops: Vec<Vec<Curve>> = Vec::new();
     for path in &paths {
-        if path.flags & flag::POLYLINE != 0 {
+        // A polygon has no other paths.
+        if path.flags & flag::POLYLINE != 0 || record.kind == "MPOLYGON" {
             let vertices = bulged_vertices(record, &mut path.pairs.iter().copied())?;
             loops.push(segments(record, &vertices, true)?);
         } else {
@@ -50,21 +56,14 @@ pub(super) fn outlines(record: &Record, notices: &mut Notices) -> Result<Vec<Vec
         }
     }
     loops.retain(|outline| !outline.is_empty());
-    match style {
-        1 => retain_depth(&mut loops, 1),
-        2 => retain_depth(&mut loops, 0),
-        _ => {}
+    if is_small && most < loops.len() {
+        retain_depth(&mut loops, most);
     }
     if loops.is_empty() { Err(Refusal::Skip("of no boundary")) } else { Ok(loops) }
 }
 
-/// Leaves out what lies within more than `most` other loops. Flags tell that where the writer cared; many a writer has all paths external.
+/// Leaves out what lies within more than `most` other loops.
 fn retain_depth(loops: &mut Vec<Vec<Curve>>, most: usize) {
-    /// Each is compared with each. A hatch of more loops is believed as flagged.
-    const COMPARED: usize = 1000;
-    if loops.len() > COMPARED {
-        return;
-    }
     let bounds: Vec<Rect> = loops
         .iter()
         .map(|outline| outline.iter().map(Curve::bounds).reduce(|a, b| a.union(b)).unwrap_or_default())

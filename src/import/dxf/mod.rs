@@ -1,6 +1,6 @@
 //! DXF, the drawing exchange format of AutoCAD: text and binary, from before R12 to R2018. Curves stay what they are.
 //!
-//! - *Curves*: LINE, LWPOLYLINE and POLYLINE (bulges become arcs), ARC, CIRCLE, ELLIPSE, SPLINE, the outlines of SOLID, TRACE and
+//! - *Curves*: LINE, LWPOLYLINE and POLYLINE (bulges become arcs), MLINE, ARC, CIRCLE, ELLIPSE, SPLINE, the outlines of SOLID, TRACE and
 //!   3DFACE and flat meshes, and all of these in blocks, as INSERT draws them. A curve's name is its layer. POINT is a point.
 //! - *Regions*: closed outlines are filled by the odd-even rule, so that an outline within an outline is a hole.
 //! - *Hatches* (and MPOLYGON): a drawing of nothing else is a picture of filled shapes, whose regions are named after their layers.
@@ -19,6 +19,7 @@ mod fills;
 mod hatch;
 mod header;
 mod layers;
+mod mline;
 mod pairs;
 mod sections;
 mod spline;
