@@ -448,6 +448,8 @@ pub enum Strokes {
     Auto,
     /// Centre lines of what is stroked and not filled.
     Lines,
+    /// What strokes cover is filled, as by another shape over the fill.
+    Area,
     /// Left out.
     Ignore,
 }

@@ -197,9 +197,10 @@ pub struct Skipped {
 }
 
 impl Drawing {
-    /// The box around everything drawn; `None` of an empty drawing.
+    /// The box around everything drawn, cut or not; `None` of an empty drawing.
     pub fn bounds(&self) -> Option<Rect> {
-        let curves = self.curves.iter().map(|c| c.curve.bounds());
+        let cuts = |c: &DrawnCurve| c.shape.is_some_and(|shape| self.shapes[shape].part_of.is_some());
+        let curves = self.curves.iter().filter(|c| !cuts(c)).map(|c| c.curve.bounds());
         let points = self.points.iter().map(|p| Rect::from_points(p.at, p.at));
         curves.chain(points).reduce(|a, b| a.union(b))
     }

@@ -4,15 +4,17 @@
 //! (y → 2·min-y + height − y), without one in its height, without either about y = 0. [`Drawing::unit`] says what a user unit is.
 //!
 //! Names: the Inkscape layer, else the id of the element or of the nearest group around it (a `use` gives its id to what it shows),
-//! else the colour. A path is drawn up to the first error in its data, as SVG asks. Clip paths and viewports cut what they hold, and the
-//! page cuts what is filled. Not applied, but counted: masks, filters, markers, patterns; not read, but counted: text, images, whatever
-//! is hidden. Strokes have no width.
+//! else the colour. A path is drawn up to the first error in its data, as SVG asks. Clip paths and viewports cut what they hold, the page only
+//! where it says so; what lies wholly outside of it is left out. Not applied, but counted: masks, filters, markers, patterns; not read, but counted: text, images, whatever
+//! is hidden. Strokes have no width unless
+//! what they cover is asked for.
 
 mod clip;
 mod css;
 mod digits;
 mod path;
 mod selector;
+mod stroke;
 mod style;
 mod transform;
 mod units;
@@ -24,7 +26,7 @@ use crate::curve::Curve;
 use crate::domain::{Drawing, DrawnCurve, FillRule, Layer, Shape, Skipped};
 use crate::geometry::{Point, Rect, Vec2};
 use crate::ids::{ClipId, Id, LayerId, NameId};
-use clip::{CutterId, Cutters, Left, Placed};
+use clip::{CutterId, Cutters, Left, OnPage, Placed};
 use css::Sheet;
 use kurbo::{Affine, Size};
 use path::{HUGE, Outline, Subpath};
@@ -62,6 +64,8 @@ pub enum Strokes {
     Auto,
     /// What is stroked and not filled is kept as centre lines.
     Lines,
+    /// What they cover is filled, as by another shape over the fill.
+    Area,
     /// Left out.
     Ignore,
 }
@@ -97,10 +101,8 @@ pub fn read(bytes: &[u8], stem: &str, options: &SvgOptions, selection: &Selectio
     let css = css::sheet_text(&document);
     let sheet = Sheet::parse(&css, &document);
     let page = Page::new(root, options.dpi);
-    let mut reader = Reader::new(&text, &sheet, selection);
-    if let Some(frame) = clip::page_of(root, &page) {
-        reader.cutters.set_page(frame, page.upward);
-    }
+    let mut reader = Reader::new(&text, &sheet, selection, options.strokes);
+    reader.cutters.set_page(root, page.frame, page.upward);
     reader.drawing.notes.extend(encoding.into_iter().chain(page.notes));
     if sheet.unread > 0 {
         let note = format!("{} selectors or at-rules of the style sheet are of kinds that are not read.", sheet.unread);
@@ -109,7 +111,7 @@ pub fn read(bytes: &[u8], stem: &str, options: &SvgOptions, selection: &Selectio
     reader.index(root);
     reader.walk(root, Context::of(page.viewport, page.upward))?;
     let broken = reader.broken.take();
-    let mut drawing = reader.drawn(options.strokes);
+    let mut drawing = reader.drawn();
     if let Some(error) = broken.filter(|_| drawing.curves.is_empty()) {
         return Err(error);
     }
@@ -199,6 +201,9 @@ struct Reader<'a> {
     lines: Lines,
     sheet: &'a Sheet<'a>,
     chooser: Chooser<'a>,
+    strokes: Strokes,
+    /// The largest distance of a stroke's outline from the true one.
+    offset_error: f64,
     /// Elements by id, sorted; of several with one id the first counts.
     ids: Vec<(&'a str, Node<'a, 'a>)>,
     elements: Vec<Element>,
@@ -253,12 +258,14 @@ const LEFT_OUT: &[(&str, &str)] = &[
 ];
 
 impl<'a> Reader<'a> {
-    fn new(text: &'a str, sheet: &'a Sheet<'a>, selection: &'a Selection) -> Self {
+    fn new(text: &'a str, sheet: &'a Sheet<'a>, selection: &'a Selection, strokes: Strokes) -> Self {
         Self {
             text,
             lines: Lines::new(text),
             sheet,
             chooser: Chooser::new(selection, true),
+            strokes,
+            offset_error: 0.0,
             ids: Vec::new(),
             elements: Vec::new(),
             layers: BTreeMap::new(),
@@ -313,7 +320,8 @@ impl<'a> Reader<'a> {
         if self.expanded <= EXPANSION_MAX {
             return Ok(());
         }
-        let what = format!("use elements show more than {EXPANSION_MAX} elements and curves");
+        let what =
+            format!("use elements, clip paths and strokes come to more than {EXPANSION_MAX} elements and curves");
         Err(ImportError::new(what, "draw less of it, or in several files"))
     }
 
@@ -568,14 +576,65 @@ impl<'a> Reader<'a> {
         let stroke = self.paint_name(known, context.style.stroke());
         // What lies on a line encloses nothing, whatever fills it.
         let filled = fill.is_some() && outline.subpaths.iter().any(|s| !s.is_flat());
+        let covered = match stroke.clone().filter(|_| self.strokes == Strokes::Area) {
+            Some(name) => Some((name, self.covered(&outline.subpaths, context, declared, &entity)?)),
+            None => None,
+        };
         if !filled && stroke.is_none() {
             self.skip(known, if fill.is_some() { "its fill has no extent" } else { "neither filled nor stroked" });
             return Ok(());
         }
-        let colour = if filled { fill } else { stroke }.unwrap_or_default();
+        if filled || covered.is_none() {
+            let colour = if filled { fill } else { stroke }.unwrap_or_default();
+            let subpaths = outline.subpaths.into_iter().map(|s| s.transformed(context.map)).collect();
+            let last_decimal = outline.last_decimal * libm::sqrt(context.map.determinant().abs());
+            self.add_element(known, context, subpaths, filled, colour, entity.clone(), last_decimal);
+        }
+        if let Some((colour, subpaths)) = covered {
+            self.add_element(known, context, subpaths, true, colour, format!("the stroke of {entity}"), 0.0);
+        }
+        Ok(())
+    }
+
+    /// What the stroke of an element covers, in the drawing's coordinates.
+    fn covered(
+        &mut self,
+        subpaths: &[Subpath],
+        context: &Context<'a>,
+        declared: &Declared<'a>,
+        entity: &str,
+    ) -> Result<Vec<Subpath>, ImportError> {
+        let pen = context.style.pen(context.viewport);
+        // Of a stroke that no transform acts on, the outline is mapped first.
+        let is_fixed = declared.given(Property::VectorEffect) == Some("non-scaling-stroke");
+        let (before, after) = if is_fixed { (context.map, Affine::IDENTITY) } else { (Affine::IDENTITY, context.map) };
+        let drawn: Vec<Subpath> = subpaths.iter().map(|s| s.clone().transformed(before)).collect();
+        let covered = pen.cover(&drawn);
+        if covered.is_solid {
+            self.drawing.notes.push(format!("{entity}: its dashes are too many, and its stroke was drawn solid."));
+        }
+        if covered.is_inexact {
+            let error = stroke::OFFSET_ERROR * pen.width * libm::sqrt(after.determinant().abs());
+            self.offset_error = self.offset_error.max(error);
+        }
+        self.expand(covered.outlines.len())?;
+        Ok(covered.outlines.into_iter().map(|s| s.transformed(after)).collect())
+    }
+
+    /// Takes an outline that is painted, in the drawing's coordinates.
+    #[allow(clippy::too_many_arguments, reason = "what an element is")]
+    fn add_element(
+        &mut self,
+        tag: &'static str,
+        context: &Context<'a>,
+        subpaths: Vec<Subpath>,
+        filled: bool,
+        colour: String,
+        entity: String,
+        last_decimal: f64,
+    ) {
         let name = context.layer.or(context.id).map_or(colour, str::to_owned);
         let even_odd = context.style.even_odd;
-        let subpaths: Vec<Subpath> = outline.subpaths.into_iter().map(|s| s.transformed(context.map)).collect();
         let is_background = filled && !self.elements.iter().any(|e| e.filled) && self.covers_page(&subpaths);
         let name = match context.layer.or(context.id) {
             None if is_background => BACKGROUND.to_owned(),
@@ -583,21 +642,9 @@ impl<'a> Reader<'a> {
         };
         let cut_by = context.cut_by;
         let layer = context.layer.map(|name| self.layer(name));
-        let last_decimal = outline.last_decimal * libm::sqrt(context.map.determinant().abs());
-        let element = Element {
-            subpaths,
-            tag: known,
-            filled,
-            even_odd,
-            name,
-            layer,
-            cut_by,
-            is_background,
-            entity,
-            last_decimal,
-        };
+        let element =
+            Element { subpaths, tag, filled, even_odd, name, layer, cut_by, is_background, entity, last_decimal };
         self.elements.push(element);
-        Ok(())
     }
 
     /// Whether an outline is a rectangle over the whole page.
@@ -644,6 +691,7 @@ impl<'a> Reader<'a> {
             Painted::Colour(name) => Some(name),
             Painted::Server(id, fallback) => match self.by_id(id).and_then(|server| local_name(server)) {
                 None => fallback,
+                Some("linearGradient" | "radialGradient") if !self.has_stops(id) => None,
                 Some(kind) => {
                     if kind == "pattern" {
                         self.skip(tag, "patterns are not drawn; the outline is filled whole");
@@ -652,6 +700,13 @@ impl<'a> Reader<'a> {
                 }
             },
         }
+    }
+
+    /// Whether a gradient has stops, its own or those of the one that it refers to; without any it paints nothing.
+    fn has_stops(&self, id: &'a str) -> bool {
+        let first = self.by_id(id);
+        let mut chain = std::iter::successors(first, |gradient| self.target(*gradient)).take(USE_DEPTH_MAX);
+        chain.any(|gradient| gradient.children().any(|child| local_name(child) == Some("stop")))
     }
 
     /// Line and column of an error in the data of a path, as far as they can be told.
@@ -722,14 +777,15 @@ impl<'a> Reader<'a> {
     // ---- the drawing ----
 
     /// Shapes, and centre lines as asked for.
-    fn drawn(mut self, strokes: Strokes) -> Drawing {
+    fn drawn(mut self) -> Drawing {
+        let strokes = self.strokes;
         let mut elements = std::mem::take(&mut self.elements);
         let is_shape = |e: &Element| e.filled && !e.is_background;
         let has_lines = elements.iter().any(|e| !e.filled);
         let keep_lines = match strokes {
             Strokes::Auto => !elements.iter().any(is_shape),
             Strokes::Lines => true,
-            Strokes::Ignore => false,
+            Strokes::Area | Strokes::Ignore => false,
         };
         if strokes == Strokes::Auto && keep_lines && has_lines {
             for background in elements.iter().filter(|e| e.filled) {
@@ -738,37 +794,45 @@ impl<'a> Reader<'a> {
             elements.retain(|e| !e.filled);
         }
         self.drawing.fill = if elements.iter().any(|e| e.filled) { FillRule::Shapes } else { FillRule::Regions };
-        let mut cut_at_page = 0;
+        let lies = |e: &Element| bounds_of_all(&e.subpaths).map(|bounds| self.cutters.on_page(bounds));
+        let any_on_page = elements.iter().any(|e| e.filled && lies(e).is_some_and(|lies| lies != OnPage::Outside));
+        let mut beyond = 0;
         for element in elements {
             if !element.filled && !keep_lines {
                 self.skip(element.tag, "stroke only; --strokes lines keeps them");
                 continue;
             }
-            let name = self.drawing.names.intern(&element.name);
             let Some(bounds) = bounds_of_all(&element.subpaths) else { continue };
-            // The page is that of a picture; a drawing of lines has no edge.
-            let on_page = self.cutters.page.filter(|_| element.filled);
+            let on_page = if element.filled { self.cutters.on_page(bounds) } else { OnPage::Within };
+            if on_page == OnPage::Outside && any_on_page {
+                self.skip(element.tag, "wholly outside of the page");
+                continue;
+            }
+            let name = self.drawing.names.intern(&element.name);
             let Left::In(clip) = self.left_of(bounds, element.cut_by, element.filled, name) else {
-                let why = match self.left_of(bounds, element.cut_by, false, name) {
-                    Left::In(_) => "outside of the page",
-                    Left::Nothing => "cut away by a clip path or a viewport",
-                };
-                self.skip(element.tag, why);
+                self.skip(element.tag, "cut away by a clip path or a viewport");
                 continue;
             };
-            cut_at_page += usize::from(on_page.is_some_and(|page| self.is_cut_at(clip, page)));
+            beyond += usize::from(on_page == OnPage::Beyond);
             if element.filled { self.add_shape(element, name, clip) } else { self.add_lines(element, name, clip) }
         }
-        if cut_at_page > 0 {
-            let note = format!(
-                "Filled shapes that reach beyond the page: {cut_at_page}; cut at its edge (overflow=\"visible\" on the outermost svg \
-                 element keeps them whole)."
-            );
-            self.drawing.notes.push(note);
+        if beyond > 0 {
+            let done = match self.cutters.page_cuts() {
+                true => "cut at its edge, as the outermost svg element says",
+                false => "kept whole (overflow=\"hidden\" on the outermost svg element cuts them at its edge)",
+            };
+            self.drawing.notes.push(format!("Filled shapes that reach beyond the page: {beyond}; {done}."));
         }
         let masks = self.drawing.skipped.iter().filter(|s| s.why == MASK).map(|s| s.count).sum::<usize>();
         if masks > 0 {
             let note = format!("Elements with a mask: {masks}; masks are not applied, and what they hide is there.");
+            self.drawing.notes.push(note);
+        }
+        if self.offset_error > 0.0 {
+            let note = format!(
+                "Outlines of strokes along curves that are neither lines nor arcs lie within {:.2e} of the true ones.",
+                self.offset_error
+            );
             self.drawing.notes.push(note);
         }
         if self.empty_commands > 0 {
@@ -864,7 +928,7 @@ fn path_data(text: &str) -> &str {
 
 impl Subpath {
     pub fn transformed(self, map: Affine) -> Self {
-        Self { curves: self.curves.iter().map(|curve: &Curve| curve.transformed(map)).collect() }
+        Self { curves: self.curves.iter().map(|curve: &Curve| curve.transformed(map)).collect(), ..self }
     }
 }
 

@@ -1,5 +1,7 @@
 //! How an element is painted: what it declares, and what is inherited (SVG 2, chapter 6).
 
+use super::stroke::{Cap, Join, Pen};
+use super::units::{Axis, Quantity, Viewport};
 use roxmltree::Node;
 use std::collections::BTreeMap;
 use std::rc::Rc;
@@ -16,7 +18,9 @@ macro_rules! properties {
 }
 properties! {
     Fill "fill", FillRule "fill-rule", FillOpacity "fill-opacity", Stroke "stroke", StrokeWidth "stroke-width",
-    StrokeOpacity "stroke-opacity", Opacity "opacity", Display "display", Visibility "visibility", Color "color",
+    StrokeOpacity "stroke-opacity", StrokeLinecap "stroke-linecap", StrokeLinejoin "stroke-linejoin",
+    StrokeMiterlimit "stroke-miterlimit", StrokeDasharray "stroke-dasharray", StrokeDashoffset "stroke-dashoffset",
+    VectorEffect "vector-effect", Opacity "opacity", Display "display", Visibility "visibility", Color "color",
     ClipPath "clip-path", ClipRule "clip-rule", Overflow "overflow", Mask "mask", Filter "filter", Marker "marker",
     MarkerStart "marker-start", MarkerMid "marker-mid", MarkerEnd "marker-end", Transform "transform",
     TransformOrigin "transform-origin", TransformBox "transform-box", Translate "translate", Rotate "rotate", Scale "scale",
@@ -133,7 +137,12 @@ pub(super) struct Style<'a> {
     fill_shows: bool,
     stroke: &'a str,
     stroke_shows: bool,
-    stroke_width: bool,
+    stroke_width: &'a str,
+    line_cap: &'a str,
+    line_join: &'a str,
+    miter_limit: &'a str,
+    dashes: &'a str,
+    dash_offset: &'a str,
     pub visible: bool,
     color: &'a str,
     /// The rule of what is part of a clip path.
@@ -149,7 +158,12 @@ impl Default for Style<'_> {
             fill_shows: true,
             stroke: "none",
             stroke_shows: true,
-            stroke_width: true,
+            stroke_width: "1",
+            line_cap: "butt",
+            line_join: "miter",
+            miter_limit: "4",
+            dashes: "none",
+            dash_offset: "0",
             visible: true,
             color: "black",
             clip_even_odd: false,
@@ -190,10 +204,13 @@ impl<'a> Style<'a> {
         style.visible = given(Property::Visibility).map_or(above(Property::Visibility).visible, |v| v == "visible");
         style.fill_shows = shows(Property::FillOpacity, above(Property::FillOpacity).fill_shows);
         style.stroke_shows = shows(Property::StrokeOpacity, above(Property::StrokeOpacity).stroke_shows);
-        let inherited = above(Property::StrokeWidth).stroke_width;
-        style.stroke_width = given(Property::StrokeWidth).map_or(inherited, |width| {
-            svgtypes::Length::from_str(width).map_or(inherited, |length| length.number > 0.0)
-        });
+        let width = given(Property::StrokeWidth).filter(|width| Quantity::parse(width).is_some());
+        style.stroke_width = width.unwrap_or(above(Property::StrokeWidth).stroke_width);
+        style.line_cap = given(Property::StrokeLinecap).unwrap_or(above(Property::StrokeLinecap).line_cap);
+        style.line_join = given(Property::StrokeLinejoin).unwrap_or(above(Property::StrokeLinejoin).line_join);
+        style.miter_limit = given(Property::StrokeMiterlimit).unwrap_or(above(Property::StrokeMiterlimit).miter_limit);
+        style.dashes = given(Property::StrokeDasharray).unwrap_or(above(Property::StrokeDasharray).dashes);
+        style.dash_offset = given(Property::StrokeDashoffset).unwrap_or(above(Property::StrokeDashoffset).dash_offset);
         (style, declared)
     }
 
@@ -202,7 +219,30 @@ impl<'a> Style<'a> {
     }
 
     pub fn stroke(&self) -> Painted<'a> {
-        if self.stroke_shows && self.stroke_width { self.painted(self.stroke) } else { Painted::No }
+        let has_width = Quantity::parse(self.stroke_width).is_none_or(|width| width.number > 0.0);
+        if self.stroke_shows && has_width { self.painted(self.stroke) } else { Painted::No }
+    }
+
+    /// How strokes are drawn; what cannot be read is as if it were not given.
+    pub fn pen(&self, viewport: Viewport) -> Pen {
+        let length = |text: &str| viewport.length(text, Axis::Both);
+        let words = self.dashes.split([',', ' ', '\t', '\n']).filter(|word| !word.is_empty());
+        Pen {
+            width: length(self.stroke_width).unwrap_or(1.0),
+            cap: match self.line_cap {
+                "round" => Cap::Round,
+                "square" => Cap::Square,
+                _ => Cap::Butt,
+            },
+            join: match self.line_join {
+                "round" => Join::Round,
+                "bevel" => Join::Bevel,
+                _ => Join::Miter,
+            },
+            miter_limit: self.miter_limit.parse().ok().filter(|limit| *limit >= 1.0).unwrap_or(4.0),
+            dashes: words.map(length).collect::<Option<_>>().unwrap_or_default(),
+            dash_offset: length(self.dash_offset).unwrap_or(0.0),
+        }
     }
 
     fn painted(&self, value: &'a str) -> Painted<'a> {
