@@ -1046,3 +1046,19 @@ fn offsets_of_beziers_are_near_and_say_so() {
         ["Outlines of strokes along curves that are neither lines nor arcs lie within 2.00e-4 of the true ones."]
     );
 }
+
+// ---- colours ----
+
+#[test]
+fn regions_know_the_colours_of_their_shapes() {
+    let drawing = svg(
+        r##"<linearGradient id="fade"><stop offset="0" stop-color="#000"/><stop offset="1" stop-color="#fff"/></linearGradient>
+        <linearGradient id="again" xmlns:x="http://www.w3.org/1999/xlink" x:href="#fade"/><linearGradient id="empty"/>
+        <rect id="a" width="5" height="5" fill="#ff8000"/><rect id="b" x="10" width="5" height="5" fill="url(#again)"/>
+        <g opacity=".5"><rect id="c" x="20" width="5" height="5" fill="lime" fill-opacity="50%"/></g>
+        <rect id="gone" width="9" height="9" fill="url(#empty)"/>"##,
+    );
+    assert_eq!(names(&drawing), ["a", "b", "c"], "a gradient without stops paints nothing");
+    let colours: Vec<[u8; 4]> = drawing.colours.values().map(|colour| colour.0).collect();
+    assert_eq!(colours, [[255, 128, 0, 255], [128, 128, 128, 255], [0, 255, 0, 64]]);
+}

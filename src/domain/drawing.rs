@@ -2,7 +2,7 @@
 
 use crate::curve::Curve;
 use crate::geometry::{Frame, Point, Rect};
-use crate::ids::{ClipId, IdVec, LayerId, NameId, Names, ShapeId};
+use crate::ids::{ClipId, Colour, IdVec, LayerId, NameId, Names, ShapeId};
 use std::collections::BTreeMap;
 
 /// A drawing as found.
@@ -13,6 +13,8 @@ pub struct Drawing {
     /// A short title: the header line, or the file's stem.
     pub title: String,
     pub names: Names,
+    /// The colours of regions, where the file has some; of shapes of one name that of most of their area.
+    pub colours: BTreeMap<NameId, Colour>,
     pub curves: Vec<DrawnCurve>,
     pub points: Vec<DrawnPoint>,
     pub seeds: Vec<Seed>,

@@ -25,7 +25,7 @@ use super::selection::{Choice, Chooser, Selection};
 use crate::curve::Curve;
 use crate::domain::{Drawing, DrawnCurve, FillRule, Layer, Shape, Skipped};
 use crate::geometry::{Point, Rect, Vec2};
-use crate::ids::{ClipId, Id, LayerId, NameId};
+use crate::ids::{ClipId, Colour, Id, LayerId, NameId};
 use clip::{CutterId, Cutters, Left, OnPage, Placed};
 use css::Sheet;
 use kurbo::{Affine, Size};
@@ -143,6 +143,8 @@ struct Context<'a> {
     map: Affine,
     viewport: Viewport,
     cut_by: Option<CutterId>,
+    /// Of all groups around it, and its own.
+    opacity: f64,
     layer: Option<&'a str>,
     /// The id of the nearest group around.
     id: Option<&'a str>,
@@ -162,6 +164,7 @@ impl Context<'_> {
             map,
             viewport,
             cut_by: None,
+            opacity: 1.0,
             layer: None,
             id: None,
             alias: None,
@@ -189,10 +192,31 @@ struct Element {
     name: String,
     layer: Option<LayerId>,
     cut_by: Option<CutterId>,
+    colour: Option<Colour>,
     /// A rectangle over the whole page, under everything.
     is_background: bool,
     entity: String,
     /// The unit of the last decimal of its coordinates, in the drawing's.
+    last_decimal: f64,
+}
+
+/// How something is painted.
+#[derive(Clone, Debug, Default)]
+struct Painting {
+    /// Its colour, or the id of what paints.
+    name: String,
+    /// Red, green, blue, opacity, of a gradient the mean; unknown of patterns.
+    mean: Option<[f64; 4]>,
+}
+
+/// An outline with its paint, in the drawing's coordinates.
+struct Drawn {
+    subpaths: Vec<Subpath>,
+    filled: bool,
+    /// Whether its paint is that of a stroke.
+    is_stroke: bool,
+    paint: Painting,
+    entity: String,
     last_decimal: f64,
 }
 
@@ -376,7 +400,8 @@ impl<'a> Reader<'a> {
             self.skip(known, "display is none");
             return Ok(None);
         }
-        if declared.is_transparent(Property::Opacity) {
+        context.opacity *= declared.opacity(Property::Opacity);
+        if declared.opacity(Property::Opacity) == 0.0 {
             self.skip(known, "opacity is 0");
             return Ok(None);
         }
@@ -572,8 +597,8 @@ impl<'a> Reader<'a> {
         if context.shown_by.is_some() {
             self.expand(outline.subpaths.iter().map(|s| s.curves.len()).sum())?;
         }
-        let fill = self.paint_name(known, context.style.fill());
-        let stroke = self.paint_name(known, context.style.stroke());
+        let fill = self.painting(known, context.style.fill());
+        let stroke = self.painting(known, context.style.stroke());
         // What lies on a line encloses nothing, whatever fills it.
         let filled = fill.is_some() && outline.subpaths.iter().any(|s| !s.is_flat());
         let covered = match stroke.clone().filter(|_| self.strokes == Strokes::Area) {
@@ -585,13 +610,20 @@ impl<'a> Reader<'a> {
             return Ok(());
         }
         if filled || covered.is_none() {
-            let colour = if filled { fill } else { stroke }.unwrap_or_default();
+            let paint = if filled { fill } else { stroke }.unwrap_or_default();
             let subpaths = outline.subpaths.into_iter().map(|s| s.transformed(context.map)).collect();
             let last_decimal = outline.last_decimal * libm::sqrt(context.map.determinant().abs());
-            self.add_element(known, context, subpaths, filled, colour, entity.clone(), last_decimal);
+            let entity = entity.clone();
+            self.add_element(
+                known,
+                context,
+                Drawn { subpaths, filled, is_stroke: !filled, paint, entity, last_decimal },
+            );
         }
-        if let Some((colour, subpaths)) = covered {
-            self.add_element(known, context, subpaths, true, colour, format!("the stroke of {entity}"), 0.0);
+        if let Some((paint, subpaths)) = covered {
+            let entity = format!("the stroke of {entity}");
+            let stroke = Drawn { subpaths, filled: true, is_stroke: true, paint, entity, last_decimal: 0.0 };
+            self.add_element(known, context, stroke);
         }
         Ok(())
     }
@@ -621,29 +653,35 @@ impl<'a> Reader<'a> {
         Ok(covered.outlines.into_iter().map(|s| s.transformed(after)).collect())
     }
 
-    /// Takes an outline that is painted, in the drawing's coordinates.
-    #[allow(clippy::too_many_arguments, reason = "what an element is")]
-    fn add_element(
-        &mut self,
-        tag: &'static str,
-        context: &Context<'a>,
-        subpaths: Vec<Subpath>,
-        filled: bool,
-        colour: String,
-        entity: String,
-        last_decimal: f64,
-    ) {
-        let name = context.layer.or(context.id).map_or(colour, str::to_owned);
-        let even_odd = context.style.even_odd;
+    /// Takes an outline that is painted.
+    fn add_element(&mut self, tag: &'static str, context: &Context<'a>, drawn: Drawn) {
+        let Drawn { subpaths, filled, is_stroke, paint, entity, last_decimal } = drawn;
         let is_background = filled && !self.elements.iter().any(|e| e.filled) && self.covers_page(&subpaths);
         let name = match context.layer.or(context.id) {
+            Some(given) => given.to_owned(),
             None if is_background => BACKGROUND.to_owned(),
-            Some(_) | None => name,
+            None => paint.name,
         };
-        let cut_by = context.cut_by;
+        let opacity = if is_stroke { context.style.stroke_opacity } else { context.style.fill_opacity };
+        let colour = paint.mean.map(|[r, g, b, a]| {
+            Colour([r, g, b, a * opacity * context.opacity].map(|part| libm::round(255.0 * part) as u8))
+        });
+        let even_odd = context.style.even_odd && !is_stroke;
         let layer = context.layer.map(|name| self.layer(name));
-        let element =
-            Element { subpaths, tag, filled, even_odd, name, layer, cut_by, is_background, entity, last_decimal };
+        let cut_by = context.cut_by;
+        let element = Element {
+            subpaths,
+            tag,
+            filled,
+            even_odd,
+            name,
+            layer,
+            cut_by,
+            colour,
+            is_background,
+            entity,
+            last_decimal,
+        };
         self.elements.push(element);
     }
 
@@ -684,29 +722,51 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// The name of a paint, where it shows anything.
-    fn paint_name(&mut self, tag: &'static str, painted: Painted<'a>) -> Option<String> {
+    /// A paint, where it shows anything.
+    fn painting(&mut self, tag: &'static str, painted: Painted<'a>) -> Option<Painting> {
+        let plain = |name: String| Painting { mean: style::rgba(&name), name };
         match painted {
             Painted::No => None,
-            Painted::Colour(name) => Some(name),
+            Painted::Colour(name) => Some(plain(name)),
             Painted::Server(id, fallback) => match self.by_id(id).and_then(|server| local_name(server)) {
-                None => fallback,
-                Some("linearGradient" | "radialGradient") if !self.has_stops(id) => None,
+                None => fallback.map(plain),
+                Some("linearGradient" | "radialGradient") => {
+                    let mean = self.mean_of_stops(id)?;
+                    Some(Painting { name: id.to_owned(), mean: Some(mean) })
+                }
                 Some(kind) => {
                     if kind == "pattern" {
                         self.skip(tag, "patterns are not drawn; the outline is filled whole");
                     }
-                    Some(id.to_owned())
+                    Some(Painting { name: id.to_owned(), mean: None })
                 }
             },
         }
     }
 
-    /// Whether a gradient has stops, its own or those of the one that it refers to; without any it paints nothing.
-    fn has_stops(&self, id: &'a str) -> bool {
-        let first = self.by_id(id);
-        let mut chain = std::iter::successors(first, |gradient| self.target(*gradient)).take(USE_DEPTH_MAX);
-        chain.any(|gradient| gradient.children().any(|child| local_name(child) == Some("stop")))
+    /// The mean colour of a gradient along its stops, its own or those of the one that it refers to; without any it paints nothing.
+    fn mean_of_stops(&self, id: &'a str) -> Option<[f64; 4]> {
+        let is_stop = |node: &Node| local_name(*node) == Some("stop");
+        let mut chain = std::iter::successors(self.by_id(id), |gradient| self.target(*gradient)).take(USE_DEPTH_MAX);
+        let holder = chain.find(|gradient| gradient.children().any(|child| is_stop(&child)))?;
+        let mut stops: Vec<(f64, [f64; 4])> = Vec::new();
+        for stop in holder.children().filter(is_stop) {
+            let declared = self.sheet.declared(stop).ok()?;
+            let mut colour = declared.given(Property::StopColor).and_then(style::rgba).unwrap_or([0.0, 0.0, 0.0, 1.0]);
+            colour[3] *= declared.opacity(Property::StopOpacity);
+            let offset = stop.attribute("offset").and_then(style::share).unwrap_or(0.0);
+            let before = stops.last().map_or(0.0, |last| last.0);
+            stops.push((offset.max(before), colour));
+        }
+        let (first, last) = (*stops.first()?, *stops.last()?);
+        // The first and the last colour go on to the ends.
+        let whole: Vec<_> = [(0.0, first.1)].into_iter().chain(stops).chain([(1.0, last.1)]).collect();
+        let mut mean = [0.0; 4];
+        for pair in whole.windows(2) {
+            let width = 0.5 * (pair[1].0 - pair[0].0);
+            (0..4).for_each(|k| mean[k] += width * (pair[0].1[k] + pair[1].1[k]));
+        }
+        Some(mean.map(|part: f64| part.clamp(0.0, 1.0)))
     }
 
     /// Line and column of an error in the data of a path, as far as they can be told.
@@ -797,6 +857,8 @@ impl<'a> Reader<'a> {
         let lies = |e: &Element| bounds_of_all(&e.subpaths).map(|bounds| self.cutters.on_page(bounds));
         let any_on_page = elements.iter().any(|e| e.filled && lies(e).is_some_and(|lies| lies != OnPage::Outside));
         let mut beyond = 0;
+        // What is painted in each colour, by name.
+        let mut areas: BTreeMap<(NameId, Colour), f64> = BTreeMap::new();
         for element in elements {
             if !element.filled && !keep_lines {
                 self.skip(element.tag, "stroke only; --strokes lines keeps them");
@@ -813,8 +875,19 @@ impl<'a> Reader<'a> {
                 self.skip(element.tag, "cut away by a clip path or a viewport");
                 continue;
             };
+            if let Some(colour) = element.colour.filter(|_| element.filled) {
+                let curves = element.subpaths.iter().flat_map(|s| &s.curves);
+                *areas.entry((name, colour)).or_default() +=
+                    curves.map(|c| c.green(bounds.center())).sum::<f64>().abs();
+            }
             beyond += usize::from(on_page == OnPage::Beyond);
             if element.filled { self.add_shape(element, name, clip) } else { self.add_lines(element, name, clip) }
+        }
+        for (&(name, colour), area) in &areas {
+            let most = self.drawing.colours.get(&name).and_then(|most| areas.get(&(name, *most)));
+            if most.is_none_or(|most| area > most) {
+                self.drawing.colours.insert(name, colour);
+            }
         }
         if beyond > 0 {
             let done = match self.cutters.page_cuts() {
