@@ -58,6 +58,10 @@ ids! {
     BallId,
 }
 
+/// Red, green, blue (sRGB) and opacity.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub struct Colour(pub [u8; 4]);
+
 /// A vector indexed by one kind of id.
 #[derive(Clone, PartialEq, Debug)]
 pub struct IdVec<I, T> {

@@ -300,6 +300,7 @@ pub fn read(source: &Source, request: &Request) -> Result<Drawing, FailureReport
             strokes: match request.strokes {
                 Strokes::Auto => import::Strokes::Auto,
                 Strokes::Lines => import::Strokes::Lines,
+                Strokes::Area => import::Strokes::Area,
                 Strokes::Ignore => import::Strokes::Ignore,
             },
             dpi: request.dpi,

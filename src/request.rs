@@ -472,6 +472,8 @@ pub enum Strokes {
     Auto,
     /// Centre lines of what is stroked and not filled.
     Lines,
+    /// What strokes cover is filled, as by another shape over the fill.
+    Area,
     /// Left out.
     Ignore,
 }

@@ -73,7 +73,7 @@ pub struct Options {
     /// Which faces are inside [default: auto, the file's own rule]
     #[arg(long, value_enum, value_name = "RULE", help_heading = "Input")]
     fill_rule: Option<FillChoice>,
-    /// What becomes of strokes: auto makes centre lines where nothing is filled [default: auto]
+    /// What becomes of strokes: auto makes centre lines where nothing is filled, area fills what they cover [default: auto]
     #[arg(long, value_enum, value_name = "HOW", help_heading = "Input")]
     strokes: Option<Strokes>,
     /// Filled shapes that overlap: the topmost has it all, or each overlap is a region named by all of its shapes [default: paint]

@@ -4,6 +4,8 @@ use crate::curve::Curve;
 use crate::geometry::{Frame, Point, Rect, finest_decimal};
 use crate::ids::{ClipId, IdVec, LayerId, NameId, Names, ShapeId};
 
+use crate::geometry::{Frame, Point, Rect};
+use crate::ids::{ClipId, Colour, IdVec, LayerId, NameId, Names, ShapeId};
 use std::collections::BTreeMap;
 
 /// A drawing as found.
@@ -14,6 +16,8 @@ pub struct Drawing {
     /// A short title: the header line, or the file's stem.
     pub title: String,
     pub names: Names,
+    /// The colours of regions, where the file has some; of shapes of one name that of most of their area.
+    pub colours: BTreeMap<NameId, Colour>,
     pub curves: Vec<DrawnCurve>,
     pub points: Vec<DrawnPoint>,
     pub seeds: Vec<Seed>,
@@ -225,9 +229,10 @@ pub struct Skipped {
 }
 
 impl Drawing {
-    /// The box around everything drawn; `None` of an empty drawing.
+    /// The box around everything drawn, cut or not; `None` of an empty drawing.
     pub fn bounds(&self) -> Option<Rect> {
-        let curves = self.curves.iter().map(|c| c.curve.bounds());
+        let cuts = |c: &DrawnCurve| c.shape.is_some_and(|shape| self.shapes[shape].part_of.is_some());
+        let curves = self.curves.iter().filter(|c| !cuts(c)).map(|c| c.curve.bounds());
         let points = self.points.iter().map(|p| Rect::from_points(p.at, p.at));
         curves.chain(points).reduce(|a, b| a.union(b))
     }

@@ -9,7 +9,7 @@ use super::locate::Locator;
 use crate::curve::{Curve, End};
 use crate::geometry::boxes::BoxHierarchy;
 use crate::geometry::{Point, Rect, bounds_of, scaled, turn_from};
-use crate::ids::{CurveId, Id, IdVec, NameId, Names, PointId, RegionId};
+use crate::ids::{Colour, CurveId, Id, IdVec, NameId, Names, PointId, RegionId};
 use crate::watch::{Progress, Stopped, Watch};
 use std::f64::consts::FRAC_PI_2;
 
@@ -20,6 +20,7 @@ pub struct Domain {
     pub(super) curves: IdVec<CurveId, DomainCurve>,
     pub(super) regions: IdVec<RegionId, Region>,
     pub(super) names: Names,
+    pub(super) colours: std::collections::BTreeMap<NameId, Colour>,
     /// Name of a point, where the drawing gave one.
     pub(super) point_names: std::collections::BTreeMap<PointId, NameId>,
     pub(super) repairs: Vec<Repair>,
@@ -76,6 +77,10 @@ impl Domain {
     }
     pub fn regions(&self) -> &IdVec<RegionId, Region> {
         &self.regions
+    }
+    /// The colours of regions, by name, where the drawing has some.
+    pub fn colours(&self) -> &std::collections::BTreeMap<NameId, Colour> {
+        &self.colours
     }
     pub fn names(&self) -> &Names {
         &self.names

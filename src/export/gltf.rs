@@ -1,7 +1,8 @@
 //! glTF 2.0: `.glb`, or `.gltf` with its buffer inside as base64.
 //!
 //! One primitive of triangles a region and one of lines a boundary, all over one list of positions; `extras` of each say
-//! `{"region": NAME}` or `{"boundary": NAME}`, and each region's material bears its name. The root node converts to metres (a unit
+//! `{"region": NAME}` or `{"boundary": NAME}`, and each region's material bears its name
+//! and its colour in the drawing, where that has one. The root node converts to metres (a unit
 //! that is not known stays as it is; `extras` say which it was) and stands +Y up: a mesh in the plane has its y upward as it is, a
 //! mesh that lies in space is turned from CAD's +Z up. Its child node is shifted to the middle of the mesh, so that positions,
 //! float32 by the format, keep small features far from the origin.
@@ -12,6 +13,7 @@
 use super::groups::{Groups, straight_edges, straight_triangles};
 use super::unsupported;
 use crate::geometry::metres;
+use crate::ids::Colour;
 use crate::mesh::Mesh;
 use base64::Engine;
 use gltf_json as json;
@@ -144,7 +146,8 @@ impl Scene {
         let mut primitives = Vec::new();
         for (i, triangles) in groups.triangles().iter().enumerate().filter(|(_, triangles)| !triangles.is_empty()) {
             let corners = triangles.iter().flat_map(|&t| straight_triangles(mesh, t)).flatten().map(|v| v.0);
-            let material = self.material(groups.regions[i], colour(i));
+            let drawn = mesh.names.find(groups.regions[i]).and_then(|name| mesh.colours.get(&name));
+            let material = self.material(groups.regions[i], drawn.map_or_else(|| colour(i), |drawn| linear(*drawn)));
             let extras = extras(&json!({ "region": groups.regions[i] }))?;
             primitives.push(self.primitive(Mode::Triangles, corners.collect(), positions, material, extras));
         }
@@ -159,6 +162,7 @@ impl Scene {
     ) -> io::Result<Vec<Primitive>> {
         let mut primitives = Vec::new();
         let ink = (!mesh.edges.is_empty()).then(|| self.material("boundary", [0.02, 0.02, 0.02]));
+        let ink = (!mesh.edges.is_empty()).then(|| self.material("boundary", [0.02, 0.02, 0.02, 1.0]));
         for ((edges, name), ink) in groups.edges().iter().zip(&groups.boundaries).zip(ink.iter().cycle()) {
             let ends = edges.iter().flat_map(|&i| straight_edges(mesh, i)).flatten().map(|v| v.0);
             let extras = extras(&json!({ "boundary": name }))?;
@@ -189,15 +193,19 @@ impl Scene {
         }
     }
 
-    fn material(&mut self, name: &str, [r, g, b]: [f32; 3]) -> Index<json::Material> {
+    fn material(&mut self, name: &str, colour: [f32; 4]) -> Index<json::Material> {
         let surface = json::material::PbrMetallicRoughness {
-            base_color_factor: json::material::PbrBaseColorFactor([r, g, b, 1.0]),
+            base_color_factor: json::material::PbrBaseColorFactor(colour),
             metallic_factor: json::material::StrengthFactor(0.0),
             ..Default::default()
         };
         self.root.push(json::Material {
             name: Some(name.to_owned()),
             double_sided: true,
+            alpha_mode: Valid(match colour[3] < 1.0 {
+                true => json::material::AlphaMode::Blend,
+                false => json::material::AlphaMode::Opaque,
+            }),
             pbr_metallic_roughness: surface,
             ..Default::default()
         })
@@ -255,13 +263,24 @@ fn centre(mesh: &Mesh) -> [f32; 3] {
     std::array::from_fn(|k| (low[k] + (high[k] - low[k]) / 2.0) as f32)
 }
 
+/// A colour of a drawing as glTF wants it: linear, not sRGB.
+fn linear(Colour([r, g, b, a]): Colour) -> [f32; 4] {
+    let part = |byte: u8| {
+        let value = f64::from(byte) / 255.0;
+        let linear = if value <= 0.04045 { value / 12.92 } else { libm::pow((value + 0.055) / 1.055, 2.4) };
+        linear as f32
+    };
+    [part(r), part(g), part(b), f32::from(a) / 255.0]
+}
+
 /// Colours that neighbours in a list tell apart, without end: equal steps of the golden angle around the hue circle.
-fn colour(i: usize) -> [f32; 3] {
+fn colour(i: usize) -> [f32; 4] {
     const GOLDEN: f32 = 0.618_034;
     let hue = (0.58 + i as f32 * GOLDEN).fract();
     // Hue to red, green and blue at half saturation.
-    [0.0, 2.0 / 3.0, 1.0 / 3.0].map(|shift| {
+    let [r, g, b] = [0.0, 2.0 / 3.0, 1.0 / 3.0].map(|shift| {
         let wave = ((hue + shift).fract() * 6.0 - 3.0).abs() - 1.0;
         0.35 + 0.4 * wave.clamp(0.0, 1.0)
-    })
+    });
+    [r, g, b, 1.0]
 }

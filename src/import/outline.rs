@@ -15,9 +15,9 @@
 
 use super::ImportError;
 use crate::curve::{Bezier, CircularArc, Curve, CurveError, EllipticArc, Spline};
-use crate::domain::{Drawing, DrawnCurve, DrawnPoint, FillRule, Seed, SeedKind, Shape, SizeRequest, Skipped};
+use crate::domain::{Clip, Drawing, DrawnCurve, DrawnPoint, FillRule, Seed, SeedKind, Shape, SizeRequest, Skipped};
 use crate::geometry::{Point, Vec2};
-use crate::ids::{Names, ShapeId};
+use crate::ids::{ClipId, Names, ShapeId};
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{Error as _, MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
@@ -57,6 +57,8 @@ struct File {
     names: Option<Vec<String>>,
     #[serde(default, deserialize_with = "shapes")]
     shapes: Vec<ShapeForm>,
+    #[serde(default)]
+    clips: Vec<ClipForm>,
     #[serde(default, deserialize_with = "curves")]
     curves: Vec<CurveEntry>,
     #[serde(default, deserialize_with = "points")]
@@ -88,8 +90,20 @@ struct ShapeForm {
     name: String,
     #[serde(default)]
     even_odd: bool,
+    clip: Option<u32>,
+    part_of: Option<u32>,
     entity: Option<String>,
 }
+
+/// What shapes and curves are cut by; shapes say which clip they are a part of.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ClipForm {
+    within: Option<u32>,
+}
+
+/// Clips whose parts are cut by clips whose parts are cut: as deep as drawings may nest them.
+const CLIP_DEPTH_MAX: usize = 64;
 
 /// One curve: exactly one of the kinds, and what it is called.
 #[derive(Deserialize)]
@@ -98,6 +112,7 @@ struct CurveForm {
     name: Option<String>,
     entity: Option<String>,
     shape: Option<u32>,
+    clip: Option<u32>,
     line: Option<[Pair; 2]>,
     polyline: Option<Vec<Pair>>,
     polygon: Option<Vec<Pair>>,
@@ -225,6 +240,7 @@ struct CurveEntry {
     name: Option<String>,
     entity: Option<String>,
     shape: Option<u32>,
+    clip: Option<u32>,
     curves: Vec<Curve>,
 }
 
@@ -245,8 +261,8 @@ trait Entry: Sized {
 impl Entry for CurveEntry {
     type Form = CurveForm;
     fn from_form(form: CurveForm) -> Result<Self, String> {
-        let (name, entity, shape) = (form.name.clone(), form.entity.clone(), form.shape);
-        Ok(Self { name, entity, shape, curves: form.curves()? })
+        let (name, entity, shape, clip) = (form.name.clone(), form.entity.clone(), form.shape, form.clip);
+        Ok(Self { name, entity, shape, clip, curves: form.curves()? })
     }
 }
 
@@ -379,7 +395,10 @@ pub fn read(bytes: &[u8], stem: &str) -> Result<Drawing, ImportError> {
         Some(i) => {
             Err(ImportError::new(format!("{} is of a shape that `shapes` does not list", curve_entity(i)), HELP))
         }
-        None => Ok(file.drawing(stem)),
+        None => {
+            file.check_clips()?;
+            Ok(file.drawing(stem))
+        }
     }
 }
 
@@ -392,6 +411,37 @@ fn located(error: serde_json::Error) -> ImportError {
 }
 
 impl File {
+    /// Refuses clips that are not listed, that lie within later ones, or whose parts a later one cuts: only so does each have an end.
+    fn check_clips(&self) -> Result<(), ImportError> {
+        let refuse = |what: String| Err(ImportError::new(what, HELP));
+        let count = self.clips.len();
+        let unknown = |clip: Option<u32>| clip.is_some_and(|clip| clip as usize >= count);
+        if let Some(i) = self.shapes.iter().position(|s| unknown(s.clip) || unknown(s.part_of)) {
+            return refuse(format!("{} is of a clip that `clips` does not list", shape_entity(i)));
+        }
+        if let Some(i) = self.curves.iter().position(|c| unknown(c.clip)) {
+            return refuse(format!("{} is of a clip that `clips` does not list", curve_entity(i)));
+        }
+        let mut parts: Vec<Vec<u32>> = vec![Vec::new(); count];
+        for shape in &self.shapes {
+            if let (Some(of), Some(clip)) = (shape.part_of, shape.clip) {
+                parts[of as usize].push(clip);
+            }
+        }
+        let mut depth = vec![0_usize; count];
+        for (i, clip) in self.clips.iter().enumerate() {
+            if clip.within.iter().chain(&parts[i]).any(|&other| other as usize >= i) {
+                return refuse(format!("clip {i} is cut by itself or by a later one"));
+            }
+            let within = clip.within.map_or(0, |other| depth[other as usize]);
+            depth[i] = parts[i].iter().map(|&other| 1 + depth[other as usize]).fold(within, usize::max);
+            if depth[i] > CLIP_DEPTH_MAX {
+                return refuse(format!("clip {i} is cut by clips nested more than {CLIP_DEPTH_MAX} deep"));
+            }
+        }
+        Ok(())
+    }
+
     fn drawing(self, stem: &str) -> Drawing {
         let mut d = Drawing {
             format: self.format.unwrap_or_else(|| "outline".into()),
@@ -411,10 +461,12 @@ impl File {
         for name in self.names.iter().flatten() {
             d.names.intern(name);
         }
+        d.clips = self.clips.into_iter().map(|clip| Clip { within: clip.within.map(ClipId) }).collect();
         for (i, shape) in self.shapes.into_iter().enumerate() {
             let name = d.names.intern(&shape.name);
             let entity = shape.entity.unwrap_or_else(|| shape_entity(i));
-            d.shapes.push(Shape::new(name, shape.even_odd, entity));
+            let (clip, part_of) = (shape.clip.map(ClipId), shape.part_of.map(ClipId));
+            d.shapes.push(Shape { clip, part_of, ..Shape::new(name, shape.even_odd, entity) });
         }
         for (i, entry) in self.curves.into_iter().enumerate() {
             let name = d.names.intern(entry.name.as_deref().unwrap_or(UNNAMED));
@@ -424,6 +476,8 @@ impl File {
                 let entity = if several { format!("{whole}, edge {k}") } else { whole.clone() };
                 let drawn = DrawnCurve::new(curve, name, entity).with_written_ends();
                 d.curves.push(DrawnCurve { shape: entry.shape.map(ShapeId), ..drawn });
+                let (shape, clip) = (entry.shape.map(ShapeId), entry.clip.map(ClipId));
+                d.curves.push(DrawnCurve { shape, clip, ..DrawnCurve::new(curve, name, entity) });
             }
         }
         for (i, p) in self.points.into_iter().enumerate() {
@@ -704,6 +758,11 @@ pub fn to_json(drawing: &Drawing) -> String {
     }
     let names = &drawing.names;
     push_list(&mut text, "shapes", drawing.shapes.iter().enumerate().map(|(i, s)| shape_value(i, s, names)));
+    push_list(
+        &mut text,
+        "clips",
+        drawing.clips.iter().map(|c| c.within.map_or(json!({}), |within| json!({ "within": within }))),
+    );
     push_list(&mut text, "curves", drawing.curves.iter().enumerate().map(|(i, c)| curve_value(i, c, names)));
     push_list(&mut text, "points", drawing.points.iter().enumerate().map(|(i, p)| point_value(i, p, names)));
     push_list(&mut text, "seeds", drawing.seeds.iter().enumerate().map(|(i, s)| seed_value(i, s, names)));
@@ -750,7 +809,10 @@ fn with_entity(mut value: Value, entity: &str, default: &str) -> Value {
 }
 
 fn shape_value(i: usize, shape: &Shape, names: &Names) -> Value {
-    let value = json!({ "name": names.text(shape.name), "even_odd": shape.even_odd });
+    let mut value = json!({ "name": names.text(shape.name), "even_odd": shape.even_odd });
+    for (key, clip) in [("clip", shape.clip), ("part_of", shape.part_of)] {
+        clip.into_iter().for_each(|clip| value[key] = json!(clip));
+    }
     with_entity(value, &shape.entity, &shape_entity(i))
 }
 
@@ -759,6 +821,9 @@ fn curve_value(i: usize, drawn: &DrawnCurve, names: &Names) -> Value {
     let mut value = json!({ "name": names.text(drawn.name), kind: form });
     if let Some(shape) = drawn.shape {
         value["shape"] = json!(shape);
+    }
+    if let Some(clip) = drawn.clip {
+        value["clip"] = json!(clip);
     }
     with_entity(value, &drawn.entity, &curve_entity(i))
 }

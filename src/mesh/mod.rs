@@ -6,7 +6,7 @@ pub mod quality;
 pub mod verify;
 
 use crate::geometry::{Frame, Point};
-use crate::ids::{CurveId, IdVec, NameId, Names, PointId, RegionId, TriangleId, VertexId};
+use crate::ids::{Colour, CurveId, IdVec, NameId, Names, PointId, RegionId, TriangleId, VertexId};
 
 /// A triangle mesh in the plane, with names and links back to the domain where they are known.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -23,6 +23,8 @@ pub struct Mesh {
     /// links are known.
     pub edges: Vec<CurveEdge>,
     pub names: Names,
+    /// The colours of regions, by name, where the drawing has some.
+    pub colours: std::collections::BTreeMap<NameId, Colour>,
     /// For each node that is a point of P: which (sorted by point).
     pub points: Vec<(PointId, VertexId)>,
     /// Nodes that have a name of their own, by node.

@@ -31,6 +31,7 @@ impl Harvest<'_> {
             mesh.triangle_regions.push(topology.region(t).expect("only kept triangles"));
         }
         mesh.regions = self.domain.regions().iter().map(|r| r.name).collect();
+        mesh.colours = self.domain.colours().clone();
         mesh.edges = self.curve_edges(&node_of);
         mesh.points = self.domain.points().ids().filter_map(|p| Some((p, node_of[VertexId(p.0)]?))).collect();
         mesh

@@ -413,6 +413,7 @@ fn bare_domain(network: &Network, watch: &mut Watch) -> Result<Domain, Unarrange
         curves,
         regions: IdVec::new(),
         names: drawing.names.clone(),
+        colours: drawing.colours.clone(),
         point_names,
         repairs: Vec::new(),
         notes: Vec::new(),

@@ -4,7 +4,7 @@
 use super::super::ImportError;
 use super::path::{Outline, Subpath};
 use super::style::{Property, Style};
-use super::units::{self, Axis, Quantity, Viewport};
+use super::units::{Axis, Quantity, Viewport};
 use super::{Reader, cut, is_flat, known_tag, label, local_name, selector, transform};
 use crate::domain::{Clip, DrawnCurve, Shape};
 use crate::geometry::{Point, Rect, Vec2};
@@ -51,7 +51,23 @@ pub(super) struct Cutters {
     drawn: std::collections::BTreeMap<(CutterId, Option<ClipId>), ClipId>,
     /// The clip paths that are being read: each may ask for others.
     open: Vec<NodeId>,
-    pub page: Option<CutterId>,
+    page: Option<Page>,
+}
+
+/// The page: a picture's, not a drawing's of lines, which has no edge.
+#[derive(Clone, Copy)]
+struct Page {
+    cutter: CutterId,
+    /// Whether the file says that it hides what reaches beyond it.
+    cuts: bool,
+}
+
+/// How something lies on the page.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum OnPage {
+    Within,
+    Beyond,
+    Outside,
 }
 
 /// Clip paths that are cut by clip paths.
@@ -131,14 +147,34 @@ impl Cutters {
         self.all[cutter.0].bounds.is_none_or(apart)
     }
 
-    /// The page, where what is filled ends.
-    pub fn set_page(&mut self, page: Rect, map: Affine) {
-        self.page = Some(self.add(vec![box_part(page, map, "the page".into())], None));
+    /// The page, where the outermost element says how large it is.
+    pub fn set_page(&mut self, root: Node, frame: Option<Rect>, map: Affine) {
+        let Some(frame) = frame else { return };
+        let hides = |word: &str| matches!(word.trim(), "hidden" | "clip" | "scroll");
+        let in_style = root.attribute("style").unwrap_or("").split(';').filter_map(|d| d.split_once(':'));
+        let cuts = root.attribute("overflow").is_some_and(hides)
+            || in_style.into_iter().any(|(name, value)| name.trim() == "overflow" && hides(value));
+        let cutter = self.add(vec![box_part(frame, map, "the page".into())], None);
+        self.page = Some(Page { cutter, cuts });
     }
 
     /// The page in the drawing's coordinates.
     pub fn page_bounds(&self) -> Option<Rect> {
-        self.page.and_then(|page| self.all[page.0].bounds)
+        self.page.and_then(|page| self.all[page.cutter.0].bounds)
+    }
+
+    /// How something within these bounds lies on the page; within it where there is none.
+    pub fn on_page(&self, bounds: Rect) -> OnPage {
+        match self.page {
+            Some(page) if self.misses(page.cutter, bounds) => OnPage::Outside,
+            Some(page) if !self.covers(page.cutter, bounds, BLEED) => OnPage::Beyond,
+            Some(_) | None => OnPage::Within,
+        }
+    }
+
+    /// Whether the page hides what reaches beyond it.
+    pub fn page_cuts(&self) -> bool {
+        self.page.is_some_and(|page| page.cuts)
     }
 }
 
@@ -319,8 +355,8 @@ impl<'a> Reader<'a> {
 
     // ---- what is cut ----
 
-    /// What cutters and, if it counts, the page leave of something within these bounds.
-    pub(super) fn left_of(&mut self, bounds: Rect, cutter: Option<CutterId>, page: bool, name: NameId) -> Left {
+    /// What a cutter and all that it lies within leave of something within these bounds; the page too, where that `is_painted`.
+    pub(super) fn left_of(&mut self, bounds: Rect, cutter: Option<CutterId>, is_painted: bool, name: NameId) -> Left {
         let mut links = Vec::new();
         for link in std::iter::successors(cutter, |link| self.cutters.all[link.0].within) {
             if self.cutters.misses(link, bounds) {
@@ -330,22 +366,10 @@ impl<'a> Reader<'a> {
                 links.push(link);
             }
         }
-        if let Some(page) = self.cutters.page.filter(|_| page) {
-            if self.cutters.misses(page, bounds) {
-                return Left::Nothing;
-            }
-            if !self.cutters.covers(page, bounds, BLEED) {
-                links.push(page);
-            }
+        if is_painted && self.cutters.page_cuts() && self.cutters.on_page(bounds) == OnPage::Beyond {
+            links.extend(self.cutters.page.map(|page| page.cutter));
         }
-        let clip = links.into_iter().rev().fold(None, |within, link| Some(self.drawn_clip(link, within, name)));
-        Left::In(clip)
-    }
-
-    /// Whether a clip is, or lies within, one that was made of this cutter.
-    pub(super) fn is_cut_at(&self, clip: Option<ClipId>, cutter: CutterId) -> bool {
-        let chain = std::iter::successors(clip, |&clip| self.drawing.clips[clip].within);
-        self.cutters.drawn.get(&(cutter, None)).is_some_and(|page| chain.into_iter().any(|clip| clip == *page))
+        Left::In(links.into_iter().rev().fold(None, |within, link| Some(self.drawn_clip(link, within, name))))
     }
 
     /// A cutter as a clip of the drawing.
@@ -467,11 +491,4 @@ fn basic_outline(text: &str, about: Rect, viewport: Viewport) -> Option<(Outline
         }
         _ => None,
     }
-}
-
-/// The page in the coordinates of its drawing, where the outermost element says how large it is.
-pub(super) fn page_of(root: Node, page: &units::Page) -> Option<Rect> {
-    let is_open = matches!(root.attribute("overflow"), Some("visible" | "auto"))
-        || root.attribute("style").is_some_and(|s| s.replace(' ', "").contains("overflow:visible"));
-    page.frame.filter(|_| !is_open)
 }

@@ -4,15 +4,17 @@
 //! (y → 2·min-y + height − y), without one in its height, without either about y = 0. [`Drawing::unit`] says what a user unit is.
 //!
 //! Names: the Inkscape layer, else the id of the element or of the nearest group around it (a `use` gives its id to what it shows),
-//! else the colour. A path is drawn up to the first error in its data, as SVG asks. Clip paths and viewports cut what they hold, and the
-//! page cuts what is filled. Not applied, but counted: masks, filters, markers, patterns; not read, but counted: text, images, whatever
-//! is hidden. Strokes have no width.
+//! else the colour. A path is drawn up to the first error in its data, as SVG asks. Clip paths and viewports cut what they hold, the page only
+//! where it says so; what lies wholly outside of it is left out. Not applied, but counted: masks, filters, markers, patterns; not read, but counted: text, images, whatever
+//! is hidden. Strokes have no width unless
+//! what they cover is asked for.
 
 mod clip;
 mod css;
 mod digits;
 mod path;
 mod selector;
+mod stroke;
 mod style;
 mod transform;
 mod units;
@@ -23,8 +25,8 @@ use super::selection::{Choice, Chooser, Selection};
 use crate::curve::Curve;
 use crate::domain::{Drawing, DrawnCurve, FillRule, Layer, Shape, Skipped};
 use crate::geometry::{Point, Rect, Vec2};
-use crate::ids::{ClipId, Id, LayerId, NameId};
-use clip::{CutterId, Cutters, Left, Placed};
+use crate::ids::{ClipId, Colour, Id, LayerId, NameId};
+use clip::{CutterId, Cutters, Left, OnPage, Placed};
 use css::Sheet;
 use kurbo::{Affine, Size};
 use path::{HUGE, Outline, Subpath};
@@ -62,6 +64,8 @@ pub enum Strokes {
     Auto,
     /// What is stroked and not filled is kept as centre lines.
     Lines,
+    /// What they cover is filled, as by another shape over the fill.
+    Area,
     /// Left out.
     Ignore,
 }
@@ -97,10 +101,8 @@ pub fn read(bytes: &[u8], stem: &str, options: &SvgOptions, selection: &Selectio
     let css = css::sheet_text(&document);
     let sheet = Sheet::parse(&css, &document);
     let page = Page::new(root, options.dpi);
-    let mut reader = Reader::new(&text, &sheet, selection);
-    if let Some(frame) = clip::page_of(root, &page) {
-        reader.cutters.set_page(frame, page.upward);
-    }
+    let mut reader = Reader::new(&text, &sheet, selection, options.strokes);
+    reader.cutters.set_page(root, page.frame, page.upward);
     reader.drawing.notes.extend(encoding.into_iter().chain(page.notes));
     if sheet.unread > 0 {
         let note = format!("{} selectors or at-rules of the style sheet are of kinds that are not read.", sheet.unread);
@@ -109,7 +111,7 @@ pub fn read(bytes: &[u8], stem: &str, options: &SvgOptions, selection: &Selectio
     reader.index(root);
     reader.walk(root, Context::of(page.viewport, page.upward))?;
     let broken = reader.broken.take();
-    let mut drawing = reader.drawn(options.strokes);
+    let mut drawing = reader.drawn();
     if let Some(error) = broken.filter(|_| drawing.curves.is_empty()) {
         return Err(error);
     }
@@ -141,6 +143,8 @@ struct Context<'a> {
     map: Affine,
     viewport: Viewport,
     cut_by: Option<CutterId>,
+    /// Of all groups around it, and its own.
+    opacity: f64,
     layer: Option<&'a str>,
     /// The id of the nearest group around.
     id: Option<&'a str>,
@@ -160,6 +164,7 @@ impl Context<'_> {
             map,
             viewport,
             cut_by: None,
+            opacity: 1.0,
             layer: None,
             id: None,
             alias: None,
@@ -187,10 +192,31 @@ struct Element {
     name: String,
     layer: Option<LayerId>,
     cut_by: Option<CutterId>,
+    colour: Option<Colour>,
     /// A rectangle over the whole page, under everything.
     is_background: bool,
     entity: String,
     /// The unit of the last decimal of its coordinates, in the drawing's.
+    last_decimal: f64,
+}
+
+/// How something is painted.
+#[derive(Clone, Debug, Default)]
+struct Painting {
+    /// Its colour, or the id of what paints.
+    name: String,
+    /// Red, green, blue, opacity, of a gradient the mean; unknown of patterns.
+    mean: Option<[f64; 4]>,
+}
+
+/// An outline with its paint, in the drawing's coordinates.
+struct Drawn {
+    subpaths: Vec<Subpath>,
+    filled: bool,
+    /// Whether its paint is that of a stroke.
+    is_stroke: bool,
+    paint: Painting,
+    entity: String,
     last_decimal: f64,
 }
 
@@ -199,6 +225,9 @@ struct Reader<'a> {
     lines: Lines,
     sheet: &'a Sheet<'a>,
     chooser: Chooser<'a>,
+    strokes: Strokes,
+    /// The largest distance of a stroke's outline from the true one.
+    offset_error: f64,
     /// Elements by id, sorted; of several with one id the first counts.
     ids: Vec<(&'a str, Node<'a, 'a>)>,
     elements: Vec<Element>,
@@ -253,12 +282,14 @@ const LEFT_OUT: &[(&str, &str)] = &[
 ];
 
 impl<'a> Reader<'a> {
-    fn new(text: &'a str, sheet: &'a Sheet<'a>, selection: &'a Selection) -> Self {
+    fn new(text: &'a str, sheet: &'a Sheet<'a>, selection: &'a Selection, strokes: Strokes) -> Self {
         Self {
             text,
             lines: Lines::new(text),
             sheet,
             chooser: Chooser::new(selection, true),
+            strokes,
+            offset_error: 0.0,
             ids: Vec::new(),
             elements: Vec::new(),
             layers: BTreeMap::new(),
@@ -313,7 +344,8 @@ impl<'a> Reader<'a> {
         if self.expanded <= EXPANSION_MAX {
             return Ok(());
         }
-        let what = format!("use elements show more than {EXPANSION_MAX} elements and curves");
+        let what =
+            format!("use elements, clip paths and strokes come to more than {EXPANSION_MAX} elements and curves");
         Err(ImportError::new(what, "draw less of it, or in several files"))
     }
 
@@ -368,7 +400,8 @@ impl<'a> Reader<'a> {
             self.skip(known, "display is none");
             return Ok(None);
         }
-        if declared.is_transparent(Property::Opacity) {
+        context.opacity *= declared.opacity(Property::Opacity);
+        if declared.opacity(Property::Opacity) == 0.0 {
             self.skip(known, "opacity is 0");
             return Ok(None);
         }
@@ -564,40 +597,92 @@ impl<'a> Reader<'a> {
         if context.shown_by.is_some() {
             self.expand(outline.subpaths.iter().map(|s| s.curves.len()).sum())?;
         }
-        let fill = self.paint_name(known, context.style.fill());
-        let stroke = self.paint_name(known, context.style.stroke());
+        let fill = self.painting(known, context.style.fill());
+        let stroke = self.painting(known, context.style.stroke());
         // What lies on a line encloses nothing, whatever fills it.
         let filled = fill.is_some() && outline.subpaths.iter().any(|s| !s.is_flat());
+        let covered = match stroke.clone().filter(|_| self.strokes == Strokes::Area) {
+            Some(name) => Some((name, self.covered(&outline.subpaths, context, declared, &entity)?)),
+            None => None,
+        };
         if !filled && stroke.is_none() {
             self.skip(known, if fill.is_some() { "its fill has no extent" } else { "neither filled nor stroked" });
             return Ok(());
         }
-        let colour = if filled { fill } else { stroke }.unwrap_or_default();
-        let name = context.layer.or(context.id).map_or(colour, str::to_owned);
-        let even_odd = context.style.even_odd;
-        let subpaths: Vec<Subpath> = outline.subpaths.into_iter().map(|s| s.transformed(context.map)).collect();
+        if filled || covered.is_none() {
+            let paint = if filled { fill } else { stroke }.unwrap_or_default();
+            let subpaths = outline.subpaths.into_iter().map(|s| s.transformed(context.map)).collect();
+            let last_decimal = outline.last_decimal * libm::sqrt(context.map.determinant().abs());
+            let entity = entity.clone();
+            self.add_element(
+                known,
+                context,
+                Drawn { subpaths, filled, is_stroke: !filled, paint, entity, last_decimal },
+            );
+        }
+        if let Some((paint, subpaths)) = covered {
+            let entity = format!("the stroke of {entity}");
+            let stroke = Drawn { subpaths, filled: true, is_stroke: true, paint, entity, last_decimal: 0.0 };
+            self.add_element(known, context, stroke);
+        }
+        Ok(())
+    }
+
+    /// What the stroke of an element covers, in the drawing's coordinates.
+    fn covered(
+        &mut self,
+        subpaths: &[Subpath],
+        context: &Context<'a>,
+        declared: &Declared<'a>,
+        entity: &str,
+    ) -> Result<Vec<Subpath>, ImportError> {
+        let pen = context.style.pen(context.viewport);
+        // Of a stroke that no transform acts on, the outline is mapped first.
+        let is_fixed = declared.given(Property::VectorEffect) == Some("non-scaling-stroke");
+        let (before, after) = if is_fixed { (context.map, Affine::IDENTITY) } else { (Affine::IDENTITY, context.map) };
+        let drawn: Vec<Subpath> = subpaths.iter().map(|s| s.clone().transformed(before)).collect();
+        let covered = pen.cover(&drawn);
+        if covered.is_solid {
+            self.drawing.notes.push(format!("{entity}: its dashes are too many, and its stroke was drawn solid."));
+        }
+        if covered.is_inexact {
+            let error = stroke::OFFSET_ERROR * pen.width * libm::sqrt(after.determinant().abs());
+            self.offset_error = self.offset_error.max(error);
+        }
+        self.expand(covered.outlines.len())?;
+        Ok(covered.outlines.into_iter().map(|s| s.transformed(after)).collect())
+    }
+
+    /// Takes an outline that is painted.
+    fn add_element(&mut self, tag: &'static str, context: &Context<'a>, drawn: Drawn) {
+        let Drawn { subpaths, filled, is_stroke, paint, entity, last_decimal } = drawn;
         let is_background = filled && !self.elements.iter().any(|e| e.filled) && self.covers_page(&subpaths);
         let name = match context.layer.or(context.id) {
+            Some(given) => given.to_owned(),
             None if is_background => BACKGROUND.to_owned(),
-            Some(_) | None => name,
+            None => paint.name,
         };
-        let cut_by = context.cut_by;
+        let opacity = if is_stroke { context.style.stroke_opacity } else { context.style.fill_opacity };
+        let colour = paint.mean.map(|[r, g, b, a]| {
+            Colour([r, g, b, a * opacity * context.opacity].map(|part| libm::round(255.0 * part) as u8))
+        });
+        let even_odd = context.style.even_odd && !is_stroke;
         let layer = context.layer.map(|name| self.layer(name));
-        let last_decimal = outline.last_decimal * libm::sqrt(context.map.determinant().abs());
+        let cut_by = context.cut_by;
         let element = Element {
             subpaths,
-            tag: known,
+            tag,
             filled,
             even_odd,
             name,
             layer,
             cut_by,
+            colour,
             is_background,
             entity,
             last_decimal,
         };
         self.elements.push(element);
-        Ok(())
     }
 
     /// Whether an outline is a rectangle over the whole page.
@@ -637,21 +722,51 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// The name of a paint, where it shows anything.
-    fn paint_name(&mut self, tag: &'static str, painted: Painted<'a>) -> Option<String> {
+    /// A paint, where it shows anything.
+    fn painting(&mut self, tag: &'static str, painted: Painted<'a>) -> Option<Painting> {
+        let plain = |name: String| Painting { mean: style::rgba(&name), name };
         match painted {
             Painted::No => None,
-            Painted::Colour(name) => Some(name),
+            Painted::Colour(name) => Some(plain(name)),
             Painted::Server(id, fallback) => match self.by_id(id).and_then(|server| local_name(server)) {
-                None => fallback,
+                None => fallback.map(plain),
+                Some("linearGradient" | "radialGradient") => {
+                    let mean = self.mean_of_stops(id)?;
+                    Some(Painting { name: id.to_owned(), mean: Some(mean) })
+                }
                 Some(kind) => {
                     if kind == "pattern" {
                         self.skip(tag, "patterns are not drawn; the outline is filled whole");
                     }
-                    Some(id.to_owned())
+                    Some(Painting { name: id.to_owned(), mean: None })
                 }
             },
         }
+    }
+
+    /// The mean colour of a gradient along its stops, its own or those of the one that it refers to; without any it paints nothing.
+    fn mean_of_stops(&self, id: &'a str) -> Option<[f64; 4]> {
+        let is_stop = |node: &Node| local_name(*node) == Some("stop");
+        let mut chain = std::iter::successors(self.by_id(id), |gradient| self.target(*gradient)).take(USE_DEPTH_MAX);
+        let holder = chain.find(|gradient| gradient.children().any(|child| is_stop(&child)))?;
+        let mut stops: Vec<(f64, [f64; 4])> = Vec::new();
+        for stop in holder.children().filter(is_stop) {
+            let declared = self.sheet.declared(stop).ok()?;
+            let mut colour = declared.given(Property::StopColor).and_then(style::rgba).unwrap_or([0.0, 0.0, 0.0, 1.0]);
+            colour[3] *= declared.opacity(Property::StopOpacity);
+            let offset = stop.attribute("offset").and_then(style::share).unwrap_or(0.0);
+            let before = stops.last().map_or(0.0, |last| last.0);
+            stops.push((offset.max(before), colour));
+        }
+        let (first, last) = (*stops.first()?, *stops.last()?);
+        // The first and the last colour go on to the ends.
+        let whole: Vec<_> = [(0.0, first.1)].into_iter().chain(stops).chain([(1.0, last.1)]).collect();
+        let mut mean = [0.0; 4];
+        for pair in whole.windows(2) {
+            let width = 0.5 * (pair[1].0 - pair[0].0);
+            (0..4).for_each(|k| mean[k] += width * (pair[0].1[k] + pair[1].1[k]));
+        }
+        Some(mean.map(|part: f64| part.clamp(0.0, 1.0)))
     }
 
     /// Line and column of an error in the data of a path, as far as they can be told.
@@ -722,14 +837,15 @@ impl<'a> Reader<'a> {
     // ---- the drawing ----
 
     /// Shapes, and centre lines as asked for.
-    fn drawn(mut self, strokes: Strokes) -> Drawing {
+    fn drawn(mut self) -> Drawing {
+        let strokes = self.strokes;
         let mut elements = std::mem::take(&mut self.elements);
         let is_shape = |e: &Element| e.filled && !e.is_background;
         let has_lines = elements.iter().any(|e| !e.filled);
         let keep_lines = match strokes {
             Strokes::Auto => !elements.iter().any(is_shape),
             Strokes::Lines => true,
-            Strokes::Ignore => false,
+            Strokes::Area | Strokes::Ignore => false,
         };
         if strokes == Strokes::Auto && keep_lines && has_lines {
             for background in elements.iter().filter(|e| e.filled) {
@@ -738,37 +854,58 @@ impl<'a> Reader<'a> {
             elements.retain(|e| !e.filled);
         }
         self.drawing.fill = if elements.iter().any(|e| e.filled) { FillRule::Shapes } else { FillRule::Regions };
-        let mut cut_at_page = 0;
+        let lies = |e: &Element| bounds_of_all(&e.subpaths).map(|bounds| self.cutters.on_page(bounds));
+        let any_on_page = elements.iter().any(|e| e.filled && lies(e).is_some_and(|lies| lies != OnPage::Outside));
+        let mut beyond = 0;
+        // What is painted in each colour, by name.
+        let mut areas: BTreeMap<(NameId, Colour), f64> = BTreeMap::new();
         for element in elements {
             if !element.filled && !keep_lines {
                 self.skip(element.tag, "stroke only; --strokes lines keeps them");
                 continue;
             }
-            let name = self.drawing.names.intern(&element.name);
             let Some(bounds) = bounds_of_all(&element.subpaths) else { continue };
-            // The page is that of a picture; a drawing of lines has no edge.
-            let on_page = self.cutters.page.filter(|_| element.filled);
+            let on_page = if element.filled { self.cutters.on_page(bounds) } else { OnPage::Within };
+            if on_page == OnPage::Outside && any_on_page {
+                self.skip(element.tag, "wholly outside of the page");
+                continue;
+            }
+            let name = self.drawing.names.intern(&element.name);
             let Left::In(clip) = self.left_of(bounds, element.cut_by, element.filled, name) else {
-                let why = match self.left_of(bounds, element.cut_by, false, name) {
-                    Left::In(_) => "outside of the page",
-                    Left::Nothing => "cut away by a clip path or a viewport",
-                };
-                self.skip(element.tag, why);
+                self.skip(element.tag, "cut away by a clip path or a viewport");
                 continue;
             };
-            cut_at_page += usize::from(on_page.is_some_and(|page| self.is_cut_at(clip, page)));
+            if let Some(colour) = element.colour.filter(|_| element.filled) {
+                let curves = element.subpaths.iter().flat_map(|s| &s.curves);
+                *areas.entry((name, colour)).or_default() +=
+                    curves.map(|c| c.green(bounds.center())).sum::<f64>().abs();
+            }
+            beyond += usize::from(on_page == OnPage::Beyond);
             if element.filled { self.add_shape(element, name, clip) } else { self.add_lines(element, name, clip) }
         }
-        if cut_at_page > 0 {
-            let note = format!(
-                "Filled shapes that reach beyond the page: {cut_at_page}; cut at its edge (overflow=\"visible\" on the outermost svg \
-                 element keeps them whole)."
-            );
-            self.drawing.notes.push(note);
+        for (&(name, colour), area) in &areas {
+            let most = self.drawing.colours.get(&name).and_then(|most| areas.get(&(name, *most)));
+            if most.is_none_or(|most| area > most) {
+                self.drawing.colours.insert(name, colour);
+            }
+        }
+        if beyond > 0 {
+            let done = match self.cutters.page_cuts() {
+                true => "cut at its edge, as the outermost svg element says",
+                false => "kept whole (overflow=\"hidden\" on the outermost svg element cuts them at its edge)",
+            };
+            self.drawing.notes.push(format!("Filled shapes that reach beyond the page: {beyond}; {done}."));
         }
         let masks = self.drawing.skipped.iter().filter(|s| s.why == MASK).map(|s| s.count).sum::<usize>();
         if masks > 0 {
             let note = format!("Elements with a mask: {masks}; masks are not applied, and what they hide is there.");
+            self.drawing.notes.push(note);
+        }
+        if self.offset_error > 0.0 {
+            let note = format!(
+                "Outlines of strokes along curves that are neither lines nor arcs lie within {:.2e} of the true ones.",
+                self.offset_error
+            );
             self.drawing.notes.push(note);
         }
         if self.empty_commands > 0 {
@@ -864,7 +1001,7 @@ fn path_data(text: &str) -> &str {
 
 impl Subpath {
     pub fn transformed(self, map: Affine) -> Self {
-        Self { curves: self.curves.iter().map(|curve: &Curve| curve.transformed(map)).collect() }
+        Self { curves: self.curves.iter().map(|curve: &Curve| curve.transformed(map)).collect(), ..self }
     }
 }
 

@@ -14,6 +14,8 @@ const QUARTER_BULGE: f64 = std::f64::consts::SQRT_2 - 1.0;
 #[derive(Clone, Debug, Default)]
 pub(super) struct Subpath {
     pub curves: Vec<Curve>,
+    /// Whether it was closed, and not only ends where it began: a stroke has a join there.
+    pub closed: bool,
 }
 
 impl Subpath {
@@ -118,8 +120,11 @@ impl Pen {
     }
 
     fn close(&mut self) {
-        if !self.fresh && self.at != self.start {
-            self.line_to(self.start);
+        if !self.fresh {
+            if self.at != self.start {
+                self.line_to(self.start);
+            }
+            self.outline.subpaths.last_mut().into_iter().for_each(|subpath| subpath.closed = true);
         }
         self.move_to(self.start);
     }
@@ -294,6 +299,7 @@ impl Outline {
                 pen.add(quarter(to, end, r, k), end);
             }
         }
+        pen.close();
         pen.outline
     }
 
@@ -310,6 +316,7 @@ impl Outline {
         let start = center + Vec2::new(radii.x, 0.0);
         pen.move_to(start);
         pen.add(curve, start);
+        pen.close();
         pen.outline
     }
 }

@@ -1,5 +1,7 @@
 //! How an element is painted: what it declares, and what is inherited (SVG 2, chapter 6).
 
+use super::stroke::{Cap, Join, Pen};
+use super::units::{Axis, Quantity, Viewport};
 use roxmltree::Node;
 use std::collections::BTreeMap;
 use std::rc::Rc;
@@ -16,7 +18,9 @@ macro_rules! properties {
 }
 properties! {
     Fill "fill", FillRule "fill-rule", FillOpacity "fill-opacity", Stroke "stroke", StrokeWidth "stroke-width",
-    StrokeOpacity "stroke-opacity", Opacity "opacity", Display "display", Visibility "visibility", Color "color",
+    StrokeOpacity "stroke-opacity", StrokeLinecap "stroke-linecap", StrokeLinejoin "stroke-linejoin",
+    StrokeMiterlimit "stroke-miterlimit", StrokeDasharray "stroke-dasharray", StrokeDashoffset "stroke-dashoffset",
+    VectorEffect "vector-effect", StopColor "stop-color", StopOpacity "stop-opacity", Opacity "opacity", Display "display", Visibility "visibility", Color "color",
     ClipPath "clip-path", ClipRule "clip-rule", Overflow "overflow", Mask "mask", Filter "filter", Marker "marker",
     MarkerStart "marker-start", MarkerMid "marker-mid", MarkerEnd "marker-end", Transform "transform",
     TransformOrigin "transform-origin", TransformBox "transform-box", Translate "translate", Rotate "rotate", Scale "scale",
@@ -94,9 +98,9 @@ impl<'a> Declared<'a> {
         self
     }
 
-    /// Whether the element is shown at less than nothing: a share of 0.
-    pub fn is_transparent(&self, property: Property) -> bool {
-        self.get(property).is_some_and(is_zero)
+    /// A share from 0 to 1, as an opacity; 1 where none is given.
+    pub fn opacity(&self, property: Property) -> f64 {
+        self.given(property).and_then(share).unwrap_or(1.0)
     }
 }
 
@@ -119,8 +123,17 @@ fn substituted<'a>(text: &'a str, variables: &Variables<'a>) -> Option<&'a str> 
     None
 }
 
-fn is_zero(share: &str) -> bool {
-    share.trim_end_matches('%').trim().parse::<f64>().is_ok_and(|share| share <= 0.0)
+/// A number or percentage, as a share from 0 to 1.
+pub(super) fn share(text: &str) -> Option<f64> {
+    let Quantity { number, unit } = Quantity::parse(text)?;
+    let share = if unit == "%" { number / 100.0 } else { number };
+    Some(share.clamp(0.0, 1.0))
+}
+
+/// Red, green, blue and opacity of a colour, as it is named or written.
+pub(super) fn rgba(text: &str) -> Option<[f64; 4]> {
+    let Color { red, green, blue, alpha } = Color::from_str(text.trim()).ok()?;
+    Some([red, green, blue, alpha].map(|part| f64::from(part) / 255.0))
 }
 
 // ---- what is inherited ----
@@ -130,10 +143,16 @@ fn is_zero(share: &str) -> bool {
 pub(super) struct Style<'a> {
     fill: &'a str,
     pub even_odd: bool,
-    fill_shows: bool,
+    /// From 0 to 1, like that of strokes.
+    pub fill_opacity: f64,
     stroke: &'a str,
-    stroke_shows: bool,
-    stroke_width: bool,
+    pub stroke_opacity: f64,
+    stroke_width: &'a str,
+    line_cap: &'a str,
+    line_join: &'a str,
+    miter_limit: &'a str,
+    dashes: &'a str,
+    dash_offset: &'a str,
     pub visible: bool,
     color: &'a str,
     /// The rule of what is part of a clip path.
@@ -146,10 +165,15 @@ impl Default for Style<'_> {
         Self {
             fill: "black",
             even_odd: false,
-            fill_shows: true,
+            fill_opacity: 1.0,
             stroke: "none",
-            stroke_shows: true,
-            stroke_width: true,
+            stroke_opacity: 1.0,
+            stroke_width: "1",
+            line_cap: "butt",
+            line_join: "miter",
+            miter_limit: "4",
+            dashes: "none",
+            dash_offset: "0",
             visible: true,
             color: "black",
             clip_even_odd: false,
@@ -180,7 +204,7 @@ impl<'a> Style<'a> {
         let first = Self::default();
         let above = |property| if declared.get(property) == Some("initial") { &first } else { self };
         let given = |property| declared.given(property);
-        let shows = |property, inherited: bool| given(property).map_or(inherited, |share| !is_zero(share));
+        let opacity = |property, inherited: f64| given(property).and_then(share).unwrap_or(inherited);
         let rule = |property, inherited: bool| given(property).map_or(inherited, |rule| rule == "evenodd");
         style.fill = given(Property::Fill).unwrap_or(above(Property::Fill).fill);
         style.stroke = given(Property::Stroke).unwrap_or(above(Property::Stroke).stroke);
@@ -188,21 +212,47 @@ impl<'a> Style<'a> {
         style.even_odd = rule(Property::FillRule, above(Property::FillRule).even_odd);
         style.clip_even_odd = rule(Property::ClipRule, above(Property::ClipRule).clip_even_odd);
         style.visible = given(Property::Visibility).map_or(above(Property::Visibility).visible, |v| v == "visible");
-        style.fill_shows = shows(Property::FillOpacity, above(Property::FillOpacity).fill_shows);
-        style.stroke_shows = shows(Property::StrokeOpacity, above(Property::StrokeOpacity).stroke_shows);
-        let inherited = above(Property::StrokeWidth).stroke_width;
-        style.stroke_width = given(Property::StrokeWidth).map_or(inherited, |width| {
-            svgtypes::Length::from_str(width).map_or(inherited, |length| length.number > 0.0)
-        });
+        style.fill_opacity = opacity(Property::FillOpacity, above(Property::FillOpacity).fill_opacity);
+        style.stroke_opacity = opacity(Property::StrokeOpacity, above(Property::StrokeOpacity).stroke_opacity);
+        let width = given(Property::StrokeWidth).filter(|width| Quantity::parse(width).is_some());
+        style.stroke_width = width.unwrap_or(above(Property::StrokeWidth).stroke_width);
+        style.line_cap = given(Property::StrokeLinecap).unwrap_or(above(Property::StrokeLinecap).line_cap);
+        style.line_join = given(Property::StrokeLinejoin).unwrap_or(above(Property::StrokeLinejoin).line_join);
+        style.miter_limit = given(Property::StrokeMiterlimit).unwrap_or(above(Property::StrokeMiterlimit).miter_limit);
+        style.dashes = given(Property::StrokeDasharray).unwrap_or(above(Property::StrokeDasharray).dashes);
+        style.dash_offset = given(Property::StrokeDashoffset).unwrap_or(above(Property::StrokeDashoffset).dash_offset);
         (style, declared)
     }
 
     pub fn fill(&self) -> Painted<'a> {
-        if self.fill_shows { self.painted(self.fill) } else { Painted::No }
+        if self.fill_opacity > 0.0 { self.painted(self.fill) } else { Painted::No }
     }
 
     pub fn stroke(&self) -> Painted<'a> {
-        if self.stroke_shows && self.stroke_width { self.painted(self.stroke) } else { Painted::No }
+        let has_width = Quantity::parse(self.stroke_width).is_none_or(|width| width.number > 0.0);
+        if self.stroke_opacity > 0.0 && has_width { self.painted(self.stroke) } else { Painted::No }
+    }
+
+    /// How strokes are drawn; what cannot be read is as if it were not given.
+    pub fn pen(&self, viewport: Viewport) -> Pen {
+        let length = |text: &str| viewport.length(text, Axis::Both);
+        let words = self.dashes.split([',', ' ', '\t', '\n']).filter(|word| !word.is_empty());
+        Pen {
+            width: length(self.stroke_width).unwrap_or(1.0),
+            cap: match self.line_cap {
+                "round" => Cap::Round,
+                "square" => Cap::Square,
+                _ => Cap::Butt,
+            },
+            join: match self.line_join {
+                "round" => Join::Round,
+                "bevel" => Join::Bevel,
+                _ => Join::Miter,
+            },
+            miter_limit: self.miter_limit.parse().ok().filter(|limit| *limit >= 1.0).unwrap_or(4.0),
+            dashes: words.map(length).collect::<Option<_>>().unwrap_or_default(),
+            dash_offset: length(self.dash_offset).unwrap_or(0.0),
+        }
     }
 
     fn painted(&self, value: &'a str) -> Painted<'a> {
