@@ -162,7 +162,7 @@ fn formats_by_suffix() {
         assert_eq!(files.len(), format.suffixes().len());
         let begins: &[u8] = match format {
             Format::Vtu | Format::Xdmf => b"<?xml",
-            Format::Vtk => b"# vtk",
+            Format::Vtk | Format::VtkText => b"# vtk",
             Format::Msh | Format::Msh22 => b"$MeshFormat",
             Format::Su2 => b"NDIME= 2",
             Format::Inp => b"**",

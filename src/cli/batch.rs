@@ -8,7 +8,8 @@ use super::options::{Options, Resolved};
 use super::writing::Writing;
 use super::{Halt, Volume};
 use clap::Args;
-use record::{Desk, Line, Record};
+pub use record::Line;
+use record::{Desk, Record};
 use squinch::case;
 use squinch::export::Format;
 use squinch::import;
@@ -123,7 +124,7 @@ impl Batch {
             }
         };
         fs::create_dir_all(&self.out_dir).map_err(|e| unwritable(&self.out_dir, &e))?;
-        let record = Record::open(&self.out_dir.join(file), self.resume, &request, &self.format)?;
+        let record = Record::open(&self.out_dir.join(file), self.resume, &request, &self.format, &self.writing)?;
         let earlier: Vec<u8> = jobs.iter().filter_map(|job| record.done(&job.shown())).collect();
         jobs.retain(|job| record.done(&job.shown()).is_none());
         let desk = Desk::new(record, &earlier, jobs.len(), volume);

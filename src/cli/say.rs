@@ -485,6 +485,20 @@ impl Count {
             bar.inc(1);
         }
     }
+
+    /// Says above the bar how an input failed.
+    pub fn failed(&self, input: &str, ending: &str, advice: &str) {
+        let say = || {
+            error(&format!("{input}: {ending}"));
+            if !advice.is_empty() {
+                help(advice);
+            }
+        };
+        match &self.0 {
+            Some(bar) => bar.suspend(say),
+            None => say(),
+        }
+    }
 }
 
 impl Drop for Count {

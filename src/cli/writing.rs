@@ -28,8 +28,13 @@ pub struct Writing {
     colour: Colour,
     /// The window that a picture shows, in the units of the mesh [default: all of it]
     #[arg(long, value_name = "X0,Y0,X1,Y1", value_parser = window, allow_hyphen_values = true, help_heading = "Pictures")]
-    #[serde(skip)]
+    #[serde(serialize_with = "corners")]
     view: Option<Rect>,
+}
+
+/// A window as it is given.
+fn corners<S: serde::Serializer>(view: &Option<Rect>, serializer: S) -> Result<S::Ok, S::Error> {
+    view.map(|r| [r.x0, r.y0, r.x1, r.y1]).serialize(serializer)
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum, Serialize)]

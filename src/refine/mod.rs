@@ -58,7 +58,7 @@ impl<T> WorstFirst<T> {
 }
 
 /// Why a refinement ended.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, serde::Serialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, serde::Serialize, schemars::JsonSchema)]
 pub enum StopReason {
     #[serde(rename = "done")]
     Done,
@@ -82,7 +82,7 @@ pub struct Stop {
 }
 
 /// What a refinement counted, by name in alphabetical order.
-#[derive(Clone, PartialEq, Eq, Debug, Default, serde::Serialize)]
+#[derive(Clone, PartialEq, Eq, Debug, Default, serde::Serialize, schemars::JsonSchema)]
 #[serde(transparent)]
 pub struct Counters(pub BTreeMap<&'static str, u64>);
 
