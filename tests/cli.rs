@@ -98,7 +98,7 @@ fn help_answers() {
     for word in ["mesh", "check", "convert", "inspect", "draw", "replay", "reduce", "Exit codes", "130"] {
         assert!(help.contains(word), "{word}\n{help}");
     }
-    for verb in ["mesh", "check", "convert", "inspect", "draw", "replay", "reduce"] {
+    for verb in ["mesh", "check", "batch", "convert", "schema", "inspect", "draw", "replay", "reduce"] {
         assert!(printed(&bench.ends(0, &[verb, "--help"])).contains("Usage: squinch"), "{verb}");
     }
     let mesh = printed(&bench.ends(0, &["mesh", "--help"]));
@@ -1305,7 +1305,7 @@ fn options_of_writing_reach_mesh_and_convert() {
 fn on_a_terminal_a_batch_shows_what_failed_and_no_lines() {
     let bench = Bench::new("terminal");
     let program = env!("CARGO_BIN_EXE_squinch");
-    let batch = format!("{program} batch square.poly open.json --out-dir out --format vtu");
+    let batch = format!("{program} batch square.poly open.json none.json --out-dir out --format vtu");
     // util-linux' `script` gives the command a terminal.
     let mut script = Command::new("script");
     script.current_dir(&bench.0).args(["-qec", &batch, "/dev/null"]).env("NO_COLOR", "1").stdin(Stdio::null());
@@ -1313,6 +1313,7 @@ fn on_a_terminal_a_batch_shows_what_failed_and_no_lines() {
     let shown = printed(&output);
     assert!(!shown.contains("\"exit\""), "{shown}");
     assert!(shown.contains("error: open.json: ") && shown.contains("help: "), "{shown}");
+    assert!(shown.contains("error: none.json: No such file"), "{shown}");
     assert!(!shown.contains("error: square.poly"), "{shown}");
     // Piped, it is the other way round.
     let output = bench.ends(1, &["batch", "square.poly", "open.json", "--out-dir", "out", "--format", "vtu"]);

@@ -488,8 +488,10 @@ impl Count {
 
     /// Says above the bar how an input failed.
     pub fn failed(&self, input: &str, ending: &str, advice: &str) {
+        // Where the file itself cannot be read, the words begin with its name.
+        let named = if ending.starts_with(input) { String::new() } else { format!("{input}: ") };
         let say = || {
-            error(&format!("{input}: {ending}"));
+            error(&format!("{named}{ending}"));
             if !advice.is_empty() {
                 help(advice);
             }
