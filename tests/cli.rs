@@ -1298,6 +1298,12 @@ fn options_of_writing_reach_mesh_and_convert() {
     bench.ends(0, &["mesh", "lens.json", "-o", "part.svg", "--view", "-0.5,-0.2,0.5,0.2", "--colour", "region"]);
     assert!(bench.text("all.svg") != bench.text("part.svg"));
     bench.ends(2, &["mesh", "lens.json", "-o", "part.svg", "--view", "1,1,0,0"]);
+    let output =
+        bench.ends(0, &["mesh", "lens.json", "-o", "lens.msh", "--plain", "--xdmf", "single", "--lines", "on"]);
+    for told in ["--plain: only for VTU", "--xdmf: only for XDMF", "--lines: only for glTF"] {
+        assert!(said(&output).contains(told), "{}", said(&output));
+    }
+    assert!(!said(&bench.ends(0, &["mesh", "lens.json", "-o", "lens.vtu", "--plain"])).contains("only for"));
 }
 
 #[test]

@@ -112,6 +112,7 @@ impl Batch {
         let start = Instant::now();
         let Resolved { request, input_format } = self.options.resolve()?;
         self.format.iter().try_for_each(|format| hold_order(*format, &request))?;
+        self.writing.tell_unused(&self.format, volume);
         let mut jobs = jobs(&self.inputs)?;
         if request.face.as_deref() == Some(EVERY_FACE) {
             jobs = jobs.into_iter().flat_map(|job| job.by_faces(&request, input_format)).collect();

@@ -66,6 +66,8 @@ impl Mesh {
         let Resolved { request, input_format } = self.options.resolve()?;
         outputs.iter().try_for_each(|(_, format)| hold_order(*format, &request))?;
         files::can_be_written(&files)?;
+        let formats: Vec<Format> = outputs.iter().map(|(_, format)| *format).collect();
+        self.writing.tell_unused(&formats, volume);
         let input = Input::open(&self.input, input_format)?;
         remember(&input, &request);
         let mut outcome = mesh_with_progress(&input, &request, volume);

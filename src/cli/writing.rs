@@ -1,9 +1,10 @@
 //! The options of writing, shared by the verbs that write meshes.
 
 use super::draw::{Colour, window};
+use super::{Volume, say};
 use clap::{Args, ValueEnum};
 use serde::Serialize;
-use squinch::export::{WriteOptions, XdmfGrids};
+use squinch::export::{Format, WriteOptions, XdmfGrids};
 use squinch::geometry::Rect;
 use squinch::request::Switch;
 
@@ -56,6 +57,26 @@ impl Writing {
             },
             colour: self.colour.of_mesh(),
             view: self.view,
+        }
+    }
+
+    /// Says which of the options given none of the outputs has a use for.
+    pub fn tell_unused(&self, formats: &[Format], volume: Volume) {
+        let any = |of: &[Format]| formats.iter().any(|format| of.contains(format));
+        let lined = [Format::Glb, Format::Gltf, Format::Obj, Format::VtkText];
+        let pictures = [Format::Svg, Format::Png];
+        let unused = [
+            (self.plain && !any(&[Format::Vtu]), "--plain: only for VTU"),
+            (
+                self.lines.is_some() && !any(&lined) && !(self.plain && any(&[Format::Vtu])),
+                "--lines: only for glTF, OBJ, vtk-text and plain VTU",
+            ),
+            (self.xdmf == Grids::Single && !any(&[Format::Xdmf]), "--xdmf: only for XDMF"),
+            (self.colour != Colour::Quality && !any(&pictures), "--colour: only for pictures"),
+            (self.view.is_some() && !any(&pictures), "--view: only for pictures"),
+        ];
+        if volume > Volume::Quiet {
+            unused.iter().filter(|(unused, _)| *unused).for_each(|(_, what)| say::line(&format!("  {what}")));
         }
     }
 }
