@@ -10,14 +10,29 @@ use crate::mesh::verify::{Check, Excuse, Verdict};
 use crate::pipeline::Plan;
 use crate::refine::{Counters, Stop, StopReason};
 use crate::request::{Engine, Request};
+use schemars::generate::SchemaSettings;
+use schemars::transform::RecursiveTransform;
+use schemars::{JsonSchema, Schema};
 use serde::Serialize;
 use std::collections::BTreeMap;
+
+/// The JSON schema (draft 2020-12) of something that is written as JSON. Numbers that are not finite are written as `null`, so every
+/// number may be that.
+pub fn schema_of<T: JsonSchema>() -> serde_json::Value {
+    let unbounded = |schema: &mut Schema| {
+        if schema.get("type").is_some_and(|kind| kind == "number") {
+            schema.insert("type".into(), serde_json::json!(["number", "null"]));
+        }
+    };
+    let settings = SchemaSettings::draft2020_12().for_serialize().with_transform(RecursiveTransform(unbounded));
+    settings.into_generator().into_root_schema_for::<T>().to_value()
+}
 
 /// Version of the report's schema.
 pub const SCHEMA: u32 = 1;
 
 /// The report of one run. What the run did not come to is `null`.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Report {
     pub schema: u32,
     pub version: &'static str,
@@ -36,7 +51,7 @@ pub struct Report {
     pub peak_memory_bytes: Option<u64>,
 }
 
-#[derive(Clone, Debug, Default, Serialize)]
+#[derive(Clone, Debug, Default, Serialize, JsonSchema)]
 pub struct InputReport {
     /// As given on the command line.
     pub path: String,
@@ -75,7 +90,7 @@ pub fn kinds(drawing: &Drawing) -> BTreeMap<&'static str, usize> {
 }
 
 /// Every option as used. Lengths in `length_unit` (`null`: the file's own, which is not known), areas in its square.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct RequestReport {
     pub length_unit: Option<String>,
     pub engine: String,
@@ -208,7 +223,7 @@ fn word(choice: &impl Serialize) -> String {
     }
 }
 
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct MeshReport {
     pub vertices: usize,
     pub triangles: usize,
@@ -223,7 +238,7 @@ pub struct MeshReport {
 }
 
 /// A curved side that is straight in the mesh: the name of its boundary, and its middle.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct StraightenedReport {
     pub boundary: String,
     pub at: [f64; 2],
@@ -254,14 +269,14 @@ impl MeshReport {
     }
 }
 
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct PromiseReport {
     pub kept: bool,
     pub checks: Vec<Check>,
     pub excused: ExcusedReport,
 }
 
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct ExcusedReport {
     pub count: usize,
     pub by_corner: Vec<Excuse>,
@@ -275,7 +290,7 @@ impl PromiseReport {
     }
 }
 
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct StopReport {
     pub reason: StopReason,
     pub owed: usize,
@@ -302,7 +317,7 @@ impl StopReport {
 }
 
 /// What stood in the way, where, and the way out.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct FailureReport {
     pub kind: FailureKind,
     pub what: String,
@@ -315,7 +330,7 @@ pub struct FailureReport {
     pub stop: Option<Box<StopReport>>,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum FailureKind {
     /// The request does not fit the drawing.
@@ -339,7 +354,7 @@ impl FailureReport {
 }
 
 /// Wall-clock seconds of each stage.
-#[derive(Clone, Copy, Debug, Default, Serialize)]
+#[derive(Clone, Copy, Debug, Default, Serialize, JsonSchema)]
 pub struct Seconds {
     pub read: f64,
     pub arrange: f64,

@@ -92,14 +92,13 @@ fn no_output_is_the_input_or_another_output() {
 }
 
 #[test]
-fn help_and_version_answer() {
+fn help_answers() {
     let bench = Bench::new("help");
-    assert_eq!(printed(&bench.ends(0, &["--version"])), format!("squinch {}\n", env!("CARGO_PKG_VERSION")));
     let help = printed(&bench.ends(0, &["--help"]));
     for word in ["mesh", "check", "convert", "inspect", "draw", "replay", "reduce", "Exit codes", "130"] {
         assert!(help.contains(word), "{word}\n{help}");
     }
-    for verb in ["mesh", "check", "convert", "inspect", "draw", "replay", "reduce"] {
+    for verb in ["mesh", "check", "batch", "convert", "schema", "inspect", "draw", "replay", "reduce"] {
         assert!(printed(&bench.ends(0, &[verb, "--help"])).contains("Usage: squinch"), "{verb}");
     }
     let mesh = printed(&bench.ends(0, &["mesh", "--help"]));
@@ -1031,9 +1030,11 @@ fn overlaps_of_shapes_become_regions_where_asked_for() {
 }
 
 #[test]
-fn what_a_format_does_not_hold_is_said_of_a_run_too() {
+fn what_a_format_does_not_hold_is_said_of_a_run_that_tells_all() {
     let bench = Bench::new("losses");
-    let output = bench.ends(0, &["mesh", "lens.json", "-o", "a.vtu", "-o", "a.png", "-o", "a.su2"]);
+    let outputs = ["mesh", "lens.json", "-o", "a.vtu", "-o", "a.png", "-o", "a.su2"];
+    assert!(!said(&bench.ends(0, &outputs)).contains("not kept"));
+    let output = bench.ends(0, &[&outputs[..], &["-v"]].concat());
     let lost: Vec<_> = said(&output).lines().filter(|l| l.contains("not kept")).map(str::to_owned).collect();
     let wanted = ["the unit: coordinates stay as they are", "links to curves and protecting balls"];
     assert_eq!(lost, wanted.map(|what| format!("  not kept by su2: {what}")));
@@ -1182,4 +1183,146 @@ fn what_the_budget_cannot_hold_is_refused_before_it_is_tried() {
     fs::write(bench.0.join("wedge.poly"), wedge).unwrap();
     refused(&["wedge.poly", "--max-vertices", "2000"], "--min-edge");
     bench.ends(0, &["mesh", "wedge.poly", "--max-vertices", "2000", "--min-edge", "0.01", "-o", "b.vtu"]);
+}
+
+#[test]
+fn the_version_tells_commit_and_features() {
+    let version = printed(&Bench::new("version").ends(0, &["--version"]));
+    let rest = version.strip_prefix(concat!("squinch ", env!("CARGO_PKG_VERSION"), " (")).expect("name and version");
+    let (commit, features) = rest.split_once("; features: ").expect("two parts");
+    assert!(commit == "unknown commit" || commit.bytes().all(|b| b.is_ascii_hexdigit()), "{version}");
+    assert_eq!(features, format!("{})\n", if cfg!(feature = "cad") { "cad" } else { "none" }));
+}
+
+#[test]
+fn short_help_is_for_jobs_and_long_help_for_all() {
+    let bench = Bench::new("short-help");
+    for verb in ["mesh", "batch"] {
+        let [short, long] = ["-h", "--help"].map(|help| printed(&bench.ends(0, &[verb, help])));
+        for option in ["--delta2", "--ball-shrinking", "--steiner"] {
+            assert!(long.contains(option) && !short.contains(option), "{option}");
+        }
+        for option in ["--min-angle", "--max-edge", "--engine", "--order", "--plain", "--format"] {
+            assert!(short.contains(option), "{option}\n{short}");
+        }
+    }
+    assert!(printed(&bench.ends(0, &["-h"])).contains("By job:"));
+    assert!(!printed(&bench.ends(0, &["-h"])).contains("130"), "exit codes are in the long help");
+}
+
+/// The commands that a help text shows.
+fn shown_in(help: &str) -> Vec<Vec<String>> {
+    let commands = help.lines().filter_map(|line| line.split_once("  squinch "));
+    commands.map(|(_, command)| command.split(['>', '|']).next().unwrap_or(command)).map(words).collect()
+}
+
+fn words(command: &str) -> Vec<String> {
+    command.split_whitespace().map(|word| word.trim_matches('\'').to_owned()).collect()
+}
+
+#[test]
+fn commands_of_the_help_work_when_typed() {
+    let bench = Bench::new("help-commands");
+    let samples = Path::new(env!("CARGO_MANIFEST_DIR")).join("samples");
+    let mut run = 0;
+    for help in [printed(&bench.ends(0, &["-h"])), printed(&bench.ends(0, &["mesh", "-h"]))] {
+        for command in shown_in(&help) {
+            // Into a folder of the test, from the samples that the text names from the root.
+            let placed = command.iter().map(|word| match word.strip_prefix("samples") {
+                Some(rest) => format!("{}{rest}", samples.display()),
+                None => word.clone(),
+            });
+            let placed: Vec<String> = placed.collect();
+            let placed: Vec<&str> = placed.iter().map(String::as_str).collect();
+            let code = bench.run(&placed).status.code();
+            assert_eq!(code, Some(0), "{command:?}");
+            run += 1;
+        }
+    }
+    assert!(run >= 10, "{run} commands");
+}
+
+#[test]
+fn outputs_are_checked_before_meshing() {
+    let bench = Bench::new("outputs-first");
+    // An input that would take long, or fail otherwise: it is not even read.
+    fs::write(bench.0.join("broken.json"), "{").expect("written");
+    fs::create_dir(bench.0.join("folder.vtu")).expect("a folder");
+    for (code, outputs) in [
+        (6, vec!["-o", "nowhere/x.vtu"]),
+        (6, vec!["-o", "folder.vtu"]),
+        (6, vec!["-o", "x.vtu", "--report", "nowhere/x.json"]),
+        (6, vec!["-o", "x.vtu", "--case", "nowhere/x.case"]),
+        (2, vec!["-o", "x.unknown"]),
+        (2, vec!["-o", "x"]),
+        (2, vec!["-o", "x.su2", "--order", "2"]),
+    ] {
+        let output = bench.ends(code, &[&["mesh", "broken.json"], outputs.as_slice()].concat());
+        assert!(!said(&output).contains("broken.json"), "{}", said(&output));
+    }
+    bench.ends(6, &["convert", "nothing.vtu", "nowhere/x.msh"]);
+    bench.ends(2, &["convert", "nothing.vtu", "x.unknown"]);
+    bench.ends(6, &["draw", "broken.json", "-o", "nowhere/x.png"]);
+    bench.ends(2, &["batch", "square.poly", "--out-dir", "out", "--format", "vtu,su2", "--order", "2"]);
+    bench.ends(6, &["batch", "square.poly", "--out-dir", "square.poly/out", "--format", "vtu"]);
+    if cfg!(target_os = "linux") {
+        let output = bench.ends(6, &["mesh", "broken.json", "-o", "/proc/x.vtu"]);
+        assert!(said(&output).contains("/proc/x.vtu"), "{}", said(&output));
+    }
+    assert_eq!(bench.made(), ["broken.json", "folder.vtu"]);
+}
+
+#[test]
+fn a_batch_resumes_only_as_it_wrote() {
+    let bench = Bench::new("resumed-writing");
+    let batch = ["batch", "square.poly", "--out-dir", "out", "--format", "vtu"];
+    bench.ends(0, &[&batch[..], &["--plain"]].concat());
+    assert!(!bench.text("out/square.vtu").contains("FieldData"));
+    bench.ends(0, &[&batch[..], &["--plain", "--resume"]].concat());
+    bench.ends(2, &[&batch[..], &["--resume"]].concat());
+}
+
+#[test]
+fn options_of_writing_reach_mesh_and_convert() {
+    let bench = Bench::new("writing");
+    bench.ends(0, &["mesh", "lens.json", "-o", "lens.vtk", "--format", "vtk-text", "--lines", "on"]);
+    assert!(bench.text("lens.vtk").contains("\nASCII\n") && bench.text("lens.vtk").contains("\n2 "));
+    bench.ends(0, &["convert", "lens.vtk", "lens.vtu", "--plain"]);
+    assert!(!bench.text("lens.vtu").contains("FieldData"));
+    bench.ends(0, &["convert", "lens.vtk", "lens.xdmf", "--xdmf", "single"]);
+    assert!(bench.text("lens.xdmf").contains("\"Mixed\""));
+    bench.ends(0, &["mesh", "lens.json", "-o", "lens.obj", "--lines", "off"]);
+    assert!(!bench.text("lens.obj").contains("\nl "));
+    // Pictures of runs as of `draw`.
+    bench.ends(0, &["mesh", "lens.json", "-o", "all.svg"]);
+    bench.ends(0, &["mesh", "lens.json", "-o", "part.svg", "--view", "-0.5,-0.2,0.5,0.2", "--colour", "region"]);
+    assert!(bench.text("all.svg") != bench.text("part.svg"));
+    bench.ends(2, &["mesh", "lens.json", "-o", "part.svg", "--view", "1,1,0,0"]);
+    let output =
+        bench.ends(0, &["mesh", "lens.json", "-o", "lens.msh", "--plain", "--xdmf", "single", "--lines", "on"]);
+    for told in ["--plain: only for VTU", "--xdmf: only for XDMF", "--lines: only for glTF"] {
+        assert!(said(&output).contains(told), "{}", said(&output));
+    }
+    assert!(!said(&bench.ends(0, &["mesh", "lens.json", "-o", "lens.vtu", "--plain"])).contains("only for"));
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn on_a_terminal_a_batch_shows_what_failed_and_no_lines() {
+    let bench = Bench::new("terminal");
+    let program = env!("CARGO_BIN_EXE_squinch");
+    let batch = format!("{program} batch square.poly open.json none.json --out-dir out --format vtu");
+    // util-linux' `script` gives the command a terminal.
+    let mut script = Command::new("script");
+    script.current_dir(&bench.0).args(["-qec", &batch, "/dev/null"]).env("NO_COLOR", "1").stdin(Stdio::null());
+    let Ok(output) = script.output() else { return };
+    let shown = printed(&output);
+    assert!(!shown.contains("\"exit\""), "{shown}");
+    assert!(shown.contains("error: open.json: ") && shown.contains("help: "), "{shown}");
+    assert!(shown.contains("error: none.json: No such file"), "{shown}");
+    assert!(!shown.contains("error: square.poly"), "{shown}");
+    // Piped, it is the other way round.
+    let output = bench.ends(1, &["batch", "square.poly", "open.json", "--out-dir", "out", "--format", "vtu"]);
+    assert_eq!(lines_of(&output).len(), 2);
+    assert!(!said(&output).contains("error"), "{}", said(&output));
 }

@@ -8,7 +8,8 @@ use super::options::{Options, Resolved};
 use super::writing::Writing;
 use super::{Halt, Volume};
 use clap::Args;
-use record::{Desk, Line, Record};
+pub use record::Line;
+use record::{Desk, Record};
 use squinch::case;
 use squinch::export::Format;
 use squinch::import;
@@ -111,6 +112,7 @@ impl Batch {
         let start = Instant::now();
         let Resolved { request, input_format } = self.options.resolve()?;
         self.format.iter().try_for_each(|format| hold_order(*format, &request))?;
+        self.writing.tell_unused(&self.format, volume);
         let mut jobs = jobs(&self.inputs)?;
         if request.face.as_deref() == Some(EVERY_FACE) {
             jobs = jobs.into_iter().flat_map(|job| job.by_faces(&request, input_format)).collect();
@@ -123,7 +125,7 @@ impl Batch {
             }
         };
         fs::create_dir_all(&self.out_dir).map_err(|e| unwritable(&self.out_dir, &e))?;
-        let record = Record::open(&self.out_dir.join(file), self.resume, &request, &self.format)?;
+        let record = Record::open(&self.out_dir.join(file), self.resume, &request, &self.format, &self.writing)?;
         let earlier: Vec<u8> = jobs.iter().filter_map(|job| record.done(&job.shown())).collect();
         jobs.retain(|job| record.done(&job.shown()).is_none());
         let desk = Desk::new(record, &earlier, jobs.len(), volume);

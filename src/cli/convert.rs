@@ -30,6 +30,7 @@ impl Convert {
         let outputs = files::of_output(&self.output, format);
         files::each_once([self.mesh.clone()].into_iter().chain(outputs.clone()))?;
         files::can_be_written(&outputs)?;
+        self.writing.tell_unused(&[format], volume);
         let options = self.writing.options();
         let input = Input::open(&self.mesh, None)?;
         let file = check::read(&input)?;

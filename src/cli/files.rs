@@ -90,7 +90,8 @@ pub fn can_be_written<'a>(files: impl IntoIterator<Item = &'a PathBuf>) -> Resul
             _ => {}
         }
         if !folder.is_dir() {
-            let what = format!("{}: there is no folder {}", path.display(), folder.display());
+            let folder = folder.display();
+            let what = format!("{}: there is no folder {folder}: make it first (mkdir -p {folder})", path.display());
             return Err(Halt::Unwritable(what));
         }
         // Only trying tells whether a file system takes files.

@@ -16,7 +16,23 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
+const EXAMPLES: &str = "\
+By job:
+  finer at some names
+      squinch mesh samples/plate.json -o plate.vtu --max-edge 2 --size-of slot=0.5 --grade 0.3
+  true curves, order 2
+      squinch mesh samples/bracket.dxf -o bracket.msh --order 2
+  larger angles
+      squinch mesh samples/gear.json -o gear.vtu --engine gcdr --min-angle 30
+  a corner in a picture
+      squinch mesh samples/plate.json -o plate.png --view 0,0,20,20 --colour size
+  MFEM, deal.II
+      squinch mesh samples/plate.json -o plate.msh --format msh22 --interior-lines off
+
+--help shows every option, those of the engines too.";
+
 #[derive(Args)]
+#[command(after_help = EXAMPLES)]
 pub struct Mesh {
     /// A drawing: .svg, .dxf, .step, airfoil .dat, .poly, .node, outline .json; - for standard input
     #[arg(value_name = "IN")]
@@ -50,6 +66,8 @@ impl Mesh {
         let Resolved { request, input_format } = self.options.resolve()?;
         outputs.iter().try_for_each(|(_, format)| hold_order(*format, &request))?;
         files::can_be_written(&files)?;
+        let formats: Vec<Format> = outputs.iter().map(|(_, format)| *format).collect();
+        self.writing.tell_unused(&formats, volume);
         let input = Input::open(&self.input, input_format)?;
         remember(&input, &request);
         let mut outcome = mesh_with_progress(&input, &request, volume);

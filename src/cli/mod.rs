@@ -11,6 +11,7 @@ mod options;
 mod reduce;
 mod replay;
 mod say;
+mod schema;
 mod writing;
 
 use clap::{Parser, Subcommand};
@@ -25,7 +26,14 @@ use std::sync::{Mutex, PoisonError};
 
 /// Provably good triangle meshes of domains with curved boundaries, verified after every run.
 #[derive(Parser)]
-#[command(name = "squinch", version, max_term_width = 110, arg_required_else_help = true, after_help = EXIT_CODES)]
+#[command(
+    name = "squinch",
+    version = VERSION,
+    max_term_width = 110,
+    arg_required_else_help = true,
+    after_help = EXAMPLES,
+    after_long_help = EXIT_CODES
+)]
 struct Cli {
     #[command(subcommand)]
     verb: Verb,
@@ -36,6 +44,27 @@ struct Cli {
     #[arg(long, short, global = true)]
     verbose: bool,
 }
+
+/// Version, commit and features: what a report of a bug needs.
+const VERSION: &str =
+    concat!(env!("CARGO_PKG_VERSION"), " (", env!("SQUINCH_COMMIT"), "; features: ", env!("SQUINCH_FEATURES"), ")");
+
+const EXAMPLES: &str = "\
+By job:
+  a drawing for viewers
+      squinch mesh samples/logo.svg -o logo.glb
+  a part for CalculiX
+      squinch mesh samples/bracket.dxf -o bracket.inp --order 2 --max-edge 6
+  a wing section for SU2
+      squinch mesh samples/naca4412.dat -o wing.su2 --far-field 50
+  a mesh to look at
+      squinch mesh samples/gear.json -o gear.vtu -o gear.png
+  what is in a file
+      squinch inspect samples/bracket.dxf
+  a folder of drawings, one JSON line each
+      squinch batch samples/wedges --out-dir meshes --format vtu > meshes.jsonl
+
+squinch VERB -h shows the options of a verb; --help shows all of them, and the exit codes.";
 
 const EXIT_CODES: &str = "\
 Exit codes:
@@ -59,6 +88,8 @@ enum Verb {
     Batch(Box<batch::Batch>),
     /// One mesh format to another, names kept
     Convert(convert::Convert),
+    /// The JSON schemas of outlines, reports and batch lines
+    Schema(schema::Schema),
     /// What is in a file: curves, names, regions, corners, every repair and flaw with its place
     Inspect(Box<inspect::Inspect>),
     /// A picture of any stage of a file, or of a mesh
@@ -124,6 +155,7 @@ fn dispatch(verb: Verb, volume: Volume) -> Result<Exit, Halt> {
         Verb::Check(verb) => verb.run(volume),
         Verb::Batch(verb) => verb.run(volume),
         Verb::Convert(verb) => verb.run(volume),
+        Verb::Schema(verb) => verb.run(),
         Verb::Inspect(verb) => verb.run(volume),
         Verb::Draw(verb) => verb.run(volume),
         Verb::Replay(verb) => verb.run(volume),

@@ -139,42 +139,42 @@ pub struct Options {
     #[arg(long, value_name = "lop|gcdr", help_heading = "Engine")]
     engine: Option<Engine>,
     /// Largest turning of a curve before it is meshed, at most π/3; auto: the largest whose guarantee covers the angle [default: 0.5]
-    #[arg(long, value_name = "RAD|auto", allow_hyphen_values = true, help_heading = "Engine")]
+    #[arg(long, value_name = "RAD|auto", allow_hyphen_values = true, help_heading = "Engine", hide_short_help = true)]
     max_turning: Option<MaxTurning>,
     /// Factor by which a protecting ball shrinks, from 0.5 to below 1 [default: 0.95]
-    #[arg(long, value_name = "B", allow_hyphen_values = true, help_heading = "Engine")]
+    #[arg(long, value_name = "B", allow_hyphen_values = true, help_heading = "Engine", hide_short_help = true)]
     beta: Option<f64>,
     /// Shrink until the ball is clear, or insert at every step as printed in the paper [default: batched]
-    #[arg(long, value_enum, value_name = "HOW", help_heading = "Engine")]
+    #[arg(long, value_enum, value_name = "HOW", help_heading = "Engine", hide_short_help = true)]
     ball_shrinking: Option<BallShrinking>,
     /// Where a curve is split [default: bisector]
-    #[arg(long, value_enum, value_name = "RULE", help_heading = "Engine")]
+    #[arg(long, value_enum, value_name = "RULE", help_heading = "Engine", hide_short_help = true)]
     midpoint: Option<Midpoint>,
     /// Arcs around sharp corners, which bound the largest angle [default: on]
-    #[arg(long, value_enum, value_name = "on|off", help_heading = "Engine")]
+    #[arg(long, value_enum, value_name = "on|off", help_heading = "Engine", hide_short_help = true)]
     corner_arcs: Option<Switch>,
     /// With gcdr: points in triangles lie within r(1 - delta2) of the circumcenter, off-centres and optimal points within r - delta2 l/(2 sin
     /// angle), where l is the shortest edge [default: 1; with --steiner extreme, random, snap and size the least that the angle allows]
-    #[arg(long, value_name = "D", allow_hyphen_values = true, help_heading = "Engine")]
+    #[arg(long, value_name = "D", allow_hyphen_values = true, help_heading = "Engine", hide_short_help = true)]
     delta2: Option<f64>,
     /// With gcdr: points on segments lie in the middle part of length |s|(1 - delta1) [default: 1]
-    #[arg(long, value_name = "D", allow_hyphen_values = true, help_heading = "Engine")]
+    #[arg(long, value_name = "D", allow_hyphen_values = true, help_heading = "Engine", hide_short_help = true)]
     delta1: Option<f64>,
     /// With gcdr: so do those with a vertex of another segment nearby, for |s|(1 - mu) [default: 1]
-    #[arg(long, value_name = "M", allow_hyphen_values = true, help_heading = "Engine")]
+    #[arg(long, value_name = "M", allow_hyphen_values = true, help_heading = "Engine", hide_short_help = true)]
     mu: Option<f64>,
     /// With gcdr: who chooses the points in triangles; nothing is proven of the free ones [default: center]
-    #[arg(long, value_enum, value_name = "WHO", help_heading = "Engine")]
+    #[arg(long, value_enum, value_name = "WHO", help_heading = "Engine", hide_short_help = true)]
     steiner: Option<Steiner>,
     /// With --steiner snap: the pitch of a square grid through the origin, or a file of places: `x y` on every line
-    #[arg(long, value_name = "H|FILE", allow_hyphen_values = true, help_heading = "Engine")]
+    #[arg(long, value_name = "H|FILE", allow_hyphen_values = true, help_heading = "Engine", hide_short_help = true)]
     snap: Option<String>,
     /// With --steiner random [default: 0]
-    #[arg(long, value_name = "N", help_heading = "Engine")]
+    #[arg(long, value_name = "N", help_heading = "Engine", hide_short_help = true)]
     seed: Option<u64>,
     /// With gcdr: measure how much nearer to others every point was inserted than the drawing asks for, and hold it to the bounds known
     /// [default: off]
-    #[arg(long, value_enum, value_name = "on|off", help_heading = "Engine")]
+    #[arg(long, value_enum, value_name = "on|off", help_heading = "Engine", hide_short_help = true)]
     densities: Option<Switch>,
 }
 

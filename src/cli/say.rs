@@ -491,6 +491,22 @@ impl Count {
             bar.inc(1);
         }
     }
+
+    /// Says above the bar how an input failed.
+    pub fn failed(&self, input: &str, ending: &str, advice: &str) {
+        // Where the file itself cannot be read, the words begin with its name.
+        let named = if ending.starts_with(input) { String::new() } else { format!("{input}: ") };
+        let say = || {
+            error(&format!("{named}{ending}"));
+            if !advice.is_empty() {
+                help(advice);
+            }
+        };
+        match &self.0 {
+            Some(bar) => bar.suspend(say),
+            None => say(),
+        }
+    }
 }
 
 impl Drop for Count {

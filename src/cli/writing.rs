@@ -1,9 +1,10 @@
 //! The options of writing, shared by the verbs that write meshes.
 
 use super::draw::{Colour, window};
+use super::{Volume, say};
 use clap::{Args, ValueEnum};
 use serde::Serialize;
-use squinch::export::{WriteOptions, XdmfGrids};
+use squinch::export::{Format, WriteOptions, XdmfGrids};
 use squinch::geometry::Rect;
 use squinch::request::Switch;
 
@@ -28,8 +29,13 @@ pub struct Writing {
     colour: Colour,
     /// The window that a picture shows, in the units of the mesh [default: all of it]
     #[arg(long, value_name = "X0,Y0,X1,Y1", value_parser = window, allow_hyphen_values = true, help_heading = "Pictures")]
-    #[serde(skip)]
+    #[serde(serialize_with = "corners")]
     view: Option<Rect>,
+}
+
+/// A window as it is given.
+fn corners<S: serde::Serializer>(view: &Option<Rect>, serializer: S) -> Result<S::Ok, S::Error> {
+    view.map(|r| [r.x0, r.y0, r.x1, r.y1]).serialize(serializer)
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum, Serialize)]
@@ -51,6 +57,26 @@ impl Writing {
             },
             colour: self.colour.of_mesh(),
             view: self.view,
+        }
+    }
+
+    /// Says which of the options given none of the outputs has a use for.
+    pub fn tell_unused(&self, formats: &[Format], volume: Volume) {
+        let any = |of: &[Format]| formats.iter().any(|format| of.contains(format));
+        let lined = [Format::Glb, Format::Gltf, Format::Obj, Format::VtkText];
+        let pictures = [Format::Svg, Format::Png];
+        let unused = [
+            (self.plain && !any(&[Format::Vtu]), "--plain: only for VTU"),
+            (
+                self.lines.is_some() && !any(&lined) && !(self.plain && any(&[Format::Vtu])),
+                "--lines: only for glTF, OBJ, vtk-text and plain VTU",
+            ),
+            (self.xdmf == Grids::Single && !any(&[Format::Xdmf]), "--xdmf: only for XDMF"),
+            (self.colour != Colour::Quality && !any(&pictures), "--colour: only for pictures"),
+            (self.view.is_some() && !any(&pictures), "--view: only for pictures"),
+        ];
+        if volume > Volume::Quiet {
+            unused.iter().filter(|(unused, _)| *unused).for_each(|(_, what)| say::line(&format!("  {what}")));
         }
     }
 }

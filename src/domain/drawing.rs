@@ -221,7 +221,7 @@ pub struct FaceInfo {
 }
 
 /// Entities that a reader left out.
-#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, schemars::JsonSchema)]
 pub struct Skipped {
     pub entity: String,
     pub count: usize,

@@ -7,6 +7,8 @@
 //! mesh that lies in space is turned from CAD's +Z up. Its child node is shifted to the middle of the mesh, so that positions,
 //! float32 by the format, keep small features far from the origin.
 //!
+//! MeshLab makes triangles of the lines: they can be left out (`lines` false).
+//!
 //! Cells of order 2 are written as straight ones between all their nodes: four a triangle, two an edge. Not held: order 2, more
 //! than float32 of a coordinate, links to curves, balls. A mesh without triangles is refused: glTF has none.
 

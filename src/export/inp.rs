@@ -9,6 +9,8 @@
 //! CalculiX reads the first 20 characters of a number, so a number has at most 20: as many digits as f64 holds, but for numbers
 //! below 1e-3 or of large exponents, which keep 13 or more.
 //!
+//! meshio 5.3 knows no CPS6; CalculiX and Abaqus do.
+//!
 //! Not held: the unit (a comment says it), links to curves, balls; the surfaces of shells.
 
 use super::groups::{Groups, Kind, identifier, legal_names, name_comment, sides, undirected};

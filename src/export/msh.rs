@@ -6,6 +6,9 @@
 //! region, one curve a boundary and one point a named node.
 //! Order 2 is held (types 8 and 9, in our own order of nodes).
 //!
+//! MFEM 4.10 and Gmsh read both. deal.II 9.4 and FreeFEM 4.11 read 2.2 only (deal.II reads no binary, FreeFEM ends without a word), and deal.II
+//! refuses a group of edges inside the domain. scikit-fem 12 loses such groups from 2.2, and every boundary of order 2.
+//!
 //! Not held: the unit, the plane of the mesh (its coordinates in space are), links to curves, balls. In names `"` becomes `'`.
 
 use super::groups::{Groups, legal_names, sides, undirected};

@@ -2,7 +2,7 @@
 //! blanks; a comment keeps what a name was. Coordinates have all their digits. Cells of order 2 are written as straight ones
 //! between all their nodes: four a triangle, two an edge.
 //!
-//! Readers that go wrong beside lines are served by leaving them out (`lines` false).
+//! VTK's reader sets groups on the wrong cells beside lines: they can be left out (`lines` false).
 //!
 //! Not held: order 2, the unit (a comment says it), links to curves, balls.
 

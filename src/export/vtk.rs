@@ -155,9 +155,9 @@ impl<W: Write> File<'_, W> {
     }
 
     /// Numbers that belong together: as text a line of them.
-    fn words(&mut self, words: impl Iterator<Item = u32>) -> io::Result<()> {
+    fn words(&mut self, mut words: impl Iterator<Item = u32>) -> io::Result<()> {
         if !self.text {
-            return words.into_iter().try_for_each(|word| self.out.write_all(&word.to_be_bytes()));
+            return words.try_for_each(|word| self.out.write_all(&word.to_be_bytes()));
         }
         let words: Vec<String> = words.map(|word| word.to_string()).collect();
         writeln!(self.out, "{}", words.join(" "))

@@ -5,11 +5,12 @@ use super::verify::Verdict;
 use crate::domain::Domain;
 use crate::geometry::{Point, Vec2};
 use crate::ids::{Id, TriangleId, VertexId};
+use schemars::JsonSchema;
 use serde::{Serialize, Serializer};
 
 /// What a mesh measures; angles in degrees, the rest in the drawing's units. Angles of a mesh without triangles: the
 /// smallest is 180, the largest 0.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Quality {
     pub min_angle_deg: f64,
     pub max_angle_deg: f64,
@@ -17,6 +18,7 @@ pub struct Quality {
     pub min_unexcused_angle_deg: f64,
     /// How many angles (three a triangle) lie in each whole degree.
     #[serde(serialize_with = "as_sequence")]
+    #[schemars(with = "Vec<u64>")]
     pub angle_histogram: [u64; 180],
     /// Area of the triangles.
     pub measure: f64,
@@ -31,7 +33,7 @@ fn as_sequence<S: Serializer>(histogram: &[u64; 180], serializer: S) -> Result<S
 }
 
 /// Cells and area of one region name.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct RegionMeasure {
     pub name: String,
     pub cells: usize,
@@ -39,7 +41,7 @@ pub struct RegionMeasure {
 }
 
 /// Mesh edges and their length on one boundary name.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct BoundaryMeasure {
     pub name: String,
     pub edges: usize,

@@ -114,7 +114,7 @@ impl Headway {
 }
 
 /// Why a refinement ended.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, serde::Serialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, serde::Serialize, schemars::JsonSchema)]
 pub enum StopReason {
     #[serde(rename = "done")]
     Done,
@@ -143,7 +143,7 @@ pub struct Stop {
 }
 
 /// What a refinement counted, by name in alphabetical order.
-#[derive(Clone, PartialEq, Eq, Debug, Default, serde::Serialize)]
+#[derive(Clone, PartialEq, Eq, Debug, Default, serde::Serialize, schemars::JsonSchema)]
 #[serde(transparent)]
 pub struct Counters(pub BTreeMap<&'static str, u64>);
 

@@ -5,7 +5,9 @@
 //! done is there, and the rest is done by `--resume`.
 
 use crate::cli::files;
+use crate::cli::writing::Writing;
 use crate::cli::{Halt, Volume, say};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use squinch::export::Format;
 use squinch::pipeline::{self, Exit, Outcome};
@@ -13,13 +15,13 @@ use squinch::report::{FailureKind, FailureReport};
 use squinch::request::Request;
 use std::collections::BTreeMap;
 use std::fs::{File, OpenOptions};
-use std::io::{self, Write};
+use std::io::{self, IsTerminal, Write};
 use std::path::Path;
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
 /// What came of one input: a line of the record and of standard output.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub struct Line {
     pub input: String,
     pub exit: u8,
@@ -91,7 +93,7 @@ impl Line {
 #[derive(Deserialize)]
 #[serde(untagged)]
 enum Entry {
-    Head { request: String, formats: Vec<String> },
+    Head { request: String, formats: Vec<String>, writing: serde_json::Value },
     Begun { begun: String },
     Done { input: String, exit: u8, outputs: Vec<String> },
 }
@@ -110,9 +112,16 @@ pub struct Record {
 
 impl Record {
     /// Opens the record to go on with it, or begins it anew.
-    pub fn open(path: &Path, resume: bool, request: &Request, formats: &[Format]) -> Result<Self, Halt> {
+    pub fn open(
+        path: &Path,
+        resume: bool,
+        request: &Request,
+        formats: &[Format],
+        writing: &Writing,
+    ) -> Result<Self, Halt> {
         let shown = path.display().to_string();
         let request = toml::to_string(request).expect("a request holds only words, numbers and lists of them");
+        let writing = serde_json::to_value(writing).expect("options of writing are words, numbers and lists of them");
         let formats: Vec<String> = formats.iter().map(|f| f.name().to_owned()).collect();
         let text = match std::fs::read(path) {
             Ok(bytes) if resume => String::from_utf8_lossy(&bytes).into_owned(),
@@ -124,7 +133,8 @@ impl Record {
         let mut entries = text.lines().filter_map(|line| serde_json::from_str(line).ok());
         match entries.next() {
             None => {}
-            Some(Entry::Head { request: r, formats: f }) if r == request && f == formats => {}
+            Some(Entry::Head { request: r, formats: f, writing: w })
+                if (&r, &f, &w) == (&request, &formats, &writing) => {}
             Some(_) => {
                 let what = format!("{shown} is of a batch with other options: use them again, or another --out-dir");
                 return Err(Halt::Usage(what));
@@ -137,7 +147,7 @@ impl Record {
         let mut record = Self { path: shown, file, done: BTreeMap::new(), begun: BTreeMap::new() };
         entries.for_each(|entry| record.recall(entry));
         let begins = if text.is_empty() {
-            record.write(&serde_json::json!({ "request": request, "formats": formats }))
+            record.write(&serde_json::json!({ "request": request, "formats": formats, "writing": writing }))
         } else if text.ends_with('\n') {
             Ok(())
         } else {
@@ -182,6 +192,10 @@ pub struct Desk {
     state: Mutex<State>,
     earlier: usize,
     volume: Volume,
+    /// Lines are for programs: a terminal shows what failed instead.
+    lines: bool,
+    /// Whether somebody looks: at what failed.
+    watched: bool,
 }
 
 struct State {
@@ -203,7 +217,9 @@ impl Desk {
         earlier.iter().for_each(|&exit| *exits.entry(exit).or_default() += 1);
         let bar = say::Count::new(volume, inputs);
         let state = State { record, bar, next: 0, waiting: BTreeMap::new(), exits, unwritten: None };
-        Self { state: Mutex::new(state), earlier: earlier.len(), volume }
+        let lines = !io::stdout().is_terminal();
+        let watched = !lines || io::stderr().is_terminal();
+        Self { state: Mutex::new(state), earlier: earlier.len(), volume, lines, watched }
     }
 
     fn state(&self) -> std::sync::MutexGuard<'_, State> {
@@ -224,13 +240,20 @@ impl Desk {
         Ok(())
     }
 
-    /// Records what came of the k-th input, and prints it when all before it are.
+    /// Records what came of the k-th input, and prints it when all before it are; to a terminal only what failed.
     pub fn end(&self, k: usize, line: &Line) {
         let mut state = self.state();
         let text = serde_json::to_string(line).expect("a line holds only words, numbers and lists of them");
         state.write(line);
         *state.exits.entry(line.exit).or_default() += 1;
         state.bar.one_more();
+        if self.watched && line.exit != 0 {
+            let help = line.failure.as_ref().map_or("", |failure| &failure.help);
+            state.bar.failed(&line.input, &line.ending, help);
+        }
+        if !self.lines {
+            return;
+        }
         state.waiting.insert(k, text);
         let next = state.next;
         let mut ready = String::new();

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// Something that was mended on the way in, with its place and size (a length, in units of the drawing): how far ends moved, how wide the gap
 /// between curves was that became one, how large what was lost; 0 where nothing moved.
-#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, schemars::JsonSchema)]
 pub struct Repair {
     pub kind: RepairKind,
     pub at: [f64; 2],
@@ -14,7 +14,7 @@ pub struct Repair {
     pub what: String,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum RepairKind {
     /// The whole drawing was welded within more than the default tolerance: its slivers would have taken too many vertices.

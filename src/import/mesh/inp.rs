@@ -250,15 +250,21 @@ impl Deck {
         for (k, list) in self.lists.iter().enumerate() {
             let mut size = 0;
             for member in &list.members {
-                let (tags, from, step): (Vec<u64>, _, _) = match member {
-                    Member::Element(tag) => (vec![*tag], *tag, 1),
+                let (tags, from, step, cost): (Vec<u64>, _, _, _) = match member {
+                    Member::Element(tag) => (vec![*tag], *tag, 1, 0),
                     Member::Range([from, to, step]) => {
                         let there = by_tag.range(*from..=(*to).max(*from)).map(|(&tag, _)| tag);
-                        (there.take(left + 1).collect(), *from, (*step).max(1))
+                        let tags: Vec<u64> = there.take(left + 1).collect();
+                        let cost = tags.len().max(1);
+                        (tags, *from, (*step).max(1), cost)
                     }
-                    Member::Set(name) => (by_set.get(&name.to_ascii_lowercase()).cloned().unwrap_or_default(), 0, 1),
+                    Member::Set(name) => {
+                        let tags = by_set.get(&name.to_ascii_lowercase()).cloned().unwrap_or_default();
+                        let cost = tags.len().max(1);
+                        (tags, 0, 1, cost)
+                    }
                 };
-                left = left.checked_sub(tags.len().max(1)).ok_or_else(|| {
+                left = left.checked_sub(cost).ok_or_else(|| {
                     let what = format!("element set '{}': the sets list elements again and again", list.name);
                     unsupported(what, "write each element into its sets once")
                 })?;

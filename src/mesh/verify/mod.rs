@@ -68,7 +68,7 @@ pub struct ConstrainedPromise {
     pub proven_above_rad: Option<f64>,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, schemars::JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Status {
     Proven,
@@ -79,7 +79,7 @@ pub enum Status {
 }
 
 /// One check of the verdict.
-#[derive(Clone, Debug, serde::Serialize)]
+#[derive(Clone, Debug, serde::Serialize, schemars::JsonSchema)]
 pub struct Check {
     pub name: &'static str,
     pub status: Status,
@@ -97,14 +97,14 @@ pub struct Check {
     pub flaws: Vec<String>,
 }
 
-#[derive(Clone, Copy, Debug, serde::Serialize)]
+#[derive(Clone, Copy, Debug, serde::Serialize, schemars::JsonSchema)]
 pub struct Worst {
     pub value: f64,
     pub at: [f64; 2],
 }
 
 /// Triangles below the angle that a corner excuses.
-#[derive(Clone, Debug, serde::Serialize)]
+#[derive(Clone, Debug, serde::Serialize, schemars::JsonSchema)]
 pub struct Excuse {
     pub at: [f64; 2],
     pub radius: f64,
