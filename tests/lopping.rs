@@ -368,8 +368,8 @@ fn a_strip_too_thin_is_refused_with_an_angle_that_ends() {
     let failure = refused.report.failure.expect("it takes more than a hundred thousand");
     assert_eq!((refused.exit, refused.mesh.is_some()), (Exit::Missed, false));
     assert_eq!(refused.report.stop.expect("an estimate").reason, StopReason::VertexBudget);
-    assert!(failure.at.is_some() && failure.help.contains("--min-angle 5,"), "{}", failure.help);
-    assert_eq!(run(drawing, &Request { min_angle: 5.0, ..few }).exit, Exit::Done);
+    assert!(failure.at.is_some() && failure.help.contains("--min-angle 3,"), "{}", failure.help);
+    assert_eq!(run(drawing, &Request { min_angle: 3.0, ..few }).exit, Exit::Done);
 }
 
 /// An L with a bore.
@@ -422,7 +422,7 @@ fn the_size_of_a_region_is_graded_outside_of_it() {
     let drawing = r#"{"squinch": 1, "fill": "regions", "curves": [
         {"name": "rim", "polygon": [[-4, -4], [4, -4], [4, 4], [-4, 4]]},
         {"name": "seam", "polygon": [[-1, -1], [1, -1], [1, 1], [-1, 1]]}],
-        "regions": [{"name": "core", "at": [0, 0]}, {"name": "plate", "at": [3, 3]}]}"#;
+        "seeds": [{"region": "core", "at": [0, 0]}, {"region": "plate", "at": [3, 3]}]}"#;
     for engine in [Engine::Lop, Engine::Gcdr] {
         let sized = Request { size_of: vec![SizeOf { name: "core".into(), edge: 0.2 }], engine, ..Request::default() };
         let alone = run(drawing, &sized);
