@@ -10,10 +10,12 @@ use squinch::geometry::Point;
 use squinch::ids::PointId;
 use squinch::mesh::verify::{Status, Verdict, guaranteed_angle, verify};
 use squinch::mesh::{BallReason, Mesh, quality};
+use squinch::pipeline::{self, Exit, Extent, Outcome, Source};
 use squinch::plane::Midpoint;
 use squinch::plane::lopping::demand::{Circles, Demand};
 use squinch::plane::lopping::{self, Options, Refined, Shrinking, arc_turning};
 use squinch::refine::StopReason;
+use squinch::request::{Engine, Request, SizeOf, Steiner};
 use squinch::size::Sizing;
 use squinch::watch::Progress;
 use std::f64::consts::FRAC_PI_3;
@@ -293,5 +295,156 @@ fn the_complexes_of_the_bench_take_at_least_what_is_told() {
     for seed in 0..24 {
         let (told, taken) = told_and_taken(&curved_complex(seed), &Options::default());
         assert!(told <= taken, "seed {seed}: {told} told, {taken} taken");
+    }
+}
+
+/// A rectangle from the origin.
+fn strip(length: f64, width: f64) -> Drawing {
+    let (l, w) = (length, width);
+    drawing_of(&[(0.0, 0.0, l, 0.0, 0.0), (l, 0.0, l, w, 0.0), (l, w, 0.0, w, 0.0), (0.0, w, 0.0, 0.0, 0.0)])
+}
+
+/// What is told of slivers before a run that keeps diametral circles empty, or not.
+fn told(drawing: &Drawing, circles: Circles) -> f64 {
+    let demand = Demand::of(&domain_of(drawing, 0.5), &Options::default(), circles, &mut |_| true);
+    demand.expect("nobody says stop").vertices()
+}
+
+#[test]
+fn each_kind_of_sliver_is_told_to_within_a_few_times() {
+    let needle = |w: f64| drawing_of(&[(0.0, 0.0, 1.0, 0.0, 0.0), (1.0, 0.0, 1.0, w, 0.0), (1.0, w, 0.0, 0.0, 0.0)]);
+    let spindle = |w: f64| drawing_of(&[(0.0, 0.0, 1.0, 0.0, 0.0), (1.0, 0.0, 0.5, w, 0.0), (0.5, w, 0.0, 0.0, 0.0)]);
+    let ring = |w: f64| {
+        let half = |r: f64| [(-r, 0.0, r, 0.0, 1.0), (r, 0.0, -r, 0.0, 1.0)];
+        drawing_of(&[half(1.0), half(1.0 - w)].concat())
+    };
+    let free_ends = |w: f64| {
+        let mut curves = boxed(2.0);
+        curves.extend([(0.0, 0.0, 1.0, 0.0, 0.0), (0.0, w, 1.0, w, 0.0)]);
+        drawing_of(&curves)
+    };
+    // Along polylines it is sure in parts what lies beside them.
+    let polylines = |w: f64| {
+        let sides = (0..10).flat_map(|i| {
+            let x = f64::from(i) / 10.0;
+            [(x, 0.0, x + 0.1, 0.0, 0.0), (x + 0.05, w, x + 0.15, w, 0.0)]
+        });
+        drawing_of(&boxed(2.0).into_iter().chain(sides).collect::<Vec<_>>())
+    };
+    for width in [1e-3, 1e-4] {
+        for (name, drawing, most) in [
+            ("strip", strip(1.0, width), 1.01),
+            ("needle", needle(width), 2.0),
+            ("spindle", spindle(width), 2.0),
+            ("ring", ring(width), 2.5),
+            ("free ends", free_ends(width), 2.5),
+            ("polylines", polylines(width), 4.0),
+        ] {
+            let (told, taken) = told_and_taken(&drawing, &Options::default());
+            assert!(told <= taken && taken <= most * told, "{name} {width}: {told} told, {taken} taken");
+        }
+        let constrained = told(&needle(width), Circles::Any);
+        assert!(constrained == 0.0, "shells cross a needle in a few steps, not in {constrained}");
+    }
+    // Pieces are halves of halves: 2²⁰ fit into a strip of 2e-7, half as thin takes twice as many.
+    for (width, most) in [(1e-6, 1.1e6), (2e-7, 4.2e6)] {
+        let told = told(&strip(1.0, width), Circles::Empty);
+        assert!(told < most && told > 0.4 * most, "{width}: {told}");
+    }
+    assert!(told(&strip(1.0, 1e-7), Circles::Empty) > 5e6);
+    assert!(told(&ring(1e-7), Circles::Any) > 5e6);
+}
+
+fn run(drawing: &str, request: &Request) -> Outcome {
+    let source = Source { path: "a.json", bytes: drawing.as_bytes(), format: None, nodes: None, of_many: false };
+    pipeline::run(&source, request, Extent::Whole(&mut |_| true))
+}
+
+#[test]
+fn a_strip_too_thin_is_refused_with_an_angle_that_ends() {
+    let drawing = r#"{"squinch": 1, "curves": [{"polygon": [[0, 0], [1, 0], [1, 1e-5], [0, 1e-5]]}]}"#;
+    let few = Request { max_vertices: 50_000, tolerance: Some(0.0), ..Request::default() };
+    let refused = run(drawing, &few);
+    let failure = refused.report.failure.expect("it takes more than a hundred thousand");
+    assert_eq!((refused.exit, refused.mesh.is_some()), (Exit::Missed, false));
+    assert_eq!(refused.report.stop.expect("an estimate").reason, StopReason::VertexBudget);
+    assert!(failure.at.is_some() && failure.help.contains("--min-angle 3,"), "{}", failure.help);
+    assert_eq!(run(drawing, &Request { min_angle: 3.0, ..few }).exit, Exit::Done);
+}
+
+/// An L with a bore.
+const BRACKET: &str = r#"{"squinch": 1, "curves": [
+    {"polygon": [[0, 0], [6, 0], [6, 1], [1, 1], [1, 4], [0, 4]]},
+    {"circle": {"center": [0.5, 0.5], "radius": 0.2}}]}"#;
+
+#[test]
+fn an_angle_beyond_reach_ends_with_the_mesh_of_one_that_ends() {
+    for (engine, steiner) in [
+        (Engine::Lop, Steiner::Center),
+        (Engine::Gcdr, Steiner::Center),
+        (Engine::Gcdr, Steiner::Offcenter),
+        (Engine::Gcdr, Steiner::OptimalFree),
+    ] {
+        let asked = |min_angle: f64| Request { min_angle, engine, steiner, ..Request::default() };
+        let usual = run(BRACKET, &asked(34.0));
+        assert_eq!(usual.exit, Exit::Done, "{engine:?} {steiner:?}");
+        for angle in [45.0, 59.0] {
+            let hopeless = run(BRACKET, &asked(angle));
+            assert_eq!(hopeless.exit, Exit::Missed);
+            let stop = hopeless.report.stop.expect("it ended");
+            assert_eq!((stop.reason, stop.angle_deg), (StopReason::NoProgress, Some(34.0)));
+            assert!(stop.owed > 0 && !stop.places.is_empty());
+            assert!(hopeless.report.quality.expect("of a mesh").min_unexcused_angle_deg >= 34.0);
+            assert_eq!(hopeless.mesh, usual.mesh, "{engine:?} {steiner:?} {angle}");
+        }
+    }
+    // What ends beyond the usual gives its own mesh.
+    let more = Request { min_angle: 35.0, engine: Engine::Gcdr, steiner: Steiner::OptimalFree, ..Request::default() };
+    let more = run(BRACKET, &more);
+    assert_eq!((more.exit, more.report.stop.expect("it ended").angle_deg), (Exit::Done, None));
+}
+
+#[test]
+fn a_run_that_gets_nowhere_ends_by_itself() {
+    // More than 34° is beyond what these engines reach; without a budget they would go on for ever.
+    let options = Options { angle_min_rad: 37f64.to_radians(), max_vertices: 1_000_000, ..Options::default() };
+    let refined = refine(&domain_of(&drawing_of(&boxed(1.0)), 0.5), &options);
+    assert_eq!(refined.stop.reason, StopReason::Done, "four right angles are a mesh of 45°");
+    let mut curves = boxed(1.0);
+    curves.extend([(-0.3, 0.1, 0.7, 0.2, 0.0), (-0.5, -0.5, 0.4, -0.6, 0.3)]);
+    let refined = refine(&domain_of(&drawing_of(&curves), 0.5), &options);
+    assert_eq!(refined.stop.reason, StopReason::NoProgress);
+    assert!(refined.vertices < 200_000 && refined.mesh.is_some() && refined.stop.owed > 0, "{}", refined.vertices);
+}
+
+#[test]
+fn the_size_of_a_region_is_graded_outside_of_it() {
+    let drawing = r#"{"squinch": 1, "fill": "regions", "curves": [
+        {"name": "rim", "polygon": [[-4, -4], [4, -4], [4, 4], [-4, 4]]},
+        {"name": "seam", "polygon": [[-1, -1], [1, -1], [1, 1], [-1, 1]]}],
+        "seeds": [{"region": "core", "at": [0, 0]}, {"region": "plate", "at": [3, 3]}]}"#;
+    for engine in [Engine::Lop, Engine::Gcdr] {
+        let sized = Request { size_of: vec![SizeOf { name: "core".into(), edge: 0.2 }], engine, ..Request::default() };
+        let alone = run(drawing, &sized);
+        let graded = run(drawing, &Request { grade: Some(0.1), ..sized });
+        assert_eq!((alone.exit, graded.exit), (Exit::Done, Exit::Done), "{:?}", graded.report.failure);
+        let longest_at = |outcome: &Outcome, least: f64, most: f64| {
+            let mesh = outcome.mesh.as_ref().expect("a mesh");
+            let edges = mesh.triangles.ids().flat_map(|t| {
+                let [a, b, c] = mesh.corners(t);
+                [(a, b), (b, c), (c, a)]
+            });
+            let away = |p: Point| p.x.abs().max(p.y.abs()) - 1.0;
+            let near = edges.filter(|&(a, b)| (least..most).contains(&away(a.midpoint(b))));
+            near.map(|(a, b)| a.distance(b)).fold(0.0, f64::max)
+        };
+        assert!(longest_at(&graded, -1.0, -0.1) <= 0.2);
+        for (least, most) in [(0.0, 0.5), (0.5, 1.0), (1.0, 2.0), (2.0, 3.0)] {
+            let longest = longest_at(&graded, least, most);
+            // The limit holds at the middle of a triangle, which lies as far away as corners beyond the sides.
+            assert!(longest <= 0.2 + 0.1 * (1.42 * most + longest), "{longest} in {least} to {most}");
+        }
+        let far = |outcome: &Outcome| longest_at(outcome, 1.0, 3.0);
+        assert!(far(&graded) > 0.3 && far(&alone) > 1.5 * far(&graded), "{} {}", far(&alone), far(&graded));
     }
 }

@@ -54,7 +54,7 @@ pub struct Options {
     /// which the size grows by --grade [default there: 0.3]
     #[arg(long, value_name = "FILE|EXPR", allow_hyphen_values = true, help_heading = "Bounds")]
     size: Option<String>,
-    /// Growth of a sized boundary's edge length a unit of distance away from it
+    /// Growth of the edge length of a sized boundary or region a unit of distance away from it
     #[arg(long, value_name = "G", allow_hyphen_values = true, help_heading = "Bounds")]
     grade: Option<f64>,
     /// Order of the cells: 2 puts a node on the curve within every edge [default: 1]

@@ -194,10 +194,10 @@ struct Price<'a> {
 impl Price<'_> {
     /// Vertices on one side of a sliver.
     fn vertices(&self, sliver: &Sliver) -> f64 {
-        if self.circles == Circles::Any && self.survey.lies_in_corner(sliver) {
+        let rough = CAUTION * (sliver.length / self.longest(sliver.width) - 1.0).max(0.0);
+        if rough > 0.0 && self.circles == Circles::Any && self.survey.lies_in_corner(sliver) {
             return 0.0;
         }
-        let rough = CAUTION * (sliver.length / self.longest(sliver.width) - 1.0).max(0.0);
         if rough < CHEAP { rough } else { self.on_stretch(sliver, 0) }
     }
 
