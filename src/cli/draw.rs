@@ -72,6 +72,8 @@ impl Colour {
             Self::Quality => MeshColour::Quality,
             Self::Region => MeshColour::Region,
             Self::Size => MeshColour::Size,
+            // Of drawings only; a mesh has regions.
+            Self::Layer => MeshColour::Region,
         }
     }
 }
@@ -157,21 +159,10 @@ impl Draw {
         };
         let mesh = refined.mesh.ok_or_else(|| pipeline::no_mesh(&refined.stop, "--timeout"))?;
         Ok(picture_of_mesh(&mesh, Some(&domain), self.colour.of_mesh(), picture))
-        Ok(picture_of_mesh(&mesh, Some(&domain), self.mesh_colour(), picture))
     }
 
     fn shown(&self) -> Stage {
         self.stage.unwrap_or(if self.colour == Colour::Layer { Stage::Drawing } else { Stage::Mesh })
-    }
-
-    fn mesh_colour(&self) -> MeshColour {
-        match self.colour {
-            Colour::Quality => MeshColour::Quality,
-            Colour::Region => MeshColour::Region,
-            Colour::Size => MeshColour::Size,
-            // Of drawings only; a mesh has regions.
-            Colour::Layer => MeshColour::Region,
-        }
     }
 
     fn picture(&self, title: String, balls: bool) -> PictureOptions {

@@ -2,9 +2,6 @@
 
 use crate::curve::Curve;
 use crate::geometry::{Frame, Point, Rect, finest_decimal};
-use crate::ids::{ClipId, IdVec, LayerId, NameId, Names, ShapeId};
-
-use crate::geometry::{Frame, Point, Rect};
 use crate::ids::{ClipId, Colour, IdVec, LayerId, NameId, Names, ShapeId};
 use std::collections::BTreeMap;
 

@@ -163,7 +163,6 @@ impl Scene {
         positions: Index<json::Accessor>,
     ) -> io::Result<Vec<Primitive>> {
         let mut primitives = Vec::new();
-        let ink = (!mesh.edges.is_empty()).then(|| self.material("boundary", [0.02, 0.02, 0.02]));
         let ink = (!mesh.edges.is_empty()).then(|| self.material("boundary", [0.02, 0.02, 0.02, 1.0]));
         for ((edges, name), ink) in groups.edges().iter().zip(&groups.boundaries).zip(ink.iter().cycle()) {
             let ends = edges.iter().flat_map(|&i| straight_edges(mesh, i)).flatten().map(|v| v.0);

@@ -475,9 +475,8 @@ impl File {
             for (k, curve) in entry.curves.into_iter().enumerate() {
                 let entity = if several { format!("{whole}, edge {k}") } else { whole.clone() };
                 let drawn = DrawnCurve::new(curve, name, entity).with_written_ends();
-                d.curves.push(DrawnCurve { shape: entry.shape.map(ShapeId), ..drawn });
                 let (shape, clip) = (entry.shape.map(ShapeId), entry.clip.map(ClipId));
-                d.curves.push(DrawnCurve { shape, clip, ..DrawnCurve::new(curve, name, entity) });
+                d.curves.push(DrawnCurve { shape, clip, ..drawn });
             }
         }
         for (i, p) in self.points.into_iter().enumerate() {
