@@ -1,6 +1,7 @@
 //! From bytes to a judged mesh: read → arrange → split to turning → refine → verify. Each stage can be had alone.
 
 mod angles;
+mod budget;
 mod healing;
 
 use crate::domain::{
@@ -159,7 +160,7 @@ impl Outcome {
             let (domain, plan) = Plan::new(drawing, &arranged, request, watch)?;
             self.report.request.note_use(drawing, &arranged, &plan);
             self.report.seconds.arrange += clock.lap();
-            plan.afford(&domain, watch)?;
+            plan.afford(&domain, &healing, watch)?;
             let refined = match steps {
                 None => plan.refine(&domain, watch),
                 Some(steps) => plan.refine_steps(&domain, steps),
@@ -642,38 +643,6 @@ impl Plan {
 
     pub fn sizing(&self) -> &Sizing {
         &self.options.sizing
-    }
-
-    /// Refuses at once what takes more vertices than the budget.
-    ///
-    /// # Errors
-    /// With the dearest places; and where the watch says stop.
-    pub fn afford(&self, domain: &Domain, watch: &mut Watch) -> Result<(), FailureReport> {
-        let demand = self.demand(domain, watch)?;
-        let (vertices, budget) = (demand.vertices(), self.options.max_vertices as f64);
-        if vertices <= budget {
-            return Ok(());
-        }
-        let stop = Stop {
-            reason: StopReason::VertexBudget,
-            owed: (vertices - budget) as usize,
-            places: demand.places(),
-            angle_deg: None,
-        };
-        let (why, help) = if demand.by_size >= demand.by_slivers() {
-            ("the sizes asked for", "ask for larger sizes, or give more by --max-vertices".to_owned())
-        } else {
-            let width = demand.width_over(budget);
-            let angle =
-                self.affordable_angle(domain, watch)?.map_or_else(String::new, |a| format!(" as --min-angle {a}"));
-            let help = format!(
-                "curves run that near to each other: ask for a smaller angle{angle}, weld what is nearer than {width:.1e} by \
-                 --tolerance, leave edges below a length by --min-edge, or give more by --max-vertices"
-            );
-            ("slivers between curves", help)
-        };
-        let what = format!("{why} take {vertices:.3e} vertices or more");
-        Err(FailureReport { what, help, ..no_mesh(&stop, "--max-vertices") })
     }
 
     fn demand(&self, domain: &Domain, watch: &mut Watch) -> Result<Demand, Stopped> {

@@ -136,6 +136,18 @@ impl<'a> Healing<'a> {
         self.coarser(None, &Why { at: Point::new(x, y), what: failure.what.clone() }, watch)
     }
 
+    /// The drawing within a tolerance that nobody asked for yet; `None` where that leaves nothing to mesh.
+    ///
+    /// # Errors
+    /// Where the watch says stop.
+    pub fn welded(&self, tolerance: f64, watch: &mut Watch) -> Result<Option<Domain>, Stopped> {
+        match self.arrange_within(Some(tolerance), watch) {
+            Ok(domain) => Ok(Some(domain).filter(|domain| !domain.regions().is_empty())),
+            Err(Unarranged::Invalid(_)) => Ok(None),
+            Err(Unarranged::Stopped(stopped)) => Err(stopped),
+        }
+    }
+
     /// The first domain, within coarser and coarser tolerances, of which the slivers will do; or else the one with the least of them.
     fn coarser(
         &mut self,

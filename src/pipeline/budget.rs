@@ -1,0 +1,68 @@
+//! What a request takes at least, known before an engine starts; and where that is too much, a way out.
+
+use super::healing::Healing;
+use super::{Plan, no_mesh};
+use crate::domain::Domain;
+use crate::refine::{Stop, StopReason};
+use crate::report::FailureReport;
+use crate::watch::Watch;
+
+/// Tolerances that are tried where slivers are too dear, as multiples of the width that is told for them, which is at most the true one.
+const WELDS: [f64; 4] = [2.0, 4.0, 8.0, 16.0];
+
+impl Plan {
+    /// Refuses at once what takes more vertices than the budget.
+    ///
+    /// # Errors
+    /// With the dearest places and a way out; and where the watch says stop.
+    pub fn afford(&self, domain: &Domain, healing: &Healing, watch: &mut Watch) -> Result<(), FailureReport> {
+        let demand = self.demand(domain, watch)?;
+        let (vertices, budget) = (demand.vertices(), self.options.max_vertices as f64);
+        if vertices <= budget {
+            return Ok(());
+        }
+        let owed = (vertices - budget) as usize;
+        let stop = Stop { reason: StopReason::VertexBudget, owed, places: demand.places(), angle_deg: None };
+        let (why, help) = if demand.by_size >= demand.by_slivers() {
+            ("the sizes asked for", "ask for larger sizes, or give more by --max-vertices".to_owned())
+        } else {
+            ("slivers between curves", self.out_of_slivers(domain, demand.width_over(budget), healing, watch)?)
+        };
+        let what = format!("{why} take {vertices:.3e} vertices or more");
+        Err(FailureReport { what, help, ..no_mesh(&stop, "--max-vertices") })
+    }
+
+    /// The finest tolerance that leaves slivers of few enough vertices, else an angle that they would keep.
+    fn out_of_slivers(
+        &self,
+        domain: &Domain,
+        width: f64,
+        healing: &Healing,
+        watch: &mut Watch,
+    ) -> Result<String, FailureReport> {
+        let budget = self.options.max_vertices as f64;
+        let mut way = None;
+        for within in WELDS.map(|times| rounded(times * width)) {
+            let Some(welded) = healing.welded(within, watch)? else { continue };
+            let welded = welded.split_to_turning_watched(self.tau_rad, watch)?;
+            if self.demand(&welded, watch)?.vertices() <= budget {
+                way = Some(format!("weld what is nearer than {within:?} by --tolerance {within:?}, "));
+                break;
+            }
+        }
+        let way = match way {
+            Some(way) => way,
+            None => self
+                .affordable_angle(domain, watch)?
+                .map_or_else(String::new, |angle| format!("ask for a smaller angle by --min-angle {angle}, ")),
+        };
+        Ok(format!(
+            "curves run that near to each other: {way}leave edges below a length by --min-edge, or give more by --max-vertices"
+        ))
+    }
+}
+
+/// A length in two digits.
+fn rounded(length: f64) -> f64 {
+    format!("{length:.1e}").parse().unwrap_or(length)
+}
