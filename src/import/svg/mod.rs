@@ -111,7 +111,7 @@ pub fn read(bytes: &[u8], stem: &str, options: &SvgOptions, selection: &Selectio
     reader.index(root);
     reader.walk(root, Context::of(page.viewport, page.upward))?;
     let broken = reader.broken.take();
-    let mut drawing = reader.drawn();
+    let mut drawing = reader.drawn()?;
     if let Some(error) = broken.filter(|_| drawing.curves.is_empty()) {
         return Err(error);
     }
@@ -649,7 +649,7 @@ impl<'a> Reader<'a> {
             let error = stroke::OFFSET_ERROR * pen.width * libm::sqrt(after.determinant().abs());
             self.offset_error = self.offset_error.max(error);
         }
-        self.expand(covered.outlines.len())?;
+        self.expand(covered.outlines.iter().map(|s| s.curves.len()).sum())?;
         Ok(covered.outlines.into_iter().map(|s| s.transformed(after)).collect())
     }
 
@@ -837,7 +837,7 @@ impl<'a> Reader<'a> {
     // ---- the drawing ----
 
     /// Shapes, and centre lines as asked for.
-    fn drawn(mut self) -> Drawing {
+    fn drawn(mut self) -> Result<Drawing, ImportError> {
         let strokes = self.strokes;
         let mut elements = std::mem::take(&mut self.elements);
         let is_shape = |e: &Element| e.filled && !e.is_background;
@@ -871,7 +871,7 @@ impl<'a> Reader<'a> {
                 continue;
             }
             let name = self.drawing.names.intern(&element.name);
-            let Left::In(clip) = self.left_of(bounds, element.cut_by, element.filled, name) else {
+            let Left::In(clip) = self.left_of(bounds, element.cut_by, element.filled, name)? else {
                 self.skip(element.tag, "cut away by a clip path or a viewport");
                 continue;
             };
@@ -913,7 +913,7 @@ impl<'a> Reader<'a> {
             self.drawing.skipped.push(Skipped { entity: "path command".into(), count, why: why.into() });
         }
         self.drawing.unmatched = self.chooser.unmatched();
-        self.drawing
+        Ok(self.drawing)
     }
 
     fn add_shape(&mut self, element: Element, name: NameId, clip: Option<ClipId>) {
