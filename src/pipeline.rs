@@ -478,7 +478,8 @@ pub fn unhealed(drawing: &Drawing, request: &Request, notes: &mut Vec<String>, w
 
 impl From<ArrangeError> for FailureReport {
     fn from(error: ArrangeError) -> Self {
-        Self::new(FailureKind::Geometry, error.what, error.help).at(error.at)
+        let also_at = error.also_at.iter().map(|at| [at.x, at.y]).collect();
+        Self { also_at, ..Self::new(FailureKind::Geometry, error.what, error.help).at(error.at) }
     }
 }
 

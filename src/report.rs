@@ -322,6 +322,9 @@ pub struct FailureReport {
     pub kind: FailureKind,
     pub what: String,
     pub at: Option<[f64; 2]>,
+    /// Further places of the same flaw, as many as `what` lists.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub also_at: Vec<[f64; 2]>,
     pub line: Option<usize>,
     pub column: Option<usize>,
     pub help: String,
@@ -345,7 +348,16 @@ pub enum FailureKind {
 
 impl FailureReport {
     pub fn new(kind: FailureKind, what: impl Into<String>, help: impl Into<String>) -> Self {
-        Self { kind, what: what.into(), at: None, line: None, column: None, help: help.into(), stop: None }
+        Self {
+            kind,
+            what: what.into(),
+            at: None,
+            also_at: Vec::new(),
+            line: None,
+            column: None,
+            help: help.into(),
+            stop: None,
+        }
     }
 
     pub fn at(self, place: Point) -> Self {
