@@ -330,7 +330,7 @@ fn give_names(drawing: &mut Drawing, request: &Request, of_many: bool) -> Result
     drawing.name_each(request.names.rule());
     for name in &request.name {
         match drawing.give_name(name) {
-            Ok(what) => drawing.notes.push(what),
+            Ok(what) => drawing.notes.extend(what),
             Err(why) if of_many => drawing.notes.push(format!("--name {name}: {why}")),
             Err(why) => return Err(FailureReport::new(FailureKind::Request, format!("--name {name}: {why}"), "")),
         }

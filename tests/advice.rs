@@ -1,4 +1,5 @@
 //! What the program suggests works when typed: options that messages, helps and notes name, examples of the help, commands of README.
+//! And what it notices of an input is told wherever one looks: at the end of a run, in its report, in the lines of a batch.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -189,6 +190,8 @@ fn every_option_named_is_an_option() {
 #[test]
 fn outlines_that_miss_closing() {
     let bench = Bench::new("closing", &[("gap.json", GAP), ("crack.json", CRACK)]);
+    bench.said(&words("draw gap.json --stage drawing -o gap.svg"), 0);
+    bench.said(&words("draw gap.json --stage drawing -o gap.png"), 0);
     let bored = 100.0 - std::f64::consts::PI;
     bench.follow("mesh gap.json -o o.vtu --report r.json", 4, "--close");
     assert!((bench.area() - bored).abs() < 1e-9);
@@ -293,6 +296,62 @@ fn strokes_and_tails() {
     let bench = Bench::new("strokes", &[("mixed.svg", svg)]);
     let (_, then) = bench.follow("mesh mixed.svg -o o.vtu", 0, "--strokes");
     assert!(!then.contains("stroke only") && then.contains("8 lines"), "{then}");
+}
+
+/// A wedge-shaped section from its tail around its nose, every coordinate times `scale`, below some lines.
+fn section(head: &str, scale: f64) -> String {
+    let points = [[1.0, 0.001], [0.5, 0.05], [0.1, 0.04], [0.0, 0.0], [0.1, -0.04], [0.5, -0.05], [1.0, -0.001]];
+    head.to_owned() + &points.map(|[x, y]| format!("{} {}\n", x * scale, y * scale)).concat()
+}
+
+#[test]
+fn what_is_noticed_is_told_in_runs_reports_and_batches() {
+    let part = [rectangle("PART", [0.0, 0.0, 40.0, 30.0]), circle("PART", [20.0, 15.0, 5.0])];
+    let framed = dxf(&[&[rectangle("FRAME", [-10.0, -10.0, 50.0, 40.0])][..], &part].concat());
+    let twice = dxf(&[&part[..], &part].concat());
+    let masked = r##"<svg xmlns="http://www.w3.org/2000/svg" width="40" height="40"><mask id="m"><circle r="9"/></mask>
+        <rect width="20" height="20" mask="url(#m)"/></svg>"##;
+    let kinds: [(&str, &str, &str); 8] = [
+        ("percent.dat", &section("percent\n", 100.0), "percent"),
+        ("header.dat", &section("header\n1 0.12\n", 1.0), "passed over"),
+        ("crack.json", CRACK, "1 line is open"),
+        ("framed.dxf", &framed, "drawing frame"),
+        ("twice.dxf", &twice, "curves are drawn twice"),
+        ("masked.svg", masked, "masks are not applied"),
+        ("unit.dxf", &dxf(&part), "The file names no unit"),
+        ("named.dxf", &dxf(&part), "--skip-layers FRMAE"),
+    ];
+    let bench = Bench::new("notes", &kinds.map(|(file, text, _)| (file, text)));
+    let lines = bench.run(&words("batch . --out-dir out --format vtu --skip-layers FRMAE")).stdout;
+    let lines = String::from_utf8(lines).expect("text");
+    for (file, _, note) in kinds {
+        let line = lines.lines().find(|line| line.contains(file)).unwrap_or_else(|| panic!("{file} in {lines}"));
+        let line: serde_json::Value = serde_json::from_str(line).expect("JSON");
+        assert!(line["exit"] == 0 && line["notes"].to_string().contains(note), "{line}");
+        if note.starts_with("--") {
+            continue; // alone, a run refuses it
+        }
+        let said = bench.said(&["mesh", file, "-o", "o.vtu", "--report", "r.json"], 0);
+        let report = fs::read_to_string(bench.0.join("r.json")).expect("a report");
+        let report: serde_json::Value = serde_json::from_str(&report).expect("JSON");
+        assert!(report["input"]["notes"].to_string().contains(note), "{file}: {}", report["input"]["notes"]);
+        assert!(said.contains(note), "{file}: {said}");
+        let said = bench.said(&["mesh", file, "-o", "o.vtu", "--quiet"], 0);
+        assert_eq!(said, "", "{file}");
+    }
+}
+
+#[test]
+fn a_run_tells_a_few_notes_and_all_where_asked_for() {
+    // Six layers that cross a disk, each in a place of its own.
+    let across = (0..6).map(|k| circle(&format!("L{k}"), [40.0 * f64::from(k), 0.0, 3.0]));
+    let around = (0..6).map(|k| circle("0", [40.0 * f64::from(k) + 3.0, 0.0, 3.0]));
+    let crossed = dxf(&across.chain(around).collect::<Vec<_>>());
+    let bench = Bench::new("few", &[("crossed.dxf", &crossed)]);
+    let said = bench.said(&words("mesh crossed.dxf -o o.vtu"), 0);
+    assert!(said.matches("note ").count() == 4 && said.contains("notes more (-v lists them)"), "{said}");
+    let said = bench.said(&words("mesh crossed.dxf -o o.vtu -v"), 0);
+    assert!((0..6).all(|k| said.contains(&format!("layer L{k} cross"))) && !said.contains("notes more"), "{said}");
 }
 
 /// Lines of a text that call the program.

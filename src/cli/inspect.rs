@@ -212,8 +212,7 @@ impl Findings {
         self.notes.iter().for_each(|note| row("note", note));
         say::repair_rows(&self.repairs, &self.unhealed, volume, &mut row);
         for flaw in &self.flaws {
-            let place = flaw.at.map_or_else(String::new, |at| format!(" at {}", say::place(at)));
-            row("flaw", &format!("{}{place}", ink.red(&flaw.what)));
+            row("flaw", &ink.red(&say::located(&flaw.what, flaw.at)));
             if !flaw.help.is_empty() {
                 row("", &flaw.help);
             }

@@ -90,11 +90,18 @@ pub fn failure(report: &FailureReport, input: Option<&Input>) {
         let span = span_of_line(&text, number, report.column);
         return pointing(&report.what, Some(&report.help), &input.path, &text, span);
     }
-    let place = report.at.map_or_else(String::new, |at| format!(" at {}", place(at)));
     let path = input.map_or_else(String::new, |input| format!("{}: ", input.path));
-    error(&format!("{path}{}{place}", report.what));
+    error(&format!("{path}{}", located(&report.what, report.at)));
     if !report.help.is_empty() {
         help(&report.help);
+    }
+}
+
+/// What is wrong, with the place where the words do not name it.
+pub fn located(what: &str, at: Option<[f64; 2]>) -> String {
+    match at.map(place) {
+        Some(place) if !what.contains(&place) => format!("{what} at {place}"),
+        Some(_) | None => what.to_owned(),
     }
 }
 
