@@ -392,6 +392,7 @@ fn tell_unmatched(drawing: &mut Drawing, of_many: bool) -> Result<(), FailureRep
 impl From<ImportError> for FailureReport {
     fn from(error: ImportError) -> Self {
         let ImportError { what, line, column, help } = error;
+        let [line, column] = [line, column].map(|number| number.and_then(|n| u32::try_from(n).ok()));
         Self { line, column, ..Self::new(FailureKind::Unreadable, what, help) }
     }
 }

@@ -325,8 +325,8 @@ pub struct FailureReport {
     /// Further places of the same flaw, as many as `what` lists.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub also_at: Vec<[f64; 2]>,
-    pub line: Option<usize>,
-    pub column: Option<usize>,
+    pub line: Option<u32>,
+    pub column: Option<u32>,
     pub help: String,
     /// The end of the stage that a budget cut short: `stop` of the report.
     #[serde(skip)]

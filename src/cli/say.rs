@@ -87,7 +87,7 @@ pub fn halt(halt: Halt) -> Exit {
 pub fn failure(report: &FailureReport, input: Option<&Input>) {
     if let (Some(input), Some(number)) = (input, report.line) {
         let text = String::from_utf8_lossy(&input.bytes);
-        let span = span_of_line(&text, number, report.column);
+        let span = span_of_line(&text, number as usize, report.column.map(|column| column as usize));
         return pointing(&report.what, Some(&report.help), &input.path, &text, span);
     }
     let path = input.map_or_else(String::new, |input| format!("{}: ", input.path));
