@@ -999,7 +999,7 @@ fn painted<const N: usize>(shapes: [(&str, bool, Vec<Curve>); N]) -> Drawing {
     let mut drawing = Drawing { fill: FillRule::Shapes, ..Drawing::default() };
     for (name, even_odd, curves) in shapes {
         let name = drawing.names.intern(name);
-        let shape = drawing.shapes.push(Shape { name, even_odd, entity: "path".into() });
+        let shape = drawing.shapes.push(Shape::new(name, even_odd, "path"));
         for curve in curves {
             drawing.add(curve, "ink", "curve");
             drawing.curves.last_mut().unwrap().shape = Some(shape);
@@ -1119,7 +1119,7 @@ fn shapes_nested_deep_are_painted_in_turn() {
     let mut drawing = Drawing { fill: FillRule::Shapes, ..Drawing::default() };
     for k in 0..rings {
         let name = drawing.names.intern(&format!("ring {k}"));
-        let shape = drawing.shapes.push(Shape { name, even_odd: false, entity: "circle".into() });
+        let shape = drawing.shapes.push(Shape::new(name, false, "circle"));
         drawing.add(circle(0.0, 0.0, f64::from(rings - k)), "ink", "circle");
         drawing.curves.last_mut().unwrap().shape = Some(shape);
     }

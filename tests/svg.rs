@@ -515,7 +515,7 @@ fn style_sheets_cascade_by_specificity() {
         <rect class="f" fill="red" width="1" height="1"/><g><path id="" class="x" style="fill:none" d="M0 0h1v1z"/></g>"#);
     let wanted = ["#010101", "red", "red", "#040404", "#060606", "red", "#070707", "#090909", "#0a0a0a", "red"];
     assert_eq!(names(&drawing), wanted);
-    assert_eq!(drawing.notes, Vec::<String>::new());
+    assert!(!drawing.notes.iter().any(|note| note.contains("style sheet")), "{:?}", drawing.notes);
     let unread = svg("<style>g:has(a), b { fill: red } @supports (fill: red) { a { fill: red } }</style>").notes;
     assert_eq!(unread, ["2 selectors or at-rules of the style sheet are of kinds that are not read."]);
     let ids = svg(r#"<style>#x { fill: none } .y { fill-rule: evenodd }</style><rect id="x" width="1" height="1"/>
