@@ -5,6 +5,7 @@ use squinch::curve::Curve;
 use squinch::domain::{ArrangeOptions, Drawing, FillRule};
 use squinch::geometry::Point;
 use squinch::import::{Format, ImportError, Options, Selection, Strokes, SvgOptions, format_of, read};
+use squinch::plane::lopping::{self, refine};
 use std::f64::consts::PI;
 use std::io::Write;
 use std::path::Path;
@@ -1062,4 +1063,26 @@ fn regions_know_the_colours_of_their_shapes() {
     assert_eq!(names(&drawing), ["a", "b", "c"], "a gradient without stops paints nothing");
     let colours: Vec<[u8; 4]> = drawing.colours.values().map(|colour| colour.0).collect();
     assert_eq!(colours, [[255, 128, 0, 255], [128, 128, 128, 255], [0, 255, 0, 64]]);
+}
+
+#[test]
+fn colours_reach_gltf_and_vtu() {
+    let drawing = svg(r##"<rect id="a" width="5" height="5" fill="#ff8000" fill-opacity=".5"/>"##);
+    let domain = drawing.arrange(&ArrangeOptions::default()).unwrap().split_to_turning(0.5);
+    let mesh = refine(&domain, &lopping::Options::default(), &mut |_| true).unwrap().mesh.unwrap();
+    let mut text = Vec::new();
+    squinch::export::gltf::write_gltf(&mesh, &mut text).unwrap();
+    let document: serde_json::Value = serde_json::from_slice(&text).unwrap();
+    let material = document["materials"].as_array().unwrap().iter().find(|m| m["name"] == "a").unwrap();
+    let factor = &material["pbrMetallicRoughness"]["baseColorFactor"];
+    // Linear light: 128 of 255 in sRGB is 0.2159.
+    let wanted = [1.0, 0.2159, 0.0, 0.502];
+    wanted
+        .iter()
+        .enumerate()
+        .for_each(|(k, part)| assert!((factor[k].as_f64().unwrap_or(0.0) - part).abs() < 1e-3, "{factor}"));
+    assert_eq!(material["alphaMode"], "BLEND");
+    let mut text = Vec::new();
+    squinch::export::vtu::write(&mesh, &[], &mut text).unwrap();
+    assert!(String::from_utf8_lossy(&text).contains(r#"Name="colour" NumberOfComponents="4""#));
 }

@@ -59,6 +59,7 @@ enum Stage {
 enum Colour {
     Quality,
     Region,
+    Paint,
     Size,
 }
 
@@ -141,6 +142,7 @@ impl Draw {
         match self.colour {
             Colour::Quality => MeshColour::Quality,
             Colour::Region => MeshColour::Region,
+            Colour::Paint => MeshColour::Paint,
             Colour::Size => MeshColour::Size,
         }
     }

@@ -100,7 +100,7 @@ const NAMES: [&str; 3] = ["a", "b", "c"];
 /// Adds what a curve and its chord enclose as a shape of its own.
 fn add_shape(drawing: &mut Drawing, curve: Curve, i: usize) {
     let (name, entity) = (drawing.names.intern(&format!("shape {i}")), format!("shape {i}"));
-    let shape = drawing.shapes.push(Shape { name, even_odd: i % 2 == 0, entity });
+    let shape = drawing.shapes.push(Shape::new(name, i % 2 == 0, entity));
     let chord = Curve::line(curve.end(), curve.start()).ok();
     for side in [curve].into_iter().chain(chord) {
         drawing.add(side, NAMES[i % 3], format!("side of shape {i}"));
