@@ -5,7 +5,7 @@ mod budget;
 mod healing;
 
 use crate::domain::{
-    ArrangeError, Domain, DomainCurve, Drawing, DrawnCurve, Repair, SizeRequest, Target, Unarranged, Unmatched,
+    ArrangeError, Domain, DomainCurve, Drawing, DrawnCurve, Region, Repair, SizeRequest, Target, Unarranged, Unmatched,
 };
 use crate::geometry::{Point, metres};
 use crate::ids::{Id, PointId, VertexId};
@@ -809,7 +809,9 @@ fn sizing(drawing: &Drawing, domain: &Domain, request: &Request) -> Result<Sizin
         return Err(FailureReport::new(FailureKind::Request, what, help).at(at));
     }
     let boundaries: BTreeSet<&str> = domain.curves().iter().map(|c| domain.name(c.name)).collect();
-    let regions: BTreeSet<&str> = domain.regions().iter().map(|r| domain.name(r.name)).collect();
+    // A region that is called so after the layer of its outline only has the size of that outline, not one of its own.
+    let is_own = |region: &&Region| region.is_named || !boundaries.contains(domain.name(region.name));
+    let regions: BTreeSet<&str> = domain.regions().iter().filter(is_own).map(|r| domain.name(r.name)).collect();
     for SizeOf { name, edge } in &request.size_of {
         let (boundary, region) = (boundaries.contains(name.as_str()), regions.contains(name.as_str()));
         if boundary {

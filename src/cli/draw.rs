@@ -62,6 +62,7 @@ enum Stage {
 pub enum Colour {
     Quality,
     Region,
+    Paint,
     Size,
     Layer,
 }
@@ -72,6 +73,7 @@ impl Colour {
             Self::Quality => MeshColour::Quality,
             Self::Region => MeshColour::Region,
             Self::Size => MeshColour::Size,
+            Self::Paint => MeshColour::Paint,
             // Of drawings only; a mesh has regions.
             Self::Layer => MeshColour::Region,
         }

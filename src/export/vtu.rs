@@ -3,6 +3,7 @@
 //!
 //! | place | array | holds |
 //! |---|---|---|
+//! | cells | `colour` UInt8 ×4 | red, green, blue and opacity of a triangle's region, where the drawing has colours; 0 of a line |
 //! | cells | `region` Int32 | region number of a triangle (from 1), 0 of a line |
 //! | cells | `boundary` Int32 | boundary number of a line (from 1), 0 of a triangle |
 //! | cells | `curve` Int32, `t` 2 × Float64 | a line's curve and the parameters of its ends; −1 and 0 elsewhere |
@@ -26,7 +27,7 @@
 //! the next.
 
 use crate::geometry::Frame;
-use crate::ids::{Id, NameId};
+use crate::ids::{Id, NameId, RegionId};
 use crate::mesh::{BallReason, CurveEdge, Mesh};
 use base64::Engine;
 use rayon::prelude::*;
@@ -180,6 +181,11 @@ fn write_cell_data(mesh: &Mesh, boundaries: &BTreeMap<NameId, i32>, out: &mut im
     Array::of_i32("region", regions.chain(no(0, lines))).write(out)?;
     let number = |e: &CurveEdge| boundaries.get(&e.name).copied().unwrap_or(0);
     Array::of_i32("boundary", no(0, triangles).chain(mesh.edges.iter().map(number))).write(out)?;
+    if !mesh.colours.is_empty() {
+        let drawn = |region: &RegionId| mesh.colours.get(&mesh.regions[*region]).map_or([0; 4], |colour| colour.0);
+        let bytes: Vec<u8> = mesh.triangle_regions.iter().flat_map(drawn).chain(vec![0; 4 * lines]).collect();
+        Array { components: 4, ..Array::of_u8("colour", bytes) }.write(out)?;
+    }
     let curve = |e: &CurveEdge| e.link.map_or(-1, |link| link.curve.0 as i32);
     Array::of_i32("curve", no(-1, triangles).chain(mesh.edges.iter().map(curve))).write(out)?;
     let t = mesh.edges.iter().flat_map(|e| e.link.map_or([0.0; 2], |link| link.t));
