@@ -323,8 +323,8 @@ pub struct FailureReport {
     pub what: String,
     pub at: Option<[f64; 2]>,
     /// Further places of the same flaw, as many as `what` lists.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub also_at: Vec<[f64; 2]>,
+    #[serde(skip_serializing_if = "<[[f64; 2]]>::is_empty")]
+    pub also_at: Box<[[f64; 2]]>,
     pub line: Option<u32>,
     pub column: Option<u32>,
     pub help: String,
@@ -352,7 +352,7 @@ impl FailureReport {
             kind,
             what: what.into(),
             at: None,
-            also_at: Vec::new(),
+            also_at: Box::default(),
             line: None,
             column: None,
             help: help.into(),
