@@ -110,6 +110,7 @@ const STACK: usize = 8 << 20;
 impl Batch {
     pub fn run(self, volume: Volume) -> Result<Exit, Halt> {
         let start = Instant::now();
+        self.writing.check()?;
         let Resolved { request, input_format } = self.options.resolve()?;
         self.format.iter().try_for_each(|format| hold_order(*format, &request))?;
         self.writing.tell_unused(&self.format, volume);
@@ -194,9 +195,9 @@ impl Batch {
         }
         if let (Some(mesh), false) = (&outcome.mesh, outcome.exit == Exit::Bug) {
             for &format in &self.format {
-                for (suffix, bytes) in
-                    format.suffixes().iter().zip(encode(mesh, outcome, request, format, &self.writing.options())?)
-                {
+                let options = self.writing.options(&path(format.suffixes()[0]));
+                let encoded = encode(mesh, outcome, request, format, &options)?;
+                for (suffix, bytes) in format.suffixes().iter().zip(encoded) {
                     staged.add(&path(suffix), &bytes)?;
                     names.push(path(suffix).display().to_string());
                 }

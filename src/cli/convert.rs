@@ -26,12 +26,13 @@ pub struct Convert {
 
 impl Convert {
     pub fn run(self, volume: Volume) -> Result<Exit, Halt> {
+        self.writing.check()?;
         let format = files::output_format(&self.output, self.format)?;
         let outputs = files::of_output(&self.output, format);
         files::each_once([self.mesh.clone()].into_iter().chain(outputs.clone()))?;
         files::can_be_written(&outputs)?;
         self.writing.tell_unused(&[format], volume);
-        let options = self.writing.options();
+        let options = self.writing.options(&self.output);
         let input = Input::open(&self.mesh, None)?;
         let file = check::read(&input)?;
         let encoded = export::encode(&file.mesh, None, &file.stamps, format, &options);

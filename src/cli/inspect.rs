@@ -5,7 +5,7 @@ use super::options::{Options, Resolved};
 use super::{Halt, Volume, remember, say};
 use clap::Args;
 use serde::Serialize;
-use squinch::domain::{ArrangeOptions, Domain, Drawing, FaceInfo, Layer, Loose, Repair, Skipped};
+use squinch::domain::{ArrangeOptions, Domain, Drawing, DrawnCurve, FaceInfo, Layer, Loose, Repair, Skipped};
 use squinch::ids::{Id, IdVec, LayerId, PointId};
 use squinch::pipeline::{self, Exit};
 use squinch::report::{FailureReport, SCHEMA, kinds};
@@ -212,8 +212,7 @@ impl Findings {
         self.notes.iter().for_each(|note| row("note", note));
         say::repair_rows(&self.repairs, &self.unhealed, volume, &mut row);
         for flaw in &self.flaws {
-            let place = flaw.at.map_or_else(String::new, |at| format!(" at {}", say::place(at)));
-            row("flaw", &format!("{}{place}", ink.red(&flaw.what)));
+            row("flaw", &ink.red(&say::located(&flaw.what, flaw.at)));
             if !flaw.help.is_empty() {
                 row("", &flaw.help);
             }
@@ -235,7 +234,9 @@ fn face_row(face: &FaceInfo) -> String {
 fn layers(drawing: &Drawing, watch: &mut Watch) -> Vec<LayerFindings> {
     let options = ArrangeOptions { loose: Loose::Drop, ..ArrangeOptions::default() };
     let mut finding = |id: LayerId, layer: &Layer| {
-        let curves: Vec<_> = drawing.curves.iter().filter(|c| c.layer == Some(id)).cloned().collect();
+        // Alone, it needs no layer.
+        let on_it = drawing.curves.iter().filter(|c| c.layer == Some(id));
+        let curves: Vec<_> = on_it.map(|c| DrawnCurve { layer: None, ..c.clone() }).collect();
         let alone = Drawing {
             curves,
             names: drawing.names.clone(),

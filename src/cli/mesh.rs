@@ -59,6 +59,7 @@ pub struct Mesh {
 
 impl Mesh {
     pub fn run(self, volume: Volume) -> Result<Exit, Halt> {
+        self.writing.check()?;
         let outputs = self.outputs()?;
         let files = outputs.iter().flat_map(|(path, format)| files::of_output(path, *format));
         let files: Vec<PathBuf> = self.report.iter().chain(&self.case).cloned().chain(files).collect();
@@ -81,7 +82,7 @@ impl Mesh {
         if let (Some(mesh), false, Volume::Verbose) = (&outcome.mesh, wrote.is_empty(), volume) {
             // That a picture holds no mesh goes without saying.
             let files = outputs.iter().filter(|(_, format)| !format.is_picture());
-            files.for_each(|(_, format)| say::losses(*format, mesh, &self.writing.options()));
+            files.for_each(|(path, format)| say::losses(*format, mesh, &self.writing.options(path)));
         }
         if outcome.exit == Exit::Bug {
             write_case(&pipeline::ending(&outcome), "broken");
@@ -121,7 +122,7 @@ impl Mesh {
         // A mesh that broke down in our hands must not reach a solver.
         if let (Some(mesh), false) = (&outcome.mesh, outcome.exit == Exit::Bug) {
             for (path, format) in outputs {
-                let encoded = encode(mesh, outcome, request, *format, &self.writing.options());
+                let encoded = encode(mesh, outcome, request, *format, &self.writing.options(path));
                 let encoded = encoded.map_err(|e| Halt::Unwritable(format!("{}: {e}", path.display())))?;
                 for (file, bytes) in files::of_output(path, *format).iter().zip(encoded) {
                     staged.add(file, &bytes).map_err(unwritable)?;

@@ -1,12 +1,13 @@
 //! The options of writing, shared by the verbs that write meshes.
 
 use super::draw::{Colour, window};
-use super::{Volume, say};
+use super::{Halt, Volume, files, say};
 use clap::{Args, ValueEnum};
 use serde::Serialize;
 use squinch::export::{Format, WriteOptions, XdmfGrids};
 use squinch::geometry::Rect;
 use squinch::request::Switch;
+use std::path::Path;
 
 /// How meshes are written where a format, or a reader of it, leaves a choice.
 #[derive(Args, Clone, Serialize)]
@@ -46,7 +47,18 @@ enum Grids {
 }
 
 impl Writing {
-    pub fn options(&self) -> WriteOptions {
+    /// What meshes do not have is refused before there is one.
+    pub fn check(&self) -> Result<(), Halt> {
+        match self.colour {
+            Colour::Layer => Err(Halt::Usage(
+                "--colour layer: only for drawings, with draw --stage drawing; a mesh has --colour region".into(),
+            )),
+            Colour::Quality | Colour::Region | Colour::Paint | Colour::Size => Ok(()),
+        }
+    }
+
+    /// The options of one output.
+    pub fn options(&self, path: &Path) -> WriteOptions {
         WriteOptions {
             plain: self.plain,
             interior_lines: self.interior_lines.is_on(),
@@ -57,6 +69,7 @@ impl Writing {
             },
             colour: self.colour.of_mesh(),
             view: self.view,
+            stem: files::stem(path),
         }
     }
 

@@ -1,21 +1,21 @@
 //! glTF 2.0: `.glb`, or `.gltf` with its buffer inside as base64.
 //!
-//! One primitive of triangles a region and one of lines a boundary, all over one list of positions; `extras` of each say
-//! `{"region": NAME}` or `{"boundary": NAME}`, and each region's material bears its name
-//! and its colour in the drawing, where that has one. The root node converts to metres (a unit
-//! that is not known stays as it is; `extras` say which it was) and stands +Y up: a mesh in the plane has its y upward as it is, a
-//! mesh that lies in space is turned from CAD's +Z up. Its child node is shifted to the middle of the mesh, so that positions,
-//! float32 by the format, keep small features far from the origin.
+//! A node with a mesh of one primitive for every region (triangles), then for every boundary (lines), each under its name, all over one
+//! list of positions; `extras` of a primitive say `{"region": NAME}` or `{"boundary": NAME}`, and each region's material bears its name
+//! and its colour in the drawing, where that has one. They hang on the root node, which converts to metres (a unit that is not known
+//! stays as it is; `extras` say which it was) and stands +Y up: a mesh in the plane has its y upward as it is, a mesh that lies in space
+//! is turned from CAD's +Z up. The root is also shifted to the middle of the mesh, so that positions, float32 by the format, keep small
+//! features far from the origin.
 //!
 //! MeshLab makes triangles of the lines: they can be left out (`lines` false).
 //!
 //! Cells of order 2 are written as straight ones between all their nodes: four a triangle, two an edge. Not held: order 2, more
 //! than float32 of a coordinate, links to curves, balls. A mesh without triangles is refused: glTF has none.
 
+use super::colours;
 use super::groups::{Groups, straight_edges, straight_triangles};
 use super::unsupported;
 use crate::geometry::metres;
-use crate::ids::Colour;
 use crate::mesh::Mesh;
 use base64::Engine;
 use gltf_json as json;
@@ -91,13 +91,13 @@ impl Scene {
         let (byte_length, name) = (USize64(0), None);
         let buffer = root.push(json::Buffer { byte_length, name, uri: None, extensions: None, extras: None });
         let mut scene = Self { root, buffer, binary: Vec::new() };
-        let centre = centre(mesh);
-        let positions = scene.positions(mesh, centre)?;
-        let mut primitives = scene.regions(mesh, &groups, positions)?;
+        let placement = Placement::of(mesh);
+        let positions = scene.positions(mesh, placement.origin)?;
+        let mut nodes = scene.regions(mesh, &groups, positions)?;
         if lines {
-            primitives.extend(scene.boundaries(mesh, &groups, positions)?);
+            nodes.extend(scene.boundaries(mesh, &groups, positions)?);
         }
-        scene.nodes(mesh, primitives, centre)?;
+        scene.root(mesh, nodes, &placement)?;
         Ok(scene)
     }
 
@@ -123,8 +123,8 @@ impl Scene {
         })
     }
 
-    fn positions(&mut self, mesh: &Mesh, centre: [f32; 3]) -> io::Result<Index<json::Accessor>> {
-        let local = |place: [f64; 3]| std::array::from_fn(|k| (place[k] - f64::from(centre[k])) as f32);
+    fn positions(&mut self, mesh: &Mesh, origin: [f64; 3]) -> io::Result<Index<json::Accessor>> {
+        let local = |place: [f64; 3]| std::array::from_fn(|k| (place[k] - origin[k]) as f32);
         let positions: Vec<[f32; 3]> = mesh.places().map(local).collect();
         if positions.iter().flatten().any(|x| !x.is_finite()) {
             return Err(invalid("coordinates are larger than float32, which glTF has, can hold"));
@@ -144,16 +144,17 @@ impl Scene {
         mesh: &Mesh,
         groups: &Groups,
         positions: Index<json::Accessor>,
-    ) -> io::Result<Vec<Primitive>> {
-        let mut primitives = Vec::new();
+    ) -> io::Result<Vec<Index<json::Node>>> {
+        let mut nodes = Vec::new();
         for (i, triangles) in groups.triangles().iter().enumerate().filter(|(_, triangles)| !triangles.is_empty()) {
             let corners = triangles.iter().flat_map(|&t| straight_triangles(mesh, t)).flatten().map(|v| v.0);
-            let drawn = mesh.names.find(groups.regions[i]).and_then(|name| mesh.colours.get(&name));
-            let material = self.material(groups.regions[i], drawn.map_or_else(|| colour(i), |drawn| linear(*drawn)));
-            let extras = extras(&json!({ "region": groups.regions[i] }))?;
-            primitives.push(self.primitive(Mode::Triangles, corners.collect(), positions, material, extras));
+            let name = groups.regions[i];
+            let material = self.material(name, colours::linear(mesh, name, i).map(|part| part as f32));
+            let extras = extras(&json!({ "region": name }))?;
+            let primitive = self.primitive(Mode::Triangles, corners.collect(), positions, material, extras);
+            nodes.push(self.node(name, primitive));
         }
-        Ok(primitives)
+        Ok(nodes)
     }
 
     fn boundaries(
@@ -161,15 +162,16 @@ impl Scene {
         mesh: &Mesh,
         groups: &Groups,
         positions: Index<json::Accessor>,
-    ) -> io::Result<Vec<Primitive>> {
-        let mut primitives = Vec::new();
+    ) -> io::Result<Vec<Index<json::Node>>> {
+        let mut nodes = Vec::new();
         let ink = (!mesh.edges.is_empty()).then(|| self.material("boundary", [0.02, 0.02, 0.02, 1.0]));
         for ((edges, name), ink) in groups.edges().iter().zip(&groups.boundaries).zip(ink.iter().cycle()) {
             let ends = edges.iter().flat_map(|&i| straight_edges(mesh, i)).flatten().map(|v| v.0);
             let extras = extras(&json!({ "boundary": name }))?;
-            primitives.push(self.primitive(Mode::Lines, ends.collect(), positions, *ink, extras));
+            let primitive = self.primitive(Mode::Lines, ends.collect(), positions, *ink, extras);
+            nodes.push(self.node(name, primitive));
         }
-        Ok(primitives)
+        Ok(nodes)
     }
 
     fn primitive(
@@ -212,29 +214,53 @@ impl Scene {
         })
     }
 
-    /// Root (metres, +Y up) and, in it, the mesh at its centre.
-    fn nodes(&mut self, mesh: &Mesh, primitives: Vec<Primitive>, centre: [f32; 3]) -> io::Result<()> {
-        let (name, weights) = (Some("mesh".to_owned()), None);
-        let shape = self.root.push(json::Mesh { primitives, weights, name, extensions: None, extras: None });
-        let child = self.root.push(json::Node {
-            mesh: Some(shape),
-            name: Some("mesh".into()),
-            translation: Some(centre),
-            ..Default::default()
-        });
-        let scale = mesh.unit.as_deref().and_then(metres).unwrap_or(1.0) as f32;
+    /// A node and a mesh of this name.
+    fn node(&mut self, name: &str, primitive: Primitive) -> Index<json::Node> {
+        let name = Some(name.to_owned());
+        let (primitives, mesh_name) = (vec![primitive], name.clone());
+        let mesh =
+            self.root.push(json::Mesh { primitives, name: mesh_name, weights: None, extensions: None, extras: None });
+        self.root.push(json::Node { mesh: Some(mesh), name, ..Default::default() })
+    }
+
+    /// The node that all others hang on.
+    fn root(&mut self, mesh: &Mesh, nodes: Vec<Index<json::Node>>, placement: &Placement) -> io::Result<()> {
         let z_up = json::scene::UnitQuaternion([-FRAC_1_SQRT_2, 0.0, 0.0, FRAC_1_SQRT_2]);
-        let top = self.root.push(json::Node {
-            children: Some(vec![child]),
+        let root = self.root.push(json::Node {
+            children: Some(nodes),
             name: Some("squinch".into()),
+            translation: Some(placement.translation),
             rotation: mesh.frame.map(|_| z_up),
-            scale: Some([scale; 3]),
+            scale: Some([placement.scale; 3]),
             extras: extras(&json!({ "unit": mesh.unit }))?,
             ..Default::default()
         });
-        let nodes = vec![top];
+        let nodes = vec![root];
         self.root.scene = Some(self.root.push(json::Scene { nodes, name: None, extensions: None, extras: None }));
         Ok(())
+    }
+}
+
+/// How the root node places the mesh: scaled, turned where the mesh lies in space, then shifted.
+struct Placement {
+    /// Metres to a unit.
+    scale: f32,
+    /// In metres, +Y up, as float32 holds it.
+    translation: [f32; 3],
+    /// The place that is shifted there, in the mesh's coordinates: about its middle. What is subtracted is what the node adds.
+    origin: [f64; 3],
+}
+
+impl Placement {
+    fn of(mesh: &Mesh) -> Self {
+        let scale = mesh.unit.as_deref().and_then(metres).unwrap_or(1.0) as f32;
+        let in_space = mesh.frame.is_some();
+        // A zero stays one without sign.
+        let upward = |[x, y, z]: [f64; 3]| if in_space { [x, z, 0.0 - y] } else { [x, y, z] };
+        let back = |[x, y, z]: [f64; 3]| if in_space { [x, 0.0 - z, y] } else { [x, y, z] };
+        let translation = upward(centre(mesh)).map(|part| (part * f64::from(scale)) as f32);
+        let origin = back(translation.map(|part| f64::from(part) / f64::from(scale)));
+        Self { scale, translation, origin }
     }
 }
 
@@ -255,33 +281,11 @@ fn accessor(view: Index<json::buffer::View>, count: usize, component: ComponentT
     }
 }
 
-/// The middle of the mesh, as float32 holds it: what is subtracted is what the node adds.
-fn centre(mesh: &Mesh) -> [f32; 3] {
+/// The middle of the mesh.
+fn centre(mesh: &Mesh) -> [f64; 3] {
     let extreme = |pick: fn(f64, f64) -> f64| -> [f64; 3] {
         mesh.places().reduce(|a, b| std::array::from_fn(|k| pick(a[k], b[k]))).unwrap_or_default()
     };
     let (low, high) = (extreme(f64::min), extreme(f64::max));
-    std::array::from_fn(|k| (low[k] + (high[k] - low[k]) / 2.0) as f32)
-}
-
-/// A colour of a drawing as glTF wants it: linear, not sRGB.
-fn linear(Colour([r, g, b, a]): Colour) -> [f32; 4] {
-    let part = |byte: u8| {
-        let value = f64::from(byte) / 255.0;
-        let linear = if value <= 0.04045 { value / 12.92 } else { libm::pow((value + 0.055) / 1.055, 2.4) };
-        linear as f32
-    };
-    [part(r), part(g), part(b), f32::from(a) / 255.0]
-}
-
-/// Colours that neighbours in a list tell apart, without end: equal steps of the golden angle around the hue circle.
-fn colour(i: usize) -> [f32; 4] {
-    const GOLDEN: f32 = 0.618_034;
-    let hue = (0.58 + i as f32 * GOLDEN).fract();
-    // Hue to red, green and blue at half saturation.
-    let [r, g, b] = [0.0, 2.0 / 3.0, 1.0 / 3.0].map(|shift| {
-        let wave = ((hue + shift).fract() * 6.0 - 3.0).abs() - 1.0;
-        0.35 + 0.4 * wave.clamp(0.0, 1.0)
-    });
-    [r, g, b, 1.0]
+    std::array::from_fn(|k| low[k] + (high[k] - low[k]) / 2.0)
 }

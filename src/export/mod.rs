@@ -1,5 +1,6 @@
 //! Writers: Mesh → files. One file a format; a writer says what its format cannot hold.
 
+mod colours;
 pub mod gltf;
 mod groups;
 pub mod inp;
@@ -45,7 +46,7 @@ pub enum Format {
     Glb,
     /// glTF 2.0, text.
     Gltf,
-    /// Wavefront.
+    /// Wavefront, with its materials.
     Obj,
     /// STL, text.
     Stl,
@@ -107,7 +108,7 @@ impl Format {
             Self::Triangle => &["node", "ele", "poly"],
             Self::Glb => &["glb"],
             Self::Gltf => &["gltf"],
-            Self::Obj => &["obj"],
+            Self::Obj => &["obj", "mtl"],
             Self::Stl => &["stl"],
             Self::Svg => &["svg"],
             Self::Png => &["png"],
@@ -150,6 +151,8 @@ impl Format {
         let plain = options.plain && self == Vtu;
         lost(plain, "names, the unit, how the mesh was made: --plain leaves all field data out");
         lost(mesh.regions.len() > 1 && self == Su2, "regions: SU2 has one zone");
+        let bare = self == Obj && options.stem.is_none();
+        lost(bare, "colours: OBJ has them in a .mtl file beside it, which standard output has no place for");
         lost(!mesh.edges.is_empty() && self == Stl, "boundaries: STL has triangles only");
         let inside = !options.interior_lines && groups::interior(mesh).any(|inside| inside);
         lost(inside && !matches!(self, Stl | Su2), "boundaries within the domain: left out by --interior-lines off");
@@ -211,6 +214,9 @@ pub struct WriteOptions {
     pub colour: MeshColour,
     /// The window that a picture shows; `None`: all of the mesh.
     pub view: Option<Rect>,
+    /// The name without suffix by which the files of one output speak of each other: OBJ's of its `.mtl`. `None`: an output that is a
+    /// stream, and its first file alone.
+    pub stem: Option<String>,
 }
 
 impl WriteOptions {
@@ -244,6 +250,7 @@ impl Default for WriteOptions {
             xdmf: XdmfGrids::Double,
             colour: MeshColour::Quality,
             view: None,
+            stem: Some("mesh".into()),
         }
     }
 }
@@ -254,7 +261,7 @@ pub fn format_of(path: &Path) -> Option<Format> {
     Format::ALL.into_iter().find(|f| f.suffixes().iter().any(|s| s.eq_ignore_ascii_case(suffix)))
 }
 
-/// A mesh in a format: the bytes of each file of [`Format::suffixes`]. Pictures have the exact curves where the domain is given.
+/// A mesh in a format: the bytes of each file of [`Format::suffixes`], of an OBJ without a stem those of the first. Pictures have the exact curves where the domain is given.
 /// `stamps` (key and value) say how the mesh was made, where the format has a place for them (VTU).
 ///
 /// # Errors
@@ -294,7 +301,14 @@ pub fn encode(
         Format::Xdmf => xdmf::write(mesh, options.xdmf, &mut out)?,
         Format::Glb => gltf::write_glb(mesh, lines, &mut out)?,
         Format::Gltf => gltf::write_gltf(mesh, lines, &mut out)?,
-        Format::Obj => obj::write(mesh, lines, &mut out)?,
+        Format::Obj => {
+            obj::write(mesh, lines, options.stem.as_deref(), &mut out)?;
+            if options.stem.is_some() {
+                let mut materials = Vec::new();
+                obj::write_materials(mesh, lines, &mut materials)?;
+                return Ok(vec![out, materials]);
+            }
+        }
         Format::Stl => stl::write(mesh, &mut out)?,
         Format::Svg => out = picture().svg()?.into_bytes(),
         Format::Png => out = picture().png(1.0)?,

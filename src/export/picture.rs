@@ -20,6 +20,8 @@ pub enum MeshColour {
     #[default]
     Quality,
     Region,
+    /// The colour of the region in the drawing; that of `Region` where it has none.
+    Paint,
     /// The root of the area, on a logarithmic scale.
     Size,
 }
@@ -195,6 +197,8 @@ pub fn picture_of_mesh(mesh: &Mesh, domain: Option<&Domain>, colour: MeshColour,
     let cells = CellColours::new(mesh, colour, &regions);
     match colour {
         MeshColour::Region => legend.areas = entries(&regions, &mesh.names),
+        // The colours are those of the drawing: nothing to explain.
+        MeshColour::Paint => {}
         MeshColour::Quality | MeshColour::Size => legend.scale = cells.scale(),
     }
     let worst = mesh.triangles.iter().map(|t| smallest_angle_deg(corners(mesh, t))).reduce(f64::min);
@@ -222,6 +226,12 @@ struct CellColours<'a> {
     sizes: [f64; 2],
 }
 
+/// A colour as it is seen over white.
+fn on_white([r, g, b, a]: [u8; 4]) -> Colour {
+    let over = |part: u8| ((u32::from(part) * u32::from(a) + 255 * (255 - u32::from(a)) + 127) / 255) as u8;
+    Colour(over(r), over(g), over(b))
+}
+
 /// Steps of a colour scale: finer ones cannot be told apart.
 const SHADES: usize = 60;
 
@@ -242,7 +252,7 @@ impl<'a> CellColours<'a> {
         match self.colour {
             MeshColour::Quality => shade(smallest_angle_deg(abc) / 60.0),
             MeshColour::Size => shade((log_size(abc) - self.sizes[0]) / (self.sizes[1] - self.sizes[0]).max(1e-12)),
-            MeshColour::Region => {
+            MeshColour::Region | MeshColour::Paint => {
                 let region = self.mesh.triangle_regions.get(t).and_then(|&r| self.mesh.regions.get(r));
                 region.map_or(0, |&name| rank(self.regions, name))
             }
@@ -255,6 +265,10 @@ impl<'a> CellColours<'a> {
             MeshColour::Quality => along(&QUALITY, middle * 60.0),
             MeshColour::Size => along(&SIZE, middle),
             MeshColour::Region => area_colour(class),
+            MeshColour::Paint => {
+                let drawn = self.regions.get(class).and_then(|name| self.mesh.colours.get(name));
+                drawn.map_or_else(|| area_colour(class), |drawn| on_white(drawn.0))
+            }
         }
     }
 
@@ -270,7 +284,7 @@ impl<'a> CellColours<'a> {
                 .map(|f| (f, short(libm::exp(self.sizes[0] + f * (self.sizes[1] - self.sizes[0])))))
                 .to_vec(),
             MeshColour::Size if self.sizes[0].is_finite() => vec![(0.0, short(libm::exp(self.sizes[0])))],
-            MeshColour::Size | MeshColour::Region => return None,
+            MeshColour::Size | MeshColour::Region | MeshColour::Paint => return None,
         };
         let title =
             if self.colour == MeshColour::Quality { "smallest angle of a triangle" } else { "√area of a triangle" };
@@ -599,7 +613,7 @@ impl Sheet {
     /// there is none, it is left away, unless it is `owed`.
     fn label(&mut self, p: Point, text: &str, colour: Colour, owed: bool) {
         let at = self.pixel(p);
-        if !self.canvas.frame().sees(&[at]) {
+        if text.is_empty() || !self.canvas.frame().sees(&[at]) {
             return;
         }
         let size = self.type_px * 0.85;
@@ -612,7 +626,8 @@ impl Sheet {
             .map(|(x, y)| Rect::new(at.x + x, at.y + y - 0.75 * size, at.x + x + width, at.y + y + 0.25 * size));
         let free =
             |b: &&Rect| b.union(sheet) == sheet && self.labels.iter().all(|other| other.intersect(**b).area() == 0.0);
-        let moved_in = |b: Rect| b - Vec2::new((b.x1 - sheet.x1).max(0.0).min(b.x0), 0.0);
+        let beyond = |b: Rect| Vec2::new((b.x1 - sheet.x1).max(0.0).min(b.x0), (b.y0 - sheet.y0).min(0.0));
+        let moved_in = |b: Rect| b - beyond(b);
         let Some(room) = boxes.iter().find(free).copied().or(owed.then(|| moved_in(boxes[0]))) else { return };
         self.labels.push(room);
         self.canvas.text(Label::new(px(room.x0, room.y1 - 0.25 * size), text, size).colour(colour).rim());
@@ -636,7 +651,7 @@ impl Sheet {
                 let (rim, pen) = (Stroke::new(Colour::hex(0xffffff), self.pen(5.0)), Stroke::new(ALARM, self.pen(2.4)));
                 self.canvas.path(cross.clone(), Paint::stroke(rim));
                 self.canvas.path(cross, Paint::stroke(pen));
-                self.label(*p, text, ALARM, true);
+                self.label(*p, &clipped(text, MARK_MAX), ALARM, true);
             }
         }
     }
@@ -663,7 +678,7 @@ impl Sheet {
         if legend.crowded {
             wanted.push((Swatch::None, "×n: n beside each other, marked by the rarest".into()));
         }
-        wanted.extend(swatches.chain(lines).take(LEGEND_NAMES_MAX).map(|(s, name)| (s, clipped(name))));
+        wanted.extend(swatches.chain(lines).take(LEGEND_NAMES_MAX).map(|(s, name)| (s, clipped(name, NAME_MAX))));
         if all > LEGEND_NAMES_MAX {
             wanted.push((Swatch::None, format!("and {} more", all - LEGEND_NAMES_MAX)));
         }
@@ -744,8 +759,18 @@ impl Sheet {
     }
 }
 
-fn clipped(name: &str) -> String {
-    if name.chars().count() <= 40 { name.to_owned() } else { name.chars().take(38).chain("…".chars()).collect() }
+/// Characters of a name in a legend.
+const NAME_MAX: usize = 40;
+/// Characters of what is said beside a mark.
+const MARK_MAX: usize = 60;
+
+/// A text of so many characters at most.
+fn clipped(text: &str, most: usize) -> String {
+    if text.chars().count() <= most {
+        text.to_owned()
+    } else {
+        text.chars().take(most - 2).chain("…".chars()).collect()
+    }
 }
 
 /// Distance of `p` from the line ab, or from a where a and b coincide.
@@ -755,7 +780,7 @@ fn deviation(a: Pixel, b: Pixel, p: Pixel) -> f64 {
     if length < 0.01 { libm::hypot(ap.0, ap.1) } else { (ab.0 * ap.1 - ab.1 * ap.0).abs() / length }
 }
 
-/// Names of the colour classes, for options: "quality", "region", "size".
+/// Names of the colour classes, for options: "quality", "region", "paint", "size".
 impl std::str::FromStr for MeshColour {
     type Err = String;
 
@@ -763,8 +788,9 @@ impl std::str::FromStr for MeshColour {
         match text {
             "quality" => Ok(Self::Quality),
             "region" => Ok(Self::Region),
+            "paint" => Ok(Self::Paint),
             "size" => Ok(Self::Size),
-            _ => Err(format!("'{text}' is no colouring: quality, region or size")),
+            _ => Err(format!("'{text}' is no colouring: quality, region, paint or size")),
         }
     }
 }

@@ -13,7 +13,7 @@ use super::draft::plane;
 use super::{MeshError, MeshFile, Result, broken, unsupported};
 use crate::geometry::space::{dot, length, minus};
 use crate::geometry::{Frame, Point};
-use crate::ids::{CurveId, PointId, RegionId, VertexId};
+use crate::ids::{Colour, CurveId, PointId, RegionId, VertexId};
 use crate::mesh::{Ball, BallReason, CurveEdge, CurveLink};
 use base64::Engine;
 use quick_xml::Reader;
@@ -499,6 +499,8 @@ struct CellData {
     boundary: Option<Vec<i32>>,
     curve: Option<Vec<i32>>,
     t: Option<Vec<f64>>,
+    /// Four bytes a cell.
+    colour: Option<Vec<f64>>,
 }
 
 impl CellData {
@@ -518,7 +520,18 @@ impl CellData {
         if let Some(t) = t.iter().flatten().find(|t| !(0.0..=1.0).contains(*t)) {
             return Err(broken(format!("array 't' holds {t}, which is no parameter of a curve (0 to 1)")));
         }
-        Ok(Self { region, boundary, curve, t })
+        let colour = unpacker.file.array(Section::CellData, "colour").filter(|array| array.kind == Kind::UInt(1));
+        let most = unpacker.file.cells.saturating_mul(4);
+        let colour = colour.map(|array| unpacker.numbers(array, most)).transpose()?;
+        let colour = colour.filter(|values| values.len() as u64 == most);
+        Ok(Self { region, boundary, curve, t, colour })
+    }
+
+    /// The colour of a cell, where it has one.
+    fn colour(&self, cell: usize) -> Option<Colour> {
+        let bytes = self.colour.as_ref()?.get(4 * cell..4 * cell + 4)?;
+        let colour = std::array::from_fn(|k| bytes[k] as u8);
+        (colour != [0; 4]).then_some(Colour(colour))
     }
 
     fn integers(unpacker: &mut Unpacker, name: &str) -> Result<Option<Vec<i32>>> {
@@ -607,7 +620,12 @@ impl Builder {
                         self.file.mesh.triangle_mids.push([ab, bc, ca].map(|n| VertexId(n as u32)));
                     }
                     let region = ids.get(&at(&data.region, cell)).copied();
-                    self.file.mesh.triangle_regions.push(region.unwrap_or(RegionId(0)));
+                    let region = region.unwrap_or(RegionId(0));
+                    self.file.mesh.triangle_regions.push(region);
+                    if let Some(colour) = data.colour(cell) {
+                        let name = self.file.mesh.regions[region];
+                        self.file.mesh.colours.entry(name).or_insert(colour);
+                    }
                 }
                 (3, &[a, b]) | (21, &[a, b, _]) => {
                     let name = self.file.mesh.names.intern(&boundaries.name(at(&data.boundary, cell)));

@@ -393,9 +393,9 @@ fn attribute(text: &str) -> Option<Simple<'_>> {
 
 /// A pseudo-class, from behind its colon, and the rest.
 fn pseudo<'a>(text: &'a str, specificity: &mut [usize; 3], nesting: usize) -> Option<(Simple<'a>, &'a str)> {
-    if text.starts_with(':') {
+    if let Some(text) = text.strip_prefix(':') {
         // A pseudo-element is no element of the picture.
-        let (_, rest) = word(&text[1..])?;
+        let (_, rest) = word(text)?;
         return Some((Simple::Never, rest));
     }
     let (name, rest) = word(text)?;
