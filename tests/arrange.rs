@@ -1349,6 +1349,30 @@ fn a_speck_on_the_tip_of_a_sliver_is_named_by_its_own_shape() {
     assert_eq!(domain.regions().len(), 2);
 }
 
+#[test]
+fn a_hole_of_arcs_that_overlap_in_part_is_a_hole() {
+    let arc = |from: f64, to: f64| Curve::arc(p(4.0, 3.0), 1.0, from, to - from).unwrap();
+    let plate = polygon(&[(0.0, 0.0), (8.0, 0.0), (8.0, 6.0), (0.0, 6.0)]);
+    for (first, second) in [((0.0, 3.5), (2.6, TAU)), ((0.0, PI), (PI - 1e-5, TAU + 1e-5))] {
+        let hole = [arc(first.0, first.1), arc(second.0, second.1)];
+        let domain = filled(&drawing(plate.iter().cloned().chain(hole)), FillRule::EvenOdd);
+        assert_eq!(domain.regions().len(), 1);
+        let area = domain.regions().iter().next().unwrap().area;
+        assert!((area - (48.0 - PI)).abs() < 1e-9, "{area}");
+    }
+    // A hole of lines, each of which runs on along the next one's end for a while.
+    let sides = [
+        line((3.0, 2.0), (5.0, 2.0)),
+        line((5.0, 2.0), (5.0, 4.0)),
+        line((5.0, 4.0), (3.0, 4.0)),
+        line((3.0, 4.0), (3.0, 2.8)),
+        line((3.0, 3.2), (3.0, 2.0)),
+    ];
+    let domain = filled(&drawing(plate.into_iter().chain(sides)), FillRule::EvenOdd);
+    let area = domain.regions().iter().map(|region| region.area).sum::<f64>();
+    assert!((area - 44.0).abs() < 1e-9, "{area}");
+}
+
 // ---- auxiliary linework ----
 
 /// Curves on layers, by name.
@@ -1379,6 +1403,10 @@ fn a_frame_around_a_part_is_told() {
         let notes = notes_of(&[frame, part.clone(), holes.clone()]);
         assert!(notes.contains("Layer A4") && notes.contains("--skip-layers A4"), "{notes}");
     }
+    // A box of the title block holds nothing.
+    let titled = ("A4", [square(0.0, 0.0, 10.0), square(8.5, 0.2, 1.0)].concat());
+    let notes = notes_of(&[titled, part.clone(), holes.clone()]);
+    assert!(notes.contains("--skip-layers A4"), "{notes}");
     // A plate with holes is no frame, unless it is called one; nor is what holds nothing.
     assert_eq!(notes_of(&[sheet.clone(), part.clone()]), "");
     assert_eq!(notes_of(&[part.clone(), holes.clone()]), "");

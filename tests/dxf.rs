@@ -893,6 +893,8 @@ fn line_types_that_draw_no_edge_are_left_out() {
         "ACAD_ISO10W100",
         "ACAD_ISO15W100",
         "ISO12W050",
+        "AM_ISO08W050",
+        "JIS_08_11",
     ];
     for name in auxiliary {
         let file = plain(&format!("0 CIRCLE; 6 {name}; 10 0; 20 0; 40 9; {SQUARE}"));
@@ -904,6 +906,21 @@ fn line_types_that_draw_no_edge_are_left_out() {
     for name in ["DASHED", "Continuous", "BYLAYER", "DOT", "ACAD_ISO02W100", "ACAD_ISO03W100", "ISO9000"] {
         assert_eq!(drawn(&format!("0 CIRCLE; 6 {name}; 10 0; 20 0; 40 9; {SQUARE}")).curves.len(), 5, "{name}");
     }
+}
+
+#[test]
+fn line_types_are_known_by_their_patterns_too() {
+    let curves = |pattern: &str| {
+        let table = format!("0 TABLE; 2 LTYPE; 0 LTYPE; 2 Achse; {pattern}; 0 ENDTAB");
+        let entities = plain(&format!("0 CIRCLE; 6 ACHSE; 10 0; 20 0; 40 9; {SQUARE}"));
+        whole(&(section("TABLES", &table) + &entities)).curves.len() - 4
+    };
+    assert_eq!(curves("49 30; 49 -5; 49 5; 49 -5"), 0, "long and short dashes");
+    assert_eq!(curves("49 12; 49 -3; 49 0; 49 -3"), 0, "dashes and dots");
+    assert_eq!(curves("49 12; 49 -3"), 1, "dashes");
+    assert_eq!(curves("49 0; 49 -3"), 1, "dots");
+    assert_eq!(curves("49 12; 74 2; 49 -3; 74 0; 49 1"), 1, "letters between the dashes");
+    assert_eq!(curves("73 0"), 1, "continuous");
 }
 
 #[test]

@@ -75,7 +75,9 @@ impl<'a> Outlines<'a> {
         };
         let is_frame = |layer: LayerId, components: &[usize]| {
             let alone = components.iter().all(|&c| self.by_component[c].len() == 1);
-            let innermost = self.innermost(components);
+            // Boxes of the title block are empty.
+            let holding: Vec<usize> = components.iter().copied().filter(|&c| depth(c) > 0).collect();
+            let innermost = self.innermost(&holding).filter(|_| self.outermost(components) == 1);
             let name = self.name(layer).to_lowercase();
             let called = FRAMES.iter().any(|frame| name.contains(frame));
             alone && innermost.is_some_and(|component| depth(component) > usize::from(!called))
@@ -90,13 +92,17 @@ impl<'a> Outlines<'a> {
         frames.map(|(&layer, _)| told(self.name(layer))).collect()
     }
 
+    /// How many of these components lie in no other of them.
+    fn outermost(&self, components: &[usize]) -> usize {
+        let within = |component: usize| self.around(component).is_some_and(|around| components.contains(&around));
+        components.iter().filter(|&&c| !within(c)).count()
+    }
+
     /// Of components that lie in each other the innermost; `None` of others.
     fn innermost(&self, components: &[usize]) -> Option<usize> {
-        let within = |component: usize| self.around(component).is_some_and(|around| components.contains(&around));
-        let outer = components.iter().filter(|&&c| !within(c)).count();
         let around: BTreeSet<usize> = components.iter().filter_map(|&c| self.around(c)).collect();
         let mut inner = components.iter().filter(|c| !around.contains(c));
-        match (outer, inner.next(), inner.next()) {
+        match (self.outermost(components), inner.next(), inner.next()) {
             (1, Some(&innermost), None) => Some(innermost),
             _ => None,
         }

@@ -174,21 +174,27 @@ impl Windings<'_> {
     }
 }
 
-/// Which drawn curves are parts of closed outlines, by their own ends: a curve at a free end is none, nor what is left free without it.
+/// Which drawn curves are parts of closed outlines: a curve at a free end is none, nor what is left free without it. An end is not free where
+/// another curve runs along: partly drawn twice, an outline goes on there.
 /// Outlines of shapes are closed, and close no others.
 pub(super) fn closed_outlines(network: &Network) -> Vec<bool> {
-    let mut at: IdVec<PointId, Vec<usize>> = vec![Vec::new(); network.nodes.len()].into();
-    let lines = network.drawn_ends.iter().enumerate().filter(|&(i, _)| network.drawing.curves[i].shape.is_none());
-    for (i, ends) in lines {
-        ends.iter().flatten().for_each(|&end| at[end].push(i));
-    }
+    let is_line = |i: usize| network.drawing.curves[i].shape.is_none();
+    let mut ends: Vec<Vec<PointId>> =
+        network.drawn_ends.iter().map(|ends| ends.iter().flatten().copied().collect()).collect();
     let mut closed: Vec<bool> = network.drawn_ends.iter().map(Option::is_some).collect();
+    for (end, others) in carried_on(network) {
+        others.into_iter().for_each(|other| ends[other].push(end));
+    }
+    let mut at: IdVec<PointId, Vec<usize>> = vec![Vec::new(); network.nodes.len()].into();
+    for (i, ends) in ends.iter().enumerate().filter(|&(i, _)| is_line(i)) {
+        ends.iter().for_each(|&end| at[end].push(i));
+    }
     let mut degree: IdVec<PointId, usize> = at.iter().map(Vec::len).collect();
     let mut free: Vec<PointId> = degree.enumerate().filter(|&(_, &d)| d == 1).map(|(id, _)| id).collect();
     while let Some(end) = free.pop() {
         let Some(&gone) = at[end].iter().find(|&&i| closed[i]) else { continue };
         closed[gone] = false;
-        for &other in network.drawn_ends[gone].iter().flatten() {
+        for &other in &ends[gone] {
             degree[other] -= 1;
             if degree[other] == 1 {
                 free.push(other);
@@ -196,6 +202,28 @@ pub(super) fn closed_outlines(network: &Network) -> Vec<bool> {
         }
     }
     closed
+}
+
+/// Ends of drawn lines that lie within another line along which the line runs there, each with these others.
+///
+/// ```text
+///   a ═══════╤═══════ b      a ends within b, and b within a: where one ends the other goes on
+/// ```
+fn carried_on(network: &Network) -> BTreeMap<PointId, BTreeSet<usize>> {
+    let mut carried: BTreeMap<PointId, BTreeSet<usize>> = BTreeMap::new();
+    let overlaps = network.pieces.enumerate().filter(|(_, piece)| !piece.merged.is_empty());
+    for (id, piece) in overlaps {
+        let along: BTreeSet<usize> = drawn_along(network, id).map(|(source, _)| source as usize).collect();
+        let ends_at =
+            |source: usize, node: PointId| network.drawn_ends[source].iter().flatten().any(|&end| end == node);
+        for node in piece.ends {
+            let (ending, passing): (Vec<usize>, Vec<usize>) = along.iter().partition(|&&source| ends_at(source, node));
+            if !ending.is_empty() && !passing.is_empty() {
+                carried.entry(node).or_default().extend(passing);
+            }
+        }
+    }
+    carried
 }
 
 fn windings(network: &Network, domain: &mut Domain, faces: &Faces, rule: FillRule) -> Vec<i32> {

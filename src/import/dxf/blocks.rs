@@ -90,7 +90,7 @@ impl<'f, 'a> Sketch<'f, 'a> {
             header,
             options,
             drawing,
-            layers: Layers::new(&file.layers, header, selection, options.line_types),
+            layers: Layers::new(file, header, selection, options.line_types),
             block_of: blocks.map(|(i, (name, _))| (key(&header.name(name)), i)).collect(),
             read: BTreeMap::new(),
             fills: Vec::new(),

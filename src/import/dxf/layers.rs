@@ -2,11 +2,11 @@
 
 use super::LineTypes;
 use super::header::Header;
-use super::sections::Record;
+use super::sections::{Record, Sections};
 use crate::domain::{Drawing, Layer};
 use crate::ids::{IdVec, LayerId, NameId};
 use crate::import::selection::{Chooser, Selection};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
 /// Layer 0, whose entities in a block take the layer of the block. Every file has it.
@@ -80,14 +80,22 @@ pub(super) struct Layers<'s> {
     id_of: BTreeMap<String, LayerId>,
     chooser: Chooser<'s>,
     line_types: LineTypes,
+    /// Line types of the file that are known by their patterns, in upper case.
+    chained: BTreeSet<String>,
 }
 
 impl<'s> Layers<'s> {
-    pub fn new(table: &[Record], header: &Header, selection: &'s Selection, line_types: LineTypes) -> Self {
-        let mut layers =
-            Self { rows: IdVec::new(), id_of: BTreeMap::new(), chooser: Chooser::new(selection, false), line_types };
+    pub fn new(file: &Sections, header: &Header, selection: &'s Selection, line_types: LineTypes) -> Self {
+        let chained = file.line_types.iter().filter(|record| is_chained(record));
+        let mut layers = Self {
+            rows: IdVec::new(),
+            id_of: BTreeMap::new(),
+            chooser: Chooser::new(selection, false),
+            line_types,
+            chained: chained.map(|record| header.name(record.text(2).unwrap_or_default()).to_uppercase()).collect(),
+        };
         layers.id("0");
-        for record in table {
+        for record in &file.layers {
             layers.add(record, header);
         }
         layers
@@ -151,7 +159,7 @@ impl<'s> Layers<'s> {
 
     /// Whether what is drawn in this line type is no edge, and is left out.
     pub fn is_auxiliary(&self, line_type: &str) -> bool {
-        self.line_types == LineTypes::Edges && is_auxiliary(line_type)
+        self.line_types == LineTypes::Edges && (is_auxiliary(line_type) || self.chained.contains(line_type))
     }
 
     /// Counts an entity that is drawn.
@@ -174,13 +182,26 @@ impl<'s> Layers<'s> {
     }
 }
 
+/// Whether the pattern of a line type mixes dashes with dots, or long dashes with short ones, as chain lines do under any name (SLD-Center of
+/// SolidWorks, AM_ISO08W050, Strichpunkt). Patterns with letters or symbols in them are pipes and fences.
+fn is_chained(record: &Record) -> bool {
+    /// Dashes are as long as each other up to this share.
+    const ALIKE: f64 = 0.9;
+    let reals = |code: i32| record.reals(code).unwrap_or_default();
+    let dashes: Vec<f64> = reals(49).into_iter().filter(|&length| length >= 0.0).collect();
+    let (shortest, longest) = dashes.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), &d| (a.min(d), b.max(d)));
+    shortest < ALIKE * longest && reals(74).iter().all(|&symbol| symbol == 0.0)
+}
+
 /// Whether a line type, in upper case, is one that drafting standards use for centre lines, for what is hidden, or for borders.
 ///
 /// The names are those of `acad.lin` and `acadiso.lin`: groups of the standard types, of which `CENTER2` and `CENTERX2` are finer and coarser
-/// ones, and those of ISO 128 by their numbers, 02 dashed, 03 dashed spaced, 04 to 15 with dots or double dashes.
+/// ones, and those of ISO 128 by their numbers, 02 dashed, 03 dashed spaced, 04 to 15 with dots or double dashes;
+/// of JIS 08 are centre lines and 09 phantom lines.
 fn is_auxiliary(line_type: &str) -> bool {
-    const GROUPS: [&str; 7] = ["CENTER", "CENTRE", "PHANTOM", "HIDDEN", "DASHDOT", "DIVIDE", "BORDER"];
-    const ISO: [&str; 3] = ["ACAD_ISO", "ISO", "DIN_ISO"];
+    const GROUPS: [&str; 9] =
+        ["CENTER", "CENTRE", "PHANTOM", "HIDDEN", "DASHDOT", "DIVIDE", "BORDER", "JIS_08", "JIS_09"];
+    const ISO: [&str; 4] = ["ACAD_ISO", "AM_ISO", "ISO", "DIN_ISO"];
     let is_iso = |rest: &str| {
         let digits = rest.trim_start_matches(['_', '-', ' ']);
         let end = digits.find(|c: char| !c.is_ascii_digit()).unwrap_or(digits.len());

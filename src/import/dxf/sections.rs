@@ -151,6 +151,8 @@ pub(super) struct Sections<'a> {
     /// Variables of the header, each with its first value.
     pub header: BTreeMap<&'a [u8], Pair<'a>>,
     pub layers: Vec<Record<'a>>,
+    /// The table of line types.
+    pub line_types: Vec<Record<'a>>,
     /// Blocks with their names.
     pub blocks: Vec<(&'a [u8], Block<'a>)>,
     pub entities: Vec<Record<'a>>,
@@ -220,11 +222,11 @@ impl<'a> Sections<'a> {
         match section.as_slice() {
             b"HEADER" => self.read_header(pairs),
             b"TABLES" => {
-                let layers = &mut self.layers;
-                read_records(pairs, "TABLES", |record| {
-                    if record.kind == "LAYER" {
-                        layers.push(record);
-                    }
+                let (layers, line_types) = (&mut self.layers, &mut self.line_types);
+                read_records(pairs, "TABLES", |record| match record.kind.as_str() {
+                    "LAYER" => layers.push(record),
+                    "LTYPE" => line_types.push(record),
+                    _ => {}
                 })
             }
             b"BLOCKS" => self.read_blocks(pairs),
