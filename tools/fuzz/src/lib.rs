@@ -172,7 +172,7 @@ fn check_faces(domain: &Domain) {
 pub fn mesh(sketch: &Sketch) {
     let request = sketch.request(VERTICES);
     let outcome = pipeline::run_drawing(&sketch.drawing, &request, Extent::Whole(&mut budget()));
-    check_outcome(&outcome, &request);
+    check_outcome(&outcome, &request, &sketch.drawing);
 }
 
 /// Reads, arranges, meshes and judges bytes, of the format that they look like.
@@ -180,13 +180,15 @@ pub fn mesh_file(bytes: &[u8]) {
     let (bytes, request) = file_and_request(bytes);
     let Some(format) = Format::sniff(bytes) else { return };
     let source = Source { path: "fuzz", bytes, format: Some(format), nodes: None, of_many: false };
-    if pipeline::read(&source, &request).is_ok_and(|drawing| drawing.curves.len() <= CURVES) {
+    if let Ok(drawing) = pipeline::read(&source, &request)
+        && drawing.curves.len() <= CURVES
+    {
         let outcome = pipeline::run(&source, &request, Extent::Whole(&mut budget()));
-        check_outcome(&outcome, &request);
+        check_outcome(&outcome, &request, &drawing);
     }
 }
 
-fn check_outcome(outcome: &Outcome, request: &Request) {
+fn check_outcome(outcome: &Outcome, request: &Request, drawing: &Drawing) {
     assert_ne!(outcome.exit, Exit::Bug, "{:?}", outcome.report.failure);
     if let Some(failure) = &outcome.report.failure {
         assert!(!failure.what.is_empty() && !failure.help.is_empty(), "{failure:?}");
@@ -195,9 +197,8 @@ fn check_outcome(outcome: &Outcome, request: &Request) {
         assert_ne!(outcome.exit, Exit::Done, "done, but no mesh");
         return;
     };
-    let painted =
-        request.keep == Keep::All && domain.regions().iter().any(|r| domain.name(r.name).starts_with("shape"));
-    if request.keep == Keep::All && !painted {
+    // Faces of shapes are regions by name.
+    if request.keep == Keep::All && drawing.shapes.is_empty() {
         check_faces(domain);
     }
     // Area of the triangles between corners, and of what lies between a curve and its mesh edge on the sides that are kept.
