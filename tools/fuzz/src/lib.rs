@@ -172,7 +172,7 @@ fn check_faces(domain: &Domain) {
 pub fn mesh(sketch: &Sketch) {
     let request = sketch.request(VERTICES);
     let outcome = pipeline::run_drawing(&sketch.drawing, &request, Extent::Whole(&mut budget()));
-    check_outcome(&outcome, &request, &sketch.drawing);
+    check_outcome(&outcome, &request);
 }
 
 /// Reads, arranges, meshes and judges bytes, of the format that they look like.
@@ -180,15 +180,13 @@ pub fn mesh_file(bytes: &[u8]) {
     let (bytes, request) = file_and_request(bytes);
     let Some(format) = Format::sniff(bytes) else { return };
     let source = Source { path: "fuzz", bytes, format: Some(format), nodes: None, of_many: false };
-    if let Ok(drawing) = pipeline::read(&source, &request)
-        && drawing.curves.len() <= CURVES
-    {
+    if pipeline::read(&source, &request).is_ok_and(|drawing| drawing.curves.len() <= CURVES) {
         let outcome = pipeline::run(&source, &request, Extent::Whole(&mut budget()));
-        check_outcome(&outcome, &request, &drawing);
+        check_outcome(&outcome, &request);
     }
 }
 
-fn check_outcome(outcome: &Outcome, request: &Request, drawing: &Drawing) {
+fn check_outcome(outcome: &Outcome, request: &Request) {
     assert_ne!(outcome.exit, Exit::Bug, "{:?}", outcome.report.failure);
     if let Some(failure) = &outcome.report.failure {
         assert!(!failure.what.is_empty() && !failure.help.is_empty(), "{failure:?}");
@@ -197,8 +195,8 @@ fn check_outcome(outcome: &Outcome, request: &Request, drawing: &Drawing) {
         assert_ne!(outcome.exit, Exit::Done, "done, but no mesh");
         return;
     };
-    // Faces of shapes are regions by name.
-    if request.keep == Keep::All && drawing.shapes.is_empty() {
+    // Faces that shapes, seeds or texts name are one region where the name is the same.
+    if request.keep == Keep::All && domain.regions().iter().all(|region| !region.is_named) {
         check_faces(domain);
     }
     // Area of the triangles between corners, and of what lies between a curve and its mesh edge on the sides that are kept.
