@@ -195,9 +195,8 @@ fn check_outcome(outcome: &Outcome, request: &Request) {
         assert_ne!(outcome.exit, Exit::Done, "done, but no mesh");
         return;
     };
-    let painted =
-        request.keep == Keep::All && domain.regions().iter().any(|r| domain.name(r.name).starts_with("shape"));
-    if request.keep == Keep::All && !painted {
+    // Faces that shapes, seeds or texts name are one region where the name is the same.
+    if request.keep == Keep::All && domain.regions().iter().all(|region| !region.is_named) {
         check_faces(domain);
     }
     // Area of the triangles between corners, and of what lies between a curve and its mesh edge on the sides that are kept.
