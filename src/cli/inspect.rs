@@ -5,7 +5,7 @@ use super::options::{Options, Resolved};
 use super::{Halt, Volume, remember, say};
 use clap::Args;
 use serde::Serialize;
-use squinch::domain::{ArrangeOptions, Domain, Drawing, FaceInfo, Layer, Loose, Repair, Skipped};
+use squinch::domain::{ArrangeOptions, Domain, Drawing, DrawnCurve, FaceInfo, Layer, Loose, Repair, Skipped};
 use squinch::ids::{Id, IdVec, LayerId, PointId};
 use squinch::pipeline::{self, Exit};
 use squinch::report::{FailureReport, SCHEMA, kinds};
@@ -235,11 +235,14 @@ fn face_row(face: &FaceInfo) -> String {
 fn layers(drawing: &Drawing, watch: &mut Watch) -> Vec<LayerFindings> {
     let options = ArrangeOptions { loose: Loose::Drop, ..ArrangeOptions::default() };
     let mut finding = |id: LayerId, layer: &Layer| {
-        let curves: Vec<_> = drawing.curves.iter().filter(|c| c.layer == Some(id)).cloned().collect();
+        // What clips are made of is of no layer, and cuts those of all.
+        let of_clip = |c: &DrawnCurve| c.shape.is_some_and(|shape| drawing.shapes[shape].part_of.is_some());
+        let curves = drawing.curves.iter().filter(|c| c.layer == Some(id) || of_clip(c)).cloned().collect();
         let alone = Drawing {
             curves,
             names: drawing.names.clone(),
             shapes: drawing.shapes.clone(),
+            clips: drawing.clips.clone(),
             fill: drawing.fill,
             ..Drawing::default()
         };
