@@ -5,7 +5,7 @@ mod budget;
 mod healing;
 
 use crate::domain::{
-    ArrangeError, Domain, DomainCurve, Drawing, DrawnCurve, Repair, SizeRequest, Target, Unarranged, Unmatched,
+    ArrangeError, Domain, DomainCurve, Drawing, DrawnCurve, Region, Repair, SizeRequest, Target, Unarranged, Unmatched,
 };
 use crate::geometry::{Point, metres};
 use crate::ids::{Id, PointId, VertexId};
@@ -330,7 +330,7 @@ fn give_names(drawing: &mut Drawing, request: &Request, of_many: bool) -> Result
     drawing.name_each(request.names.rule());
     for name in &request.name {
         match drawing.give_name(name) {
-            Ok(what) => drawing.notes.push(what),
+            Ok(what) => drawing.notes.extend(what),
             Err(why) if of_many => drawing.notes.push(format!("--name {name}: {why}")),
             Err(why) => return Err(FailureReport::new(FailureKind::Request, format!("--name {name}: {why}"), "")),
         }
@@ -392,6 +392,7 @@ fn tell_unmatched(drawing: &mut Drawing, of_many: bool) -> Result<(), FailureRep
 impl From<ImportError> for FailureReport {
     fn from(error: ImportError) -> Self {
         let ImportError { what, line, column, help } = error;
+        let [line, column] = [line, column].map(|number| number.and_then(|n| u32::try_from(n).ok()));
         Self { line, column, ..Self::new(FailureKind::Unreadable, what, help) }
     }
 }
@@ -478,7 +479,8 @@ pub fn unhealed(drawing: &Drawing, request: &Request, notes: &mut Vec<String>, w
 
 impl From<ArrangeError> for FailureReport {
     fn from(error: ArrangeError) -> Self {
-        Self::new(FailureKind::Geometry, error.what, error.help).at(error.at)
+        let also_at = error.also_at.iter().map(|at| [at.x, at.y]).collect();
+        Self { also_at, ..Self::new(FailureKind::Geometry, error.what, error.help).at(error.at) }
     }
 }
 
@@ -807,7 +809,9 @@ fn sizing(drawing: &Drawing, domain: &Domain, request: &Request) -> Result<Sizin
         return Err(FailureReport::new(FailureKind::Request, what, help).at(at));
     }
     let boundaries: BTreeSet<&str> = domain.curves().iter().map(|c| domain.name(c.name)).collect();
-    let regions: BTreeSet<&str> = domain.regions().iter().map(|r| domain.name(r.name)).collect();
+    // A region that is called so after the layer of its outline only has the size of that outline, not one of its own.
+    let is_own = |region: &&Region| region.is_named || !boundaries.contains(domain.name(region.name));
+    let regions: BTreeSet<&str> = domain.regions().iter().filter(is_own).map(|r| domain.name(r.name)).collect();
     for SizeOf { name, edge } in &request.size_of {
         let (boundary, region) = (boundaries.contains(name.as_str()), regions.contains(name.as_str()));
         if boundary {

@@ -322,8 +322,11 @@ pub struct FailureReport {
     pub kind: FailureKind,
     pub what: String,
     pub at: Option<[f64; 2]>,
-    pub line: Option<usize>,
-    pub column: Option<usize>,
+    /// Further places of the same flaw, as many as `what` lists.
+    #[serde(skip_serializing_if = "<[[f64; 2]]>::is_empty")]
+    pub also_at: Box<[[f64; 2]]>,
+    pub line: Option<u32>,
+    pub column: Option<u32>,
     pub help: String,
     /// The end of the stage that a budget cut short: `stop` of the report.
     #[serde(skip)]
@@ -345,7 +348,16 @@ pub enum FailureKind {
 
 impl FailureReport {
     pub fn new(kind: FailureKind, what: impl Into<String>, help: impl Into<String>) -> Self {
-        Self { kind, what: what.into(), at: None, line: None, column: None, help: help.into(), stop: None }
+        Self {
+            kind,
+            what: what.into(),
+            at: None,
+            also_at: Box::default(),
+            line: None,
+            column: None,
+            help: help.into(),
+            stop: None,
+        }
     }
 
     pub fn at(self, place: Point) -> Self {

@@ -1400,3 +1400,14 @@ fn outlines_that_cross_those_of_another_layer_are_told() {
     let open = notes_of(&[("A", square(0.0, 0.0, 2.0)), ("B", vec![line((-1.0, 1.0), (3.0, 1.0))])]);
     assert!(!open.contains("cross"), "{open}");
 }
+
+#[test]
+fn rings_a_hair_apart_keep_every_promise() {
+    for hair in [1e-9, 1e-10, 1e-11] {
+        let rings = drawing([circle(-3.0, -1.75, 1.0), circle(-3.0, -1.75, 1.0 + hair)]);
+        let options = ArrangeOptions { tolerance: Some(0.0), fill: Some(FillRule::Regions), ..Default::default() };
+        let domain = rings.arrange(&options).unwrap();
+        assert_eq!(domain.flaws(), [""; 0], "{hair:e}");
+        assert_eq!(domain.regions().len(), 2, "{hair:e}");
+    }
+}

@@ -458,6 +458,8 @@ fn a_plain_vtu_has_no_field_data() {
     assert_eq!((shape(&back).0, back.edges.len()), (shape(&mesh).0, 0));
     assert!(Format::Vtu.losses(&mesh, &plain).iter().any(|loss| loss.starts_with("names")));
     assert!(Format::Vtu.losses(&mesh, &plain).iter().any(|loss| loss.starts_with("boundaries")));
+    // MFEM takes its attributes from the first array of the cells, where the name of the scalars says so.
+    assert!(text.contains("<CellData Scalars=\"material\">\n<DataArray type=\"Int32\" Name=\"material\""), "{text}");
     let lines = WriteOptions { lines: Some(true), ..plain };
     assert_eq!(shape(&around_with(&mesh, Format::Vtu, &lines).mesh), shape(&mesh));
 }

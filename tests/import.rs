@@ -954,7 +954,7 @@ fn a_build_without_the_step_reader_says_how_to_get_one() {
     let error = read(b"ISO-10303-21;", Format::Step, "part", &Options::default()).expect_err("no reader");
     assert_eq!(
         (error.what.as_str(), error.help.as_str()),
-        ("this build has no STEP reader", "build with --features cad")
+        ("this build has no STEP reader", "build one that has: cargo install --locked --path . --features cad")
     );
 }
 

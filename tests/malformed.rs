@@ -5,7 +5,7 @@
 use squinch::import::mesh::{self, MeshFile};
 use squinch::import::{self, Format, ImportError, Options};
 use squinch::pipeline::{Exit, Extent, Outcome, Source, run};
-use squinch::request::Request;
+use squinch::request::{LineTypes, LooseEnds, Request, Strokes, Switch};
 use std::time::{Duration, Instant};
 
 /// Far more than any of these files takes, on a slow machine and without optimisation.
@@ -35,7 +35,11 @@ fn soon<T>(what: &str, work: impl FnOnce() -> T) -> T {
 }
 
 fn meshed(name: &str, bytes: &[u8], format: Option<Format>) -> Outcome {
-    let request = Request { max_vertices: 2000, timeout: Some(10.0), far_field: 2.0, ..Request::default() };
+    meshed_by(name, bytes, format, Request::default())
+}
+
+fn meshed_by(name: &str, bytes: &[u8], format: Option<Format>, request: Request) -> Outcome {
+    let request = Request { max_vertices: 2000, timeout: Some(10.0), far_field: 2.0, ..request };
     let source = Source { path: name, bytes, format, nodes: None, of_many: false };
     soon(name, || run(&source, &request, Extent::Whole(&mut |_| true)))
 }
@@ -241,6 +245,210 @@ fn what_unfolds_without_end_is_refused_or_left_out() {
     assert!(refusal("deep lists", Format::Outline, lists.as_bytes()).line.is_some());
     let objects = format!("{{ \"squinch\": 1, \"curves\": [{}", "{\"line\":".repeat(1_000_000));
     assert!(refusal("deep objects", Format::Outline, objects.as_bytes()).line.is_some());
+}
+
+#[test]
+fn pictures_that_say_too_much_are_meshes_or_refusals() {
+    let chain = |n: usize, by: &str| {
+        let path = |k: usize| {
+            format!(
+                "<clipPath id='c{k}' clip-path='url(#c{})'><rect width='{}' height='9'/>{by}</clipPath>",
+                k + 1,
+                k + 1
+            )
+        };
+        (0..n).map(path).collect::<String>()
+    };
+    let plain = "<rect width='8' height='8'/>";
+    let clipped = |defs: &str| format!("{defs}<g clip-path='url(#c0)'>{plain}</g>");
+    // Each child of a clip path asks for the next one, moved: 2^40 of them.
+    let doubled: String = (0..40)
+        .map(|k| {
+            let child = |x: usize| format!("<circle r='5' transform='translate({x})' clip-path='url(#c{})'/>", k + 1);
+            format!("<clipPath id='c{k}'>{}{}</clipPath>", child(0), child(1))
+        })
+        .collect();
+    let nested = format!("{}{plain}{}", "<g clip-path='inset(1%)'>".repeat(300), "</g>".repeat(300));
+    let boxes = format!(
+        "{}{plain}{}",
+        "<g style='transform-box:fill-box;transform-origin:center;rotate:1deg'>".repeat(300),
+        "</g>".repeat(300)
+    );
+    // Each of 1000 clips cuts, in each of the thousand elements, what another row of clips leaves: 500 000 clips.
+    let staggered: String = (0..1000)
+        .map(|k| format!("<g style='clip-path:polygon({k}px 0,{k}.5px 9px,4{k:03}px 9px,4{k:03}px 0)'><rect x='{k}' width='4000' height='8'/>"))
+        .collect();
+    let sheet = |selector: &str| format!("<style>{selector} {{ fill: red }}</style><g><g><g>{plain}</g></g></g>");
+    let elements = "<g/>".repeat(2000);
+    let pictures = [
+        (
+            "a clip path in itself",
+            clipped("<clipPath id='c0' clip-path='url(#c0)'><rect width='5' height='5'/></clipPath>"),
+        ),
+        ("clip paths in a cycle", clipped(&chain(2, "<circle r='3' clip-path='url(#c0)'/>").replace("#c2", "#c0"))),
+        (
+            "a use of a clip path",
+            clipped(
+                "<clipPath id='c0'><use xlink:href='#c0'/><use xlink:href='#u'/></clipPath><use id='u' xlink:href='#u'/>",
+            ),
+        ),
+        ("clip paths in a row", clipped(&chain(100, ""))),
+        ("doubled clip paths", clipped(&doubled)),
+        ("nested clip paths", nested),
+        ("nested boxes", boxes),
+        ("staggered clips", staggered + &"</g>".repeat(1000)),
+        ("deep selectors", sheet(&"g > g ".repeat(10_000))),
+        ("selectors in selectors", sheet(&format!("{}g{}", ":not(".repeat(10_000), ")".repeat(10_000)))),
+        (
+            "selectors that turn back",
+            format!("<style>{} {{ fill: red }}</style><g>{elements}</g>", "g ~ ".repeat(40) + "p"),
+        ),
+        ("letters of several bytes", sheet("*é, [k]é, é>*, #é.é:é, rect é")),
+        ("huge places of children", sheet("rect:nth-child(-1099511627776n+1099511627775), rect:nth-child(9e99n)")),
+        ("blocks without end", format!("<style>{}</style>{plain}", "@media screen { g { ".repeat(10_000))),
+        ("variables of themselves", format!("<g style='--a:var(--b);--b:var(--a);fill:var(--a,var(--b))'>{plain}</g>")),
+        ("a huge scale", format!("<g transform='scale(1e300)'><g transform='scale(1e300)'>{plain}</g></g>")),
+        ("a tiny scale", format!("<g transform='scale(1e-200) scale(1e-200)'>{plain}</g>")),
+        ("infinite turns", format!("<g style='rotate:1e999turn;translate:1e999px;scale:-1e999'>{plain}</g>")),
+        ("a huge skew", format!("<g transform='skewX(90) skewY(-1e300) rotate(1e308, 1e308, -1e308)'>{plain}</g>")),
+        ("a huge matrix", format!("<g transform='matrix(1e308 1e308 -1e308 1e308 1e308 1e308)'>{plain}</g>")),
+    ];
+    for (what, body) in pictures {
+        ends_well(&meshed(what, &svg(&body), Some(Format::Svg)), what);
+    }
+    let curves = "<path d='M0 0C0 9 9 9 9 0A4 2 9 0 1 0 0z'/><circle r='2'/><path d='M0 0h9'/>";
+    for pen in [
+        "stroke-dasharray='0'",
+        "stroke-dasharray='0 0 0'",
+        "stroke-dasharray='-1 2'",
+        "stroke-dasharray='1 -1'",
+        "stroke-dasharray='1e-300'",
+        "stroke-dasharray='1e-3'",
+        "stroke-dasharray='1e-320 1e300' stroke-dashoffset='-1e308'",
+        "stroke-dasharray='1e999 0' stroke-dashoffset='1e999'",
+        "stroke-dasharray='nan 1'",
+        "stroke-dasharray='0 3' stroke-linecap='round'",
+        "stroke-width='1e300'",
+        "stroke-width='1e999'",
+        "stroke-width='1e-300'",
+        "stroke-width='-1'",
+        "stroke-miterlimit='1e999' stroke-linejoin='miter'",
+        "transform='scale(1e-9 1)' vector-effect='non-scaling-stroke'",
+    ] {
+        let body = format!("<g fill='none' stroke='red' {pen}>{curves}</g>");
+        let request = Request { strokes: Strokes::Area, ..Request::default() };
+        ends_well(&meshed_by(pen, &svg(&body), Some(Format::Svg), request), pen);
+    }
+}
+
+#[test]
+fn entities_that_contradict_themselves_are_meshes_or_refusals() {
+    let square = "0 LWPOLYLINE; 8 0; 90 4; 70 1; 10 0; 20 0; 10 9; 20 0; 10 9; 20 9; 10 0; 20 9";
+    let vertex = |x: f64, offset: f64| format!("11 {x}; 21 0; 12 1; 22 0; 13 0; 23 1; 74 2; 41 {offset}; 41 0; 75 0");
+    let hatch = |paths: &str| format!("0 HATCH; 8 0; 2 SOLID; 70 1; 91 1; {paths}; 75 0; 76 1");
+    let spline =
+        |data: &str| format!("0 SPLINE; 8 0; 70 0; 71 3; {data}; 10 0; 20 0; 10 1; 20 3; 10 2; 20 -3; 10 3; 20 0");
+    let entities = [
+        ("a multiline without vertices", "0 MLINE; 8 0; 71 2".to_owned()),
+        ("a multiline of one vertex", format!("0 MLINE; 8 0; 71 3; {}", vertex(0.0, 1.0))),
+        ("a multiline of no lines", "0 MLINE; 8 0; 71 1; 11 0; 21 0; 11 9; 21 0".into()),
+        ("a multiline of huge offsets", format!("0 MLINE; 8 0; 71 1; {}; {}", vertex(0.0, 1e308), vertex(9.0, -1e308))),
+        ("a polygon without paths", "0 MPOLYGON; 8 0; 91 0".into()),
+        ("a polygon of one corner", "0 MPOLYGON; 8 0; 91 1; 92 2; 72 0; 73 1; 93 1; 10 1; 20 1".into()),
+        ("a polygon of edges", "0 MPOLYGON; 8 0; 91 1; 92 1; 93 1; 72 2; 10 0; 20 0; 40 1; 50 0; 51 360; 73 1".into()),
+        ("a hatch of no paths", hatch("92 1")),
+        ("a path without edges", hatch("92 1; 93 0; 97 0")),
+        ("a path of promised edges", hatch("92 1; 93 2147483647")),
+        ("a polyline of nothing", hatch("92 3; 72 1; 73 1; 93 0")),
+        (
+            "arcs of no extent",
+            hatch("92 1; 93 2; 72 2; 10 0; 20 0; 40 0; 50 0; 51 360; 73 1; 72 1; 10 1; 20 1; 11 1; 21 1"),
+        ),
+        ("an ellipse of no width", hatch("92 1; 93 1; 72 3; 10 0; 20 0; 11 1; 21 0; 40 0; 50 0; 51 360; 73 1")),
+        ("a spline edge of no points", hatch("92 1; 93 1; 72 4; 94 3; 73 0; 74 0; 95 0; 96 0; 97 0")),
+        ("a huge tolerance of knots", spline("42 1e300; 40 9; 40 0; 40 5; 40 1; 40 1; 40 1; 40 1; 40 -7")),
+        ("a negative tolerance of knots", spline("42 -1; 40 0; 40 0; 40 0; 40 0; 40 1; 40 1; 40 1; 40 1")),
+        ("one knot all over", spline("42 1e300; 40 1; 40 1; 40 1; 40 1; 40 1; 40 1; 40 1; 40 1")),
+        ("weights of nothing", spline("41 0; 41 0; 41 0; 41 0")),
+        ("weights of both signs", spline("41 1; 41 -1; 41 1; 41 -1")),
+        (
+            "huge tangents",
+            "0 SPLINE; 8 0; 70 0; 71 3; 74 3; 12 1e308; 22 1e308; 13 1e-320; 23 0; 11 0; 21 0; 11 1; 21 1; 11 2; 21 0"
+                .into(),
+        ),
+        ("a solid of one corner", "0 SOLID; 8 0; 10 1; 20 1; 11 1; 21 1; 12 1; 22 1; 13 1; 23 1".into()),
+        ("a wipeout", "0 WIPEOUT; 8 0; 10 0; 20 0; 11 1e300; 21 0; 91 2; 14 0; 24 0".into()),
+        ("an ellipse of no axis", "0 ELLIPSE; 8 0; 10 0; 20 0; 11 0; 21 0; 31 1; 40 0.5; 41 0; 42 6.28".into()),
+    ];
+    for (what, entity) in entities {
+        for text in [dxf_entities(&entity), dxf_entities(&format!("{square}; {entity}"))] {
+            let all = Request {
+                line_types: LineTypes::All,
+                flatten_z: Switch::On,
+                loose: LooseEnds::Drop,
+                ..Request::default()
+            };
+            for request in [Request::default(), all] {
+                ends_well(&meshed_by(what, &text, Some(Format::Dxf), request), what);
+            }
+        }
+    }
+    // Layers and blocks whose line types refer to each other and to nothing.
+    let by_block = dxf(&format!(
+        "0 SECTION; 2 TABLES; 0 TABLE; 2 LAYER; 0 LAYER; 2 A; 70 0; 62 7; 6 BYBLOCK; 0 LAYER; 2 B; 70 0; 62 7; 6 BYLAYER; 0 ENDTAB; \
+         0 ENDSEC; 0 SECTION; 2 BLOCKS; 0 BLOCK; 2 K; 10 0; 20 0; 0 INSERT; 8 A; 6 BYBLOCK; 2 L; 10 0; 20 0; 0 ENDBLK; 0 BLOCK; 2 L; \
+         10 0; 20 0; 0 CIRCLE; 8 B; 6 BYBLOCK; 10 0; 20 0; 40 1; 0 INSERT; 8 B; 6 BYLAYER; 2 K; 10 0; 20 0; 0 ENDBLK; 0 ENDSEC; \
+         0 SECTION; 2 ENTITIES; 0 INSERT; 8 A; 6 BYBLOCK; 2 K; 10 0; 20 0; {square}; 0 ENDSEC; 0 EOF"
+    ));
+    let outcome = meshed("line types in a cycle", &by_block, Some(Format::Dxf));
+    assert_eq!(outcome.exit, Exit::Done, "{:?}", outcome.report.failure);
+}
+
+#[test]
+fn tables_of_coordinates_that_are_none_are_sections_or_refusals() {
+    let rows = |row: &dyn Fn(usize) -> String| (0..40).map(|k| row(k) + "\n").collect::<String>();
+    let tables = [
+        ("index columns alone", rows(&|k| format!("{k}"))),
+        ("equal rows", rows(&|_| "0.5 0.1".into())),
+        ("equal columns", rows(&|k| format!("{k} {k} {k}"))),
+        ("a column of nothing", rows(&|k| format!("{} 0 0", k as f64 / 39.0))),
+        ("surfaces that swap", rows(&|k| format!("{} {} {}", k as f64 / 39.0, (k % 2) as f64, ((k + 1) % 2) as f64))),
+        ("minus signs alone", rows(&|_| "-1-2-3-4-5-6-7-8".into())),
+        ("signs of another alphabet", rows(&|k| format!("\u{2212}{k}.5\u{2212}0.1"))),
+        ("numbers without end", "1".repeat(100_000) + " 0\n0.5 0.1\n0 0\n0.5 -0.1\n1 0\n"),
+        ("a row without end", "0.5 ".repeat(100_000)),
+        ("two numbers in front", "Section 1e308 -1e308\n".to_owned() + &rows(&|k| format!("{} 0.1", k as f64 / 39.0))),
+        ("huge numbers", rows(&|k| format!("{}e300 {}e300", k, k % 7))),
+        ("tiny numbers", rows(&|k| format!("{}e-310 {}e-310", k, k % 7))),
+    ];
+    for (what, text) in tables {
+        for chord in [None, Some(1e-300), Some(1e300)] {
+            ends_well(
+                &meshed_by(what, text.as_bytes(), Some(Format::Airfoil), Request { chord, ..Request::default() }),
+                what,
+            );
+        }
+    }
+}
+
+#[test]
+fn gaps_are_closed_by_absurd_values_or_refused() {
+    let plate = sample("plate.json");
+    let open = dxf_entities(
+        "0 LINE; 10 0; 20 0; 11 9; 21 0; 0 LINE; 10 9; 20 0; 11 9; 21 9; 0 LINE; 10 9; 20 9; 11 0; 21 0.1",
+    );
+    for close in [f64::MIN_POSITIVE, 1e-300, 1e-9, 1.0, 1e9, 1e300, f64::MAX] {
+        for loose in [LooseEnds::Auto, LooseEnds::Keep, LooseEnds::Drop, LooseEnds::Error] {
+            for (name, bytes, format) in [("plate", &plate, Format::Outline), ("open", &open, Format::Dxf)] {
+                let request = Request { close: Some(close), loose, ..Request::default() };
+                ends_well(&meshed_by(name, bytes, Some(format), request), &format!("{name} closed by {close:e}"));
+            }
+        }
+    }
+    for close in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let refused = Request { close: Some(close), ..Request::default() }.validate();
+        assert_eq!(refused.map_err(|error| error.option), Err("close"), "{close}");
+    }
 }
 
 // ---- meshes ----

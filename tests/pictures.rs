@@ -199,3 +199,20 @@ fn many_repairs_do_not_drown_a_drawing() {
     assert!((50..=250).contains(&markers), "{markers}");
     assert!(svg.contains("20\u{202f}000 splits"), "the legend has them all");
 }
+
+#[test]
+fn what_is_said_of_a_mark_is_short_and_within_the_picture() {
+    let at = Point::new(2.0, 1.0);
+    let marks = vec![(at, "an outline misses closing: ".repeat(9)), (Point::new(0.0, 0.0), String::new())];
+    let mut square = Drawing::default();
+    square.add(Curve::line(Point::new(0.0, 0.0), at).expect("a line"), "side", "line 1");
+    let svg = picture_of_drawing(&square, &PictureOptions { marks, ..PictureOptions::default() }).svg().expect("text");
+    let crosses = svg.matches("stroke=\"#d6002a\"").count();
+    assert_eq!(crosses, 2, "one for each place");
+    let said: Vec<&str> = svg.lines().filter(|line| line.contains("misses")).collect();
+    assert_eq!(said.len(), 2, "words and their rim: {said:?}");
+    let words = said[1].split(['<', '>']).nth(2).expect("words");
+    assert!(words.chars().count() <= 60 && words.ends_with('…'), "{words}");
+    let x: f64 = said[1].split('"').nth(1).and_then(|x| x.parse().ok()).expect("a place");
+    assert!(x > 0.0 && x + 13.6 * 0.5 * 60.0 < 1200.0, "{x}");
+}

@@ -45,7 +45,10 @@ pub fn is_mesh(input: &Input) -> bool {
 pub fn read(input: &Input) -> Result<MeshFile, Halt> {
     let path = Path::new(&input.path);
     let Some(format) = mesh_format(input) else {
-        return Err(Halt::Unreadable(format!("{}: not a mesh file of a format that can be read", input.path)));
+        return Err(Halt::Unreadable(format!(
+            "{}: not a mesh file of a format that can be read (`squinch mesh` makes one of a drawing)",
+            input.path
+        )));
     };
     let beside: Vec<_> = format.beside().iter().map(|suffix| std::fs::read(path.with_extension(suffix)).ok()).collect();
     mesh::read(&input.bytes, format, &beside).map_err(|error| {

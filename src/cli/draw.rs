@@ -134,7 +134,7 @@ impl Draw {
             picture.unhealed = pipeline::unhealed(&drawing, request, &mut Vec::new(), watch);
         }
         if self.shown() == Stage::Drawing {
-            let marks = arranged.err().and_then(mark).into_iter().collect();
+            let marks = arranged.err().map_or_else(Vec::new, marks);
             return Ok(picture_of_drawing(&drawing, &PictureOptions { marks, ..picture }));
         }
         self.stage_of_domain(&drawing, &arranged?, request, watch, &picture)
@@ -179,10 +179,11 @@ impl Draw {
     }
 }
 
-/// Where a flaw is, with what it is.
-fn mark(failure: FailureReport) -> Option<(Point, String)> {
-    let [x, y] = failure.at?;
-    Some((Point::new(x, y), failure.what))
+/// Where a flaw is, what it is at the first of its places.
+fn marks(failure: FailureReport) -> Vec<(Point, String)> {
+    let words = std::iter::once(failure.what).chain(std::iter::repeat(String::new()));
+    let places = failure.at.into_iter().chain(failure.also_at);
+    places.map(|[x, y]| Point::new(x, y)).zip(words).collect()
 }
 
 #[cfg(test)]

@@ -26,6 +26,9 @@ impl Input {
     /// Reads a file, or standard input for `-`.
     pub fn open(path: &Path, format: Option<Format>) -> Result<Self, Halt> {
         let shown = path.display().to_string();
+        if path.is_dir() {
+            return Err(Halt::Unreadable(format!("{shown}: a folder; `squinch batch` takes folders")));
+        }
         let bytes = read(path).map_err(|e| Halt::Unreadable(format!("{shown}: {e}")))?;
         let beside = path.with_extension("node");
         let nodes = path.extension().filter(|e| e.eq_ignore_ascii_case("poly")).and_then(|_| fs::read(beside).ok());
@@ -61,7 +64,7 @@ pub fn read(path: &Path) -> io::Result<Vec<u8>> {
 pub fn output_format(path: &Path, asked: Option<export::Format>) -> Result<export::Format, Halt> {
     let format = asked.or_else(|| export::format_of(path)).ok_or_else(|| {
         let names = export::Format::ALL.map(export::Format::name).join(", ");
-        Halt::Usage(format!("-o {}: say its format by --format: {names}", path.display()))
+        Halt::Usage(format!("{}: say its format by --format: {names}", path.display()))
     })?;
     if path.as_os_str() == "-" && of_output(path, format).len() > 1 {
         let files = format.suffixes().join(", .");

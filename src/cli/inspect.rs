@@ -212,8 +212,7 @@ impl Findings {
         self.notes.iter().for_each(|note| row("note", note));
         say::repair_rows(&self.repairs, &self.unhealed, volume, &mut row);
         for flaw in &self.flaws {
-            let place = flaw.at.map_or_else(String::new, |at| format!(" at {}", say::place(at)));
-            row("flaw", &format!("{}{place}", ink.red(&flaw.what)));
+            row("flaw", &ink.red(&say::located(&flaw.what, flaw.at)));
             if !flaw.help.is_empty() {
                 row("", &flaw.help);
             }
@@ -237,7 +236,9 @@ fn layers(drawing: &Drawing, watch: &mut Watch) -> Vec<LayerFindings> {
     let mut finding = |id: LayerId, layer: &Layer| {
         // What clips are made of is of no layer, and cuts those of all.
         let of_clip = |c: &DrawnCurve| c.shape.is_some_and(|shape| drawing.shapes[shape].part_of.is_some());
-        let curves = drawing.curves.iter().filter(|c| c.layer == Some(id) || of_clip(c)).cloned().collect();
+        let on_it = drawing.curves.iter().filter(|c| c.layer == Some(id) || of_clip(c));
+        // Alone, it needs no layer.
+        let curves: Vec<_> = on_it.map(|c| DrawnCurve { layer: None, ..c.clone() }).collect();
         let alone = Drawing {
             curves,
             names: drawing.names.clone(),

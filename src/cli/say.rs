@@ -87,29 +87,32 @@ pub fn halt(halt: Halt) -> Exit {
 pub fn failure(report: &FailureReport, input: Option<&Input>) {
     if let (Some(input), Some(number)) = (input, report.line) {
         let text = String::from_utf8_lossy(&input.bytes);
-        let span = span_of_line(&text, number, report.column);
+        let span = span_of_line(&text, number as usize, report.column.map(|column| column as usize));
         return pointing(&report.what, Some(&report.help), &input.path, &text, span);
     }
-    let place = report.at.map_or_else(String::new, |at| format!(" at {}", place(at)));
     let path = input.map_or_else(String::new, |input| format!("{}: ", input.path));
-    error(&format!("{path}{}{place}", report.what));
+    error(&format!("{path}{}", located(&report.what, report.at)));
     if !report.help.is_empty() {
         help(&report.help);
     }
 }
 
+/// What is wrong, with the place where the words do not name it.
+pub fn located(what: &str, at: Option<[f64; 2]>) -> String {
+    match at.map(place) {
+        Some(place) if !what.contains(&place) => format!("{what} at {place}"),
+        Some(_) | None => what.to_owned(),
+    }
+}
+
 /// What was noticed of an input that failed, as far as a few lines tell it: it may be why.
 pub fn remarks(input: &InputReport, volume: Volume) {
-    const FEW: usize = 4;
     // Otherwise nothing is said of it, or all.
     if volume != Volume::Normal {
         return;
     }
     let row = |name: &str, text: &str| line(&format!("  {}  {text}", Ink::stderr().dim(&format!("{name:<8}"))));
-    input.notes.iter().take(FEW).for_each(|note| row("note", note));
-    if input.notes.len() > FEW {
-        row("", &format!("and {} (-v lists them)", plural(input.notes.len() - FEW, "note more", "notes more")));
-    }
+    note_rows(&input.notes, volume, &row);
     repair_rows(&[], &input.unhealed, volume, &mut |name, text| row(name, text));
 }
 
@@ -340,10 +343,20 @@ fn input_rows(report: &Report, volume: Volume, row: &dyn Fn(&str, &str)) {
     for skipped in &input.skipped {
         row("left out", &format!("{} {}: {}", skipped.count, skipped.entity, skipped.why));
     }
-    // What is said of an option (it begins with its dashes) is an answer to the command line, not a remark on the file.
-    let told = |note: &&String| volume == Volume::Verbose || note.starts_with("--");
-    input.notes.iter().filter(told).for_each(|note| row("note", note));
+    note_rows(&input.notes, volume, row);
     repair_rows(&input.repairs, &input.unhealed, volume, &mut |name, text| row(name, text));
+}
+
+/// What was noticed of the input: a few notes or, where asked for, all.
+fn note_rows(notes: &[String], volume: Volume, row: &dyn Fn(&str, &str)) {
+    const FEW: usize = 4;
+    let shown = if volume == Volume::Verbose { notes.len() } else { FEW };
+    // What is said of an option (it begins with its dashes) is an answer to the command line: first, and all of it.
+    let (answers, remarks): (Vec<&String>, Vec<&String>) = notes.iter().partition(|note| note.starts_with("--"));
+    answers.iter().chain(remarks.iter().take(shown)).for_each(|note| row("note", note));
+    if remarks.len() > shown {
+        row("", &format!("and {} (-v lists them)", plural(remarks.len() - shown, "note more", "notes more")));
+    }
 }
 
 /// What was mended, and what by `--tolerance 0` was not: counted by kinds or, where asked for, one by one.

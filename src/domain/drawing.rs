@@ -168,7 +168,7 @@ pub struct DrawnPoint {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Label {
     pub at: Point,
-    pub name: NameId,
+    pub text: String,
 }
 
 /// A point that says something of the face it lies in.

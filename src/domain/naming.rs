@@ -93,21 +93,20 @@ impl fmt::Display for NameBy {
 const SAME_END: f64 = 1e-6;
 
 impl Drawing {
-    /// Gives a name; what was named, one sentence.
+    /// Gives a name; what was named, one sentence, where the place alone does not tell.
     ///
     /// # Errors
     /// Why nothing is there to be named, with what can be.
-    pub fn give_name(&mut self, given: &NameBy) -> Result<String, String> {
+    pub fn give_name(&mut self, given: &NameBy) -> Result<Option<String>, String> {
         match given.target {
-            Target::Nearest(at) => self.name_nearest(&given.name, at),
+            Target::Nearest(at) => self.name_nearest(&given.name, at).map(Some),
             Target::Region(at) => {
                 let (name, entity) = (self.names.intern(&given.name), format!("--name {given}"));
-                let what = format!("{} names the region at ({}, {}).", given.name, at.x, at.y);
                 // The first of several points in a region says its name.
                 self.seeds.insert(0, Seed { at, kind: SeedKind::Region { name, max_area: None }, entity });
-                Ok(what)
+                Ok(None)
             }
-            Target::Handle(handle) => self.name_entity(&given.name, handle),
+            Target::Handle(handle) => self.name_entity(&given.name, handle).map(Some),
         }
     }
 
@@ -123,7 +122,8 @@ impl Drawing {
             format!("; {} is as near: a place within one of them tells which", self.curves[other].entity)
         });
         let entity = &self.curves[nearest].entity;
-        Ok(format!("{} names {entity}, {distance:.3e} away from ({}, {}){as_near}.", self.names.text(name), at.x, at.y))
+        let away: f64 = format!("{distance:.3e}").parse().unwrap_or(distance);
+        Ok(format!("{} names {entity}, {away} away from ({}, {}){as_near}.", self.names.text(name), at.x, at.y))
     }
 
     fn name_entity(&mut self, name: &str, handle: u64) -> Result<String, String> {

@@ -627,7 +627,7 @@ impl Sheet {
     /// there is none, it is left away, unless it is `owed`.
     fn label(&mut self, p: Point, text: &str, colour: Colour, owed: bool) {
         let at = self.pixel(p);
-        if !self.canvas.frame().sees(&[at]) {
+        if text.is_empty() || !self.canvas.frame().sees(&[at]) {
             return;
         }
         let size = self.type_px * 0.85;
@@ -640,7 +640,8 @@ impl Sheet {
             .map(|(x, y)| Rect::new(at.x + x, at.y + y - 0.75 * size, at.x + x + width, at.y + y + 0.25 * size));
         let free =
             |b: &&Rect| b.union(sheet) == sheet && self.labels.iter().all(|other| other.intersect(**b).area() == 0.0);
-        let moved_in = |b: Rect| b - Vec2::new((b.x1 - sheet.x1).max(0.0).min(b.x0), 0.0);
+        let beyond = |b: Rect| Vec2::new((b.x1 - sheet.x1).max(0.0).min(b.x0), (b.y0 - sheet.y0).min(0.0));
+        let moved_in = |b: Rect| b - beyond(b);
         let Some(room) = boxes.iter().find(free).copied().or(owed.then(|| moved_in(boxes[0]))) else { return };
         self.labels.push(room);
         self.canvas.text(Label::new(px(room.x0, room.y1 - 0.25 * size), text, size).colour(colour).rim());
@@ -664,7 +665,7 @@ impl Sheet {
                 let (rim, pen) = (Stroke::new(Colour::hex(0xffffff), self.pen(5.0)), Stroke::new(ALARM, self.pen(2.4)));
                 self.canvas.path(cross.clone(), Paint::stroke(rim));
                 self.canvas.path(cross, Paint::stroke(pen));
-                self.label(*p, text, ALARM, true);
+                self.label(*p, &clipped(text, MARK_MAX), ALARM, true);
             }
         }
     }
@@ -691,7 +692,7 @@ impl Sheet {
         if legend.crowded {
             wanted.push((Swatch::None, "×n: n beside each other, marked by the rarest".into()));
         }
-        wanted.extend(swatches.chain(lines).take(LEGEND_NAMES_MAX).map(|(s, name)| (s, clipped(name))));
+        wanted.extend(swatches.chain(lines).take(LEGEND_NAMES_MAX).map(|(s, name)| (s, clipped(name, NAME_MAX))));
         if all > LEGEND_NAMES_MAX {
             wanted.push((Swatch::None, format!("and {} more", all - LEGEND_NAMES_MAX)));
         }
@@ -772,8 +773,18 @@ impl Sheet {
     }
 }
 
-fn clipped(name: &str) -> String {
-    if name.chars().count() <= 40 { name.to_owned() } else { name.chars().take(38).chain("…".chars()).collect() }
+/// Characters of a name in a legend.
+const NAME_MAX: usize = 40;
+/// Characters of what is said beside a mark.
+const MARK_MAX: usize = 60;
+
+/// A text of so many characters at most.
+fn clipped(text: &str, most: usize) -> String {
+    if text.chars().count() <= most {
+        text.to_owned()
+    } else {
+        text.chars().take(most - 2).chain("…".chars()).collect()
+    }
 }
 
 /// Distance of `p` from the line ab, or from a where a and b coincide.

@@ -19,8 +19,9 @@
 //! `String` ("Illegal data type"), while both it and VTK list the names of field arrays as they are. For meshio, too,
 //! no empty array is compressed.
 //!
-//! MFEM 4.10 refuses field data that stand before the piece, and lines beside triangles: a plain file has neither. Its attributes are
-//! all 1 then, whatever the arrays are called; names and boundaries reach it by MSH.
+//! MFEM 4.10 refuses field data that stand before the piece, and lines beside triangles: a plain file has neither. MFEM takes its attributes
+//! from the first array of the cells where `Scalars` of `CellData` says `material`, whatever the array is called, and makes all of them 1
+//! otherwise: there the number of the region comes once more, as `material`. Names and boundaries reach MFEM by MSH.
 //!
 //! Written here and not by the vtkio crate (0.7.0-rc2), which keeps a second model of the whole file in memory and
 //! compresses one block after the other; here each array is made, compressed in parallel blocks and written before
@@ -50,7 +51,7 @@ pub fn write(mesh: &Mesh, stamps: &[(String, String)], out: &mut impl Write) -> 
     writeln!(out, "<FieldData>")?;
     write_fields(mesh, stamps, &boundary_numbers(mesh), out)?;
     writeln!(out, "</FieldData>")?;
-    write_piece(mesh, out)
+    write_piece(mesh, false, out)
 }
 
 /// Writes a mesh without field data, and so without names, boundaries as lines only where asked for.
@@ -61,9 +62,9 @@ pub fn write_plain(mesh: &Mesh, lines: bool, out: &mut impl Write) -> io::Result
     check(mesh)?;
     begin(out)?;
     if lines {
-        return write_piece(mesh, out);
+        return write_piece(mesh, true, out);
     }
-    write_piece(&Mesh { edges: Vec::new(), edge_mids: Vec::new(), ..mesh.clone() }, out)
+    write_piece(&Mesh { edges: Vec::new(), edge_mids: Vec::new(), ..mesh.clone() }, true, out)
 }
 
 fn begin(out: &mut impl Write) -> io::Result<()> {
@@ -75,7 +76,8 @@ fn begin(out: &mut impl Write) -> io::Result<()> {
     )
 }
 
-fn write_piece(mesh: &Mesh, out: &mut impl Write) -> io::Result<()> {
+/// The piece and the end of the file; `material`: with the regions as MFEM takes them.
+fn write_piece(mesh: &Mesh, material: bool, out: &mut impl Write) -> io::Result<()> {
     let cells = mesh.triangles.len() + mesh.edges.len();
     writeln!(out, "<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{cells}\">\n<Points>", mesh.nodes.len())?;
     let points: Vec<f64> = mesh.places().flatten().collect();
@@ -88,7 +90,10 @@ fn write_piece(mesh: &Mesh, out: &mut impl Write) -> io::Result<()> {
     }
     writeln!(out, "<Cells>")?;
     write_cells(mesh, out)?;
-    writeln!(out, "</Cells>\n<CellData>")?;
+    writeln!(out, "</Cells>\n<CellData{}>", if material { " Scalars=\"material\"" } else { "" })?;
+    if material {
+        Array::of_i32("material", region_numbers(mesh)).write(out)?;
+    }
     write_cell_data(mesh, &boundary_numbers(mesh), out)?;
     writeln!(out, "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>")
 }
@@ -174,11 +179,16 @@ fn write_cells(mesh: &Mesh, out: &mut impl Write) -> io::Result<()> {
     Array::of_u8("types", [vec![triangle; triangles], vec![line; lines]].concat()).write(out)
 }
 
+/// By cell: the number of the region, from 1; 0 of lines.
+fn region_numbers(mesh: &Mesh) -> impl Iterator<Item = i32> {
+    let regions = mesh.triangle_regions.iter().map(|r| r.0 as i32 + 1);
+    regions.chain(std::iter::repeat_n(0, mesh.edges.len()))
+}
+
 fn write_cell_data(mesh: &Mesh, boundaries: &BTreeMap<NameId, i32>, out: &mut impl Write) -> io::Result<()> {
     let (triangles, lines) = (mesh.triangles.len(), mesh.edges.len());
     let no = |value: i32, cells: usize| std::iter::repeat_n(value, cells);
-    let regions = mesh.triangle_regions.iter().map(|r| r.0 as i32 + 1);
-    Array::of_i32("region", regions.chain(no(0, lines))).write(out)?;
+    Array::of_i32("region", region_numbers(mesh)).write(out)?;
     let number = |e: &CurveEdge| boundaries.get(&e.name).copied().unwrap_or(0);
     Array::of_i32("boundary", no(0, triangles).chain(mesh.edges.iter().map(number))).write(out)?;
     if !mesh.colours.is_empty() {

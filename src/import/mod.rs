@@ -201,7 +201,10 @@ pub fn read(bytes: &[u8], format: Format, stem: &str, options: &Options) -> Resu
         #[cfg(feature = "cad")]
         Format::Step => step::read(bytes, stem, options.face.as_deref()),
         #[cfg(not(feature = "cad"))]
-        Format::Step => Err(ImportError::new("this build has no STEP reader", "build with --features cad")),
+        Format::Step => {
+            let help = "build one that has: cargo install --locked --path . --features cad";
+            Err(ImportError::new("this build has no STEP reader", help))
+        }
     }
 }
 

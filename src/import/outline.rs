@@ -35,7 +35,7 @@ const VERSION: u32 = 1;
 const MAX_DEGREE: usize = 300;
 /// How far the stated ends of an arc may lie from where its angles put them, in its size: rounding of a file with six decimals.
 const END_SLACK: f64 = 1e-5;
-const HELP: &str = "src/import/outline.schema.json describes the format";
+const HELP: &str = "`squinch schema outline` prints what the format holds";
 
 type Pair = [f64; 2];
 

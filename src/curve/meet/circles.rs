@@ -8,7 +8,7 @@ use crate::geometry::{Point, Vec2};
 use std::f64::consts::TAU;
 
 /// Pairs of parameters, one at least in every contact of two circular arcs or of a line and an arc; `None` for other kinds, and
-/// where a circle is so large or so far that the closed form loses the tolerance to rounding.
+/// where a circle is so large or so far that the closed form loses the tolerance to rounding, unless the circles are clear of each other.
 ///
 /// A contact holds a crossing, a place where the curves come closest (on the line of centers), or an end.
 pub(super) fn guesses(contacts: &Contacts) -> Option<Vec<Guess>> {
@@ -19,8 +19,12 @@ pub(super) fn guesses(contacts: &Contacts) -> Option<Vec<Guess>> {
         _ => return None,
     };
     // A few units of rounding in each of some ten operations.
-    if [a, b].iter().any(|c| 64.0 * f64::EPSILON * reach_of(c) > contacts.tolerance) {
-        return None;
+    let rounding = 64.0 * f64::EPSILON * reach_of(a).max(reach_of(b));
+    if rounding > contacts.tolerance {
+        return match (a, b) {
+            (Curve::Arc(p), Curve::Arc(q)) if are_clear(p, q, contacts.tolerance, rounding) => Some(Vec::new()),
+            _ => None,
+        };
     }
     let mut guesses = Vec::new();
     for place in places {
@@ -34,6 +38,14 @@ pub(super) fn guesses(contacts: &Contacts) -> Option<Vec<Guess>> {
     }
     guesses.retain(|g| length(a.point(g.t) - b.point(g.u)) <= contacts.tolerance);
     Some(guesses)
+}
+
+/// Whether one circle lies outside of the other, or within it, by more than the tolerance, whatever rounding does.
+fn are_clear(p: &CircularArc, q: &CircularArc, tolerance: f64, rounding: f64) -> bool {
+    let distance = length(q.center - p.center);
+    let gap = (distance - p.radius - q.radius).max((p.radius - q.radius).abs() - distance);
+    // The ends of both may lie off their circles by twice the rounding.
+    !p.is_spiral() && !q.is_spiral() && gap > tolerance + 8.0 * rounding
 }
 
 /// The largest length that points of the curve are computed from.

@@ -6,7 +6,7 @@ use super::fill::{closed_outlines, drawn_along};
 use super::trace::{Faces, Half};
 use crate::domain::Domain;
 use crate::domain::locate::Side;
-use crate::geometry::{Point, scaled};
+use crate::geometry::Point;
 use crate::ids::{CurveId, Id, LayerId};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -132,7 +132,7 @@ impl<'a> Outlines<'a> {
         } else {
             [pair[1], pair[0]]
         };
-        let Point { x, y } = scaled(places[0], self.network.tolerances.unit);
+        let [x, y] = [places[0].x, places[0].y].map(|x| self.network.tolerances.told(x));
         let more = if places.len() > 1 { format!(" and {} places more", places.len() - 1) } else { String::new() };
         let [across, others] = [across, others].map(|layer| self.name(layer));
         format!(

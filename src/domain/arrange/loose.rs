@@ -263,7 +263,7 @@ impl Network<'_> {
             }
         };
         let length = self.tolerances.told(length);
-        format!("{lines}: {length} in all bounds nothing, with ends at {listed}{more}; they {fate}.")
+        format!("{lines}: {length} in all, which bounds nothing, with ends at {listed}{more}; they {fate}.")
     }
 
     /// The entity of an end and its place in the drawing.

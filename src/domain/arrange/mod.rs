@@ -104,6 +104,8 @@ pub struct ArrangeError {
     /// What is wrong, with the entities.
     pub what: String,
     pub at: Point,
+    /// Further places of the same flaw, as many as `what` lists.
+    pub also_at: Vec<Point>,
     /// What the user can do.
     pub help: String,
     /// Whether features that lie too near to each other are the reason: a coarser tolerance may make one of them.
@@ -123,7 +125,10 @@ impl Unarranged {
     /// Its place times a factor.
     fn scaled(self, factor: f64) -> Self {
         match self {
-            Self::Invalid(error) => ArrangeError { at: scaled(error.at, factor), ..error }.into(),
+            Self::Invalid(error) => {
+                let also_at = error.also_at.iter().map(|at| scaled(*at, factor)).collect();
+                ArrangeError { at: scaled(error.at, factor), also_at, ..error }.into()
+            }
             Self::Stopped(_) => self,
         }
     }
@@ -131,7 +136,7 @@ impl Unarranged {
 
 impl ArrangeError {
     fn new(what: impl Into<String>, at: Point, help: impl Into<String>) -> Self {
-        Self { what: what.into(), at, help: help.into(), near: false }
+        Self { what: what.into(), at, also_at: Vec::new(), help: help.into(), near: false }
     }
 
     /// Features lie too near to each other.

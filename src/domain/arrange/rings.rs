@@ -219,7 +219,9 @@ impl Network<'_> {
             "--close {} joins these ends and welds nothing else; --loose keep takes them for open lines, --loose drop leaves them out",
             rounded_up(widest * self.tolerances.unit)
         );
-        Some(ArrangeError::new(what, ends[gaps[0].ends[0]].at, help))
+        let at = |gap: &Gap| ends[gap.ends[0]].at;
+        let also_at = gaps.iter().take(LISTED).skip(1).map(at).collect();
+        Some(ArrangeError { also_at, ..ArrangeError::new(what, at(&gaps[0]), help) })
     }
 }
 

@@ -422,11 +422,17 @@ pub(super) fn keep(
     }
     let areas = face_areas(faces);
     let labels = read_labels(network, domain, faces, watch)?;
-    let named = |face: usize| match said[face] {
-        Some(Said::Region(name, max_area)) => Some((name, max_area)),
-        Some(Said::Hole) | None => painted[face].or(labels[face]).map(|name| (name, None)),
-    };
-    let region_of = name_regions(network, domain, faces, &kept, named, &areas);
+    let mut named: Vec<Option<(NameId, Option<f64>)>> = vec![None; kept.len()];
+    for face in (0..kept.len()).filter(|&face| kept[face]) {
+        named[face] = match said[face] {
+            Some(Said::Region(name, max_area)) => Some((name, max_area)),
+            Some(Said::Hole) | None => {
+                let label = || labels[face].map(|text| domain.names.intern(text));
+                painted[face].or_else(label).map(|name| (name, None))
+            }
+        };
+    }
+    let region_of = name_regions(network, domain, faces, &kept, |face| named[face], &areas);
     let region = |half: Half| faces.face(half).and_then(|face| region_of[face]);
     for id in domain.curves.ids() {
         let sides = [Side::Left, Side::Right].map(|side| region(Half { curve: id, side }));
@@ -477,23 +483,23 @@ fn read_seeds(
 }
 
 /// The text that stands in each face, where there is one only.
-fn read_labels(
-    network: &Network,
+fn read_labels<'a>(
+    network: &Network<'a>,
     domain: &Domain,
     faces: &Faces,
     watch: &mut Watch,
-) -> Result<Vec<Option<NameId>>, Stopped> {
+) -> Result<Vec<Option<&'a str>>, Stopped> {
     let labels = &network.drawing.labels;
-    let mut said: Vec<BTreeSet<NameId>> = vec![BTreeSet::new(); faces.cycles.len()];
+    let mut said: Vec<BTreeSet<&str>> = vec![BTreeSet::new(); faces.cycles.len()];
     let locator = Locator::new(domain);
     for (k, label) in labels.iter().enumerate() {
         tracing(domain, labels.len() - k).tell(watch)?;
         let sight = locator.sight(label.at);
         if let Some(face) = sight.and_then(|Sight { curve, side, .. }| faces.face(Half { curve, side })) {
-            said[face].insert(label.name);
+            said[face].insert(label.text.as_str());
         }
     }
-    Ok(said.into_iter().map(|names| if names.len() == 1 { names.first().copied() } else { None }).collect())
+    Ok(said.into_iter().map(|texts| texts.first().copied().filter(|_| texts.len() == 1)).collect())
 }
 
 /// The area of every bounded face: its own cycle less the outlines of the components in it.

@@ -1,14 +1,15 @@
 //! Entities put where they belong: on layers that are seen or not, and in blocks, as often as these are inserted.
 
 use super::DxfOptions;
-use super::entities::{DEGENERATE, Figure, Insert, Level, Notices, Refusal, TILTED, figure};
+use super::entities::{DEGENERATE, Figure, Insert, Level, NO_OUTLINE, Notices, Refusal, TILTED, figure};
 use super::fills::Fill;
 use super::header::Header;
 use super::layers::{AUXILIARY, CONTINUOUS, Hidden, LAYER_0, Layers, LineType, key};
 use super::pairs::shown;
 use super::sections::{Record, Sections};
+use super::text;
 use crate::curve::Curve;
-use crate::domain::{Drawing, DrawnCurve, DrawnPoint, OffPlane, Skipped};
+use crate::domain::{Drawing, DrawnCurve, DrawnPoint, Label, OffPlane, Skipped};
 use crate::geometry::{Point, Vec2};
 use crate::ids::LayerId;
 use crate::import::{ImportError, Selection};
@@ -198,7 +199,9 @@ impl<'f, 'a> Sketch<'f, 'a> {
         let why_not = match figure {
             // A block may hold what is on other layers: only a frozen one hides these, too.
             Figure::Insert(_) => self.layers.hidden(layer).filter(|h| *h == Hidden::Frozen).map(Hidden::why),
-            Figure::Curves { .. } | Figure::Point { .. } | Figure::Fill { .. } => self.layers.why_not(layer),
+            Figure::Curves { .. } | Figure::Point { .. } | Figure::Fill { .. } | Figure::Text { .. } => {
+                self.layers.why_not(layer)
+            }
         };
         if let Some(why) = why_not {
             self.skip(&entity.kind, why);
@@ -262,6 +265,14 @@ impl<'f, 'a> Sketch<'f, 'a> {
                         self.fills.push(Fill { name, layer, handle, last_decimal, loops, entity: label });
                     }
                     None => self.skip(&entity.kind, "too small for numbers once it is inserted"),
+                }
+            }
+            Figure::Text { at, bytes } => {
+                self.skip(&entity.kind, NO_OUTLINE);
+                if let Some(text) = text::name(&self.header.name(bytes)) {
+                    self.spend(1, &label)?;
+                    let at = setting.map.map_or(*at, |map| map * *at);
+                    self.drawing.labels.push(Label { at, text });
                 }
             }
             Figure::Insert(_) => {}

@@ -4,6 +4,7 @@ use super::hatch;
 use super::mline::mline;
 use super::sections::{Record, finest};
 use super::spline::spline;
+use super::text;
 use crate::curve::{Curve, CurveError};
 use crate::geometry::{Point, Vec2};
 use crate::import::ImportError;
@@ -22,6 +23,8 @@ const STRAIGHT_BULGE: f64 = 1e-15;
 /// A bulge whose arc is a full turn, up to rounding: it has no chord that could say where.
 const FULL_BULGE: f64 = 1e8;
 
+/// Why a text draws nothing.
+pub(super) const NO_OUTLINE: &str = "glyphs of a font, no outline";
 pub(super) const TILTED: &str = "not parallel to the XY plane";
 pub(super) const DEGENERATE: &str = "of no extent";
 
@@ -61,6 +64,11 @@ pub(super) enum Figure<'a> {
     Fill {
         loops: Vec<Vec<Curve>>,
         last_decimal: f64,
+    },
+    /// A text, as the file encodes it.
+    Text {
+        at: Point,
+        bytes: Vec<u8>,
     },
     Insert(Insert<'a>),
 }
@@ -128,6 +136,7 @@ pub(super) fn figure<'a>(
             let loops = hatch::outlines(record, notices)?.into_iter().map(placed).collect();
             Ok(Figure::Fill { loops, last_decimal: record.last_decimal(&[10, 20, 11, 21]) })
         }
+        "TEXT" | "MTEXT" => text::text(record),
         "INSERT" => insert(record),
         kind => {
             if kind == "WIPEOUT" {
@@ -140,7 +149,7 @@ pub(super) fn figure<'a>(
 
 fn why_not(kind: &str) -> &'static str {
     match kind {
-        "TEXT" | "MTEXT" | "ATTRIB" | "ATTDEF" | "RTEXT" | "ARCALIGNEDTEXT" | "SHAPE" => "glyphs of a font, no outline",
+        "ATTRIB" | "ATTDEF" | "RTEXT" | "ARCALIGNEDTEXT" | "SHAPE" => NO_OUTLINE,
         "DIMENSION"
         | "ARC_DIMENSION"
         | "LARGE_RADIAL_DIMENSION"

@@ -23,6 +23,7 @@ mod mline;
 mod pairs;
 mod sections;
 mod spline;
+mod text;
 
 use super::{ImportError, Selection};
 use crate::domain::Drawing;

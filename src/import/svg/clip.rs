@@ -367,11 +367,20 @@ impl<'a> Reader<'a> {
     // ---- what is cut ----
 
     /// What a cutter and all that it lies within leave of something within these bounds; the page too, where that `is_painted`.
-    pub(super) fn left_of(&mut self, bounds: Rect, cutter: Option<CutterId>, is_painted: bool, name: NameId) -> Left {
+    ///
+    /// # Errors
+    /// Where clips within clips come to more curves than a drawing can need.
+    pub(super) fn left_of(
+        &mut self,
+        bounds: Rect,
+        cutter: Option<CutterId>,
+        is_painted: bool,
+        name: NameId,
+    ) -> Result<Left, ImportError> {
         let mut links = Vec::new();
         for link in std::iter::successors(cutter, |link| self.cutters.all[link.0].within) {
             if self.cutters.misses(link, bounds) {
-                return Left::Nothing(link);
+                return Ok(Left::Nothing(link));
             }
             if !self.cutters.covers(link, bounds, ROUNDING) {
                 links.push(link);
@@ -380,22 +389,24 @@ impl<'a> Reader<'a> {
         if is_painted && self.cutters.page_cuts() && self.cutters.on_page(bounds) == OnPage::Beyond {
             links.extend(self.cutters.page.map(|page| page.cutter));
         }
-        Left::In(links.into_iter().rev().fold(None, |within, link| Some(self.drawn_clip(link, within, name))))
+        let drawn = |within, link| self.drawn_clip(link, within, name).map(Some);
+        links.into_iter().rev().try_fold(None, drawn).map(Left::In)
     }
 
     /// A cutter as a clip of the drawing.
-    fn drawn_clip(&mut self, cutter: CutterId, within: Option<ClipId>, name: NameId) -> ClipId {
+    fn drawn_clip(&mut self, cutter: CutterId, within: Option<ClipId>, name: NameId) -> Result<ClipId, ImportError> {
         if let Some(&drawn) = self.cutters.drawn.get(&(cutter, within)) {
-            return drawn;
+            return Ok(drawn);
         }
         let parts = std::mem::take(&mut self.cutters.all[cutter.0].parts);
+        // One clip is drawn again in each that it lies within.
+        self.expand(parts.iter().flat_map(|part| &part.subpaths).map(|s| s.curves.len()).sum())?;
         // Those that cut its parts come first.
-        let left: Vec<Left> = parts
-            .iter()
-            .map(|part| {
-                part.bounds().map_or(Left::Nothing(cutter), |bounds| self.left_of(bounds, part.cut_by, false, name))
-            })
-            .collect();
+        let mut left_of_part = |part: &Part| match part.bounds() {
+            Some(bounds) => self.left_of(bounds, part.cut_by, false, name),
+            None => Ok(Left::Nothing(cutter)),
+        };
+        let left: Vec<Left> = parts.iter().map(&mut left_of_part).collect::<Result<_, _>>()?;
         let id = self.drawing.clips.push(Clip { within });
         for (part, left) in parts.iter().zip(left) {
             let Left::In(clip) = left else { continue };
@@ -408,7 +419,7 @@ impl<'a> Reader<'a> {
         }
         self.cutters.all[cutter.0].parts = parts;
         self.cutters.drawn.insert((cutter, within), id);
-        id
+        Ok(id)
     }
 }
 

@@ -1,5 +1,6 @@
 //! From elements as they were painted to the drawing: which of them are shapes, which lines, and what is told of them.
 
+use super::super::ImportError;
 use super::clip::{CutterId, Left, OnPage};
 use super::{Element, MASK, Reader, Strokes, bounds_of_all};
 use crate::domain::{Drawing, DrawnCurve, FillRule, Shape, Skipped};
@@ -11,7 +12,7 @@ const CUT_AWAY: &str = "cut away by a clip path or a viewport";
 
 impl Reader<'_> {
     /// Shapes, and centre lines as asked for.
-    pub(super) fn drawn(mut self) -> Drawing {
+    pub(super) fn drawn(mut self) -> Result<Drawing, ImportError> {
         let strokes = self.strokes;
         let mut elements = std::mem::take(&mut self.elements);
         let is_shape = |e: &Element| e.filled && !e.is_background;
@@ -45,7 +46,7 @@ impl Reader<'_> {
                 continue;
             }
             let name = self.drawing.names.intern(&element.name);
-            let clip = match self.left_of(bounds, element.cut_by, element.filled, name) {
+            let clip = match self.left_of(bounds, element.cut_by, element.filled, name)? {
                 Left::In(clip) => clip,
                 Left::Nothing(by) => {
                     cut_away.get_or_insert(by);
@@ -67,7 +68,7 @@ impl Reader<'_> {
         }
         self.tell(beyond);
         self.drawing.unmatched = self.chooser.unmatched();
-        self.drawing
+        Ok(self.drawing)
     }
 
     /// Gives each name the colour that covers most of its area.

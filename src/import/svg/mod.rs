@@ -105,7 +105,7 @@ pub fn read(bytes: &[u8], stem: &str, options: &SvgOptions, selection: &Selectio
     reader.index(root);
     reader.walk(root, Context::of(page.viewport, page.upward))?;
     let broken = reader.broken.take();
-    let mut drawing = reader.drawn();
+    let mut drawing = reader.drawn()?;
     if let Some(error) = broken.filter(|_| drawing.curves.is_empty()) {
         return Err(error);
     }

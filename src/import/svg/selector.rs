@@ -339,7 +339,8 @@ impl<'a> Compound<'a> {
             specificity[2] += 1;
         }
         while let Some(first) = rest.bytes().next() {
-            let inner = &rest[1.min(rest.len())..];
+            // Nothing where a letter of several bytes stands behind a star or a bracket.
+            let inner = rest.get(1..).unwrap_or_default();
             let (simple, after) = match first {
                 b'#' => word(inner).map(|(id, after)| (Simple::Id(id), after))?,
                 b'.' => word(inner).map(|(class, after)| (Simple::Class(class), after))?,
@@ -497,7 +498,7 @@ mod tests {
         ] {
             assert_eq!(selected(selector), ids, "{selector}");
         }
-        for unread in ["a::b c(", "p:nth-child(x)", "[=", "p>", ".", "a|b", ":has(p)"] {
+        for unread in ["a::b c(", "p:nth-child(x)", "[=", "p>", ".", "a|b", ":has(p)", "*é", "[k]é", "[=é"] {
             assert!(Selector::parse(unread).is_none(), "{unread}");
         }
         assert_eq!(Selector::parse("g#a:not(.x) > p:first-child").unwrap().specificity, [1, 2, 2]);

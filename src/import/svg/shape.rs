@@ -111,7 +111,7 @@ impl<'a> Reader<'a> {
             let error = stroke::OFFSET_ERROR * pen.width * libm::sqrt(after.determinant().abs());
             self.offset_error = self.offset_error.max(error);
         }
-        self.expand(covered.outlines.len())?;
+        self.expand(covered.outlines.iter().map(|s| s.curves.len()).sum())?;
         Ok(covered.outlines.into_iter().map(|s| s.transformed(after)).collect())
     }
 

@@ -224,12 +224,13 @@ impl Pen {
             }
             offset -= length;
         }
+        // Rounding may leave the last of them less than nothing.
+        left_of_it = left_of_it.max(0.0);
         let mut dashes = Vec::new();
         let mut dash = Subpath::default();
         for curve in &subpath.curves {
-            let mut from = 0.0;
+            let (mut from, mut rest) = (0.0, curve.length());
             loop {
-                let rest = curve.length_of(from, 1.0);
                 let is_drawn = at % 2 == 0;
                 let to = if left_of_it < rest { parameter_after(curve, from, left_of_it, rest) } else { 1.0 };
                 if is_drawn && to > from {
@@ -242,6 +243,7 @@ impl Pen {
                 if is_drawn {
                     dashes.push(std::mem::take(&mut dash));
                 }
+                rest -= left_of_it;
                 at = (at + 1) % lengths.len();
                 left_of_it = lengths[at];
                 from = to;
@@ -263,13 +265,19 @@ fn parameter_after(curve: &Curve, from: f64, length: f64, rest: f64) -> f64 {
     match curve {
         Curve::Line(_) | Curve::Arc(_) => even,
         Curve::Ellipse(_) | Curve::Bezier(_) | Curve::Spline(_) => {
-            let (mut low, mut high) = (from, 1.0);
-            // To the last bits: each step halves the interval.
+            // Newton's method, or halving where that leaves the bracket: 50 halves reach the last bits.
+            let (mut low, mut high, mut at) = (from, 1.0, even);
             for _ in 0..50 {
-                let middle = 0.5 * (low + high);
-                if curve.length_of(from, middle) < length { low = middle } else { high = middle }
+                let missing = length - curve.length_of(from, at);
+                *(if missing > 0.0 { &mut low } else { &mut high }) = at;
+                let newton = at + missing / curve.derivative(at).hypot();
+                let next = if low < newton && newton < high { newton } else { 0.5 * (low + high) };
+                if (next - at).abs() <= f64::EPSILON {
+                    break;
+                }
+                at = next;
             }
-            0.5 * (low + high)
+            at
         }
     }
 }
@@ -297,7 +305,9 @@ fn kurbo_path(curve: &Curve, tolerance: f64) -> BezPath {
             ]);
             let unit = kurbo::Arc::new((0.0, 0.0), (1.0, 1.0), ellipse.start_rad, ellipse.sweep_rad, 0.0);
             let size = libm::hypot(ellipse.u.hypot(), ellipse.v.hypot());
-            for element in unit.path_elements(0.1 * tolerance / size).skip(1) {
+            // Of the unit circle nothing finer than rounding can be told; the pieces would be without number.
+            let finest = (0.1 * tolerance / size).max(f64::EPSILON);
+            for element in unit.path_elements(finest).skip(1) {
                 path.push(map * element);
             }
         }

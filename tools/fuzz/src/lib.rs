@@ -5,9 +5,9 @@ pub mod sketch;
 use sketch::Sketch;
 use squinch::domain::{ArrangeOptions, Domain, Drawing, FillRule, Unarranged};
 use squinch::geometry::{magnitude, scaled};
-use squinch::import::{self, Format, mesh};
+use squinch::import::{Format, mesh};
 use squinch::pipeline::{self, Exit, Extent, Outcome, Plan, Source};
-use squinch::request::{Keep, Request};
+use squinch::request::{Keep, LineTypes, LooseEnds, NamesOf, Request, Strokes, Switch, TrailingEdge};
 use squinch::watch::Progress;
 use std::collections::BTreeMap;
 
@@ -27,10 +27,37 @@ fn budget() -> impl FnMut(&Progress) -> bool {
     }
 }
 
+/// A file, and how it is read and arranged: as its last byte says, where it is one that no text ends with (0x80 and above); else by default.
+/// So a drawing is its own seed, and a seed with a byte more asks for something else.
+fn file_and_request(bytes: &[u8]) -> (&[u8], Request) {
+    let (file, choice) = match bytes.split_last() {
+        Some((&last, file)) if last >= 0x80 => (file, last),
+        _ => (bytes, 0),
+    };
+    let chosen = |bit: u8| choice & (1 << bit) != 0;
+    let request = Request {
+        max_vertices: VERTICES,
+        far_field: if chosen(0) { 0.0 } else { 2.0 },
+        trailing_edge: if chosen(1) { TrailingEdge::Sharp } else { TrailingEdge::Keep },
+        chord: chosen(2).then_some(3.0),
+        strokes: if chosen(0) { Strokes::Area } else { Strokes::Auto },
+        flatten_z: if chosen(1) { Switch::On } else { Switch::Off },
+        line_types: if chosen(2) { LineTypes::All } else { LineTypes::Edges },
+        names: if chosen(3) { NamesOf::Outline } else { NamesOf::Layer },
+        close: chosen(4).then_some(0.01),
+        loose: if chosen(5) { LooseEnds::Drop } else { LooseEnds::Auto },
+        keep: if chosen(6) { Keep::All } else { Keep::Inside },
+        ..Request::default()
+    };
+    (file, request)
+}
+
 /// Reads bytes as each of some formats: a drawing or an error, whatever they are.
 pub fn read(bytes: &[u8], formats: &[Format]) {
+    let (bytes, request) = file_and_request(bytes);
     for &format in formats {
-        match import::read(bytes, format, "fuzz", &import::Options::default()) {
+        let source = Source { path: "fuzz", bytes, format: Some(format), nodes: None, of_many: false };
+        match pipeline::read(&source, &request) {
             Ok(drawing) => {
                 assert!(drawing.curves.iter().all(|c| c.curve.start().is_finite() && c.curve.end().is_finite()))
             }
@@ -150,9 +177,9 @@ pub fn mesh(sketch: &Sketch) {
 
 /// Reads, arranges, meshes and judges bytes, of the format that they look like.
 pub fn mesh_file(bytes: &[u8]) {
+    let (bytes, request) = file_and_request(bytes);
     let Some(format) = Format::sniff(bytes) else { return };
-    let source = Source { path: "fuzz", bytes, format: Some(format), nodes: None };
-    let request = Request { max_vertices: VERTICES, far_field: 2.0, ..Request::default() };
+    let source = Source { path: "fuzz", bytes, format: Some(format), nodes: None, of_many: false };
     if pipeline::read(&source, &request).is_ok_and(|drawing| drawing.curves.len() <= CURVES) {
         let outcome = pipeline::run(&source, &request, Extent::Whole(&mut budget()));
         check_outcome(&outcome, &request);
