@@ -1293,6 +1293,17 @@ fn options_of_writing_reach_mesh_and_convert() {
     assert!(bench.text("lens.xdmf").contains("\"Mixed\""));
     bench.ends(0, &["mesh", "lens.json", "-o", "lens.obj", "--lines", "off"]);
     assert!(!bench.text("lens.obj").contains("\nl "));
+    // An OBJ calls its materials by their file; standard output has none.
+    assert!(bench.text("lens.obj").contains("\nmtllib lens.mtl\n") && bench.text("lens.mtl").contains("newmtl "));
+    let output = bench.ends(0, &["convert", "lens.vtk", "-", "--format", "obj"]);
+    assert!(printed(&output).contains("\nf ") && !printed(&output).contains("mtl"));
+    assert!(said(&output).contains("colours: "), "{}", said(&output));
+    bench.ends(2, &["mesh", "lens.json", "-o", "a.obj", "--report", "a.mtl"]);
+    bench.ends(0, &["convert", "lens.obj", "again.vtu"]);
+    for verb in [&["mesh", "lens.json", "-o", "l.png"][..], &["convert", "lens.vtk", "l.png"]] {
+        let output = bench.ends(2, &[verb, &["--colour", "layer"]].concat());
+        assert!(said(&output).contains("--colour region"), "{}", said(&output));
+    }
     // Pictures of runs as of `draw`.
     bench.ends(0, &["mesh", "lens.json", "-o", "all.svg"]);
     bench.ends(0, &["mesh", "lens.json", "-o", "part.svg", "--view", "-0.5,-0.2,0.5,0.2", "--colour", "region"]);

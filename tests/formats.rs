@@ -4,7 +4,7 @@
 use proptest::prelude::*;
 use squinch::export::{Format, WriteOptions, XdmfGrids, encode};
 use squinch::geometry::{Frame, Point};
-use squinch::ids::{Id, NameId, RegionId, VertexId};
+use squinch::ids::{Colour, Id, NameId, RegionId, VertexId};
 use squinch::import::mesh::{self as reader, MeshFile, read};
 use squinch::mesh::{CurveEdge, Mesh};
 use std::collections::BTreeMap;
@@ -290,7 +290,7 @@ fn lists_that_do_not_fit_are_refused() {
 }
 
 #[test]
-fn gltf_has_a_primitive_for_every_name() {
+fn gltf_has_a_node_and_a_mesh_for_every_name() {
     for (mesh, parts) in [(strip(5, ODD), [1, 1]), (second_order(strip(5, ODD)), [4, 2])] {
         for format in [Format::Glb, Format::Gltf] {
             let file = encode(&mesh, None, &[], format, &WriteOptions::default()).expect("written").remove(0);
@@ -304,20 +304,22 @@ fn gltf_has_a_primitive_for_every_name() {
                 base64::engine::general_purpose::STANDARD.decode(data).expect("base64")
             });
             let root = document.default_scene().expect("a scene").nodes().next().expect("a node");
-            let (_, rotation, scale) = root.transform().decomposed();
+            let (shift, rotation, scale) = root.transform().decomposed();
             assert_eq!((rotation, scale), ([0.0, 0.0, 0.0, 1.0], [0.001; 3]), "millimetres, y up");
-            let child = root.children().next().expect("the mesh");
-            let (centre, ..) = child.transform().decomposed();
-            let shape = child.mesh().expect("a mesh");
+            let centre = shift.map(|part| f64::from(part) / f64::from(scale[0]));
             let mut found = Counts::default();
-            for primitive in shape.primitives() {
+            for child in root.children() {
+                assert_eq!(child.transform().decomposed(), ([0.0; 3], [0.0, 0.0, 0.0, 1.0], [1.0; 3]));
+                let shape = child.mesh().expect("a mesh");
+                assert_eq!(shape.primitives().len(), 1);
+                let primitive = shape.primitives().next().expect("a primitive");
                 let reader = primitive.reader(|_| Some(&blob));
                 let indices: Vec<u32> = reader.read_indices().expect("indices").into_u32().collect();
                 let positions: Vec<[f32; 3]> = reader.read_positions().expect("positions").collect();
                 assert!(indices.iter().all(|&i| (i as usize) < positions.len()));
                 for (p, q) in positions.iter().zip(mesh.places()) {
                     // About 1e5 a float32 alone is only good to 4e-3.
-                    (0..3).for_each(|k| assert!((f64::from(centre[k]) + f64::from(p[k]) - q[k]).abs() < 1e-7));
+                    (0..3).for_each(|k| assert!((centre[k] + f64::from(p[k]) - q[k]).abs() < 1e-7));
                 }
                 let extras: serde_json::Value =
                     serde_json::from_str(primitive.extras().as_ref().expect("extras").get()).expect("JSON");
@@ -327,6 +329,7 @@ fn gltf_has_a_primitive_for_every_name() {
                     other => panic!("{other:?}"),
                 };
                 let name = extras[kind].as_str().expect("a name").to_owned();
+                assert_eq!([child.name(), shape.name()], [Some(name.as_str()); 2]);
                 let cells = indices.len() / corners / parts[part];
                 if part == 0 {
                     assert_eq!(primitive.material().name(), Some(name.as_str()));
@@ -338,6 +341,57 @@ fn gltf_has_a_primitive_for_every_name() {
             assert_eq!(found, counts(&mesh));
         }
     }
+}
+
+#[test]
+fn gltf_in_space_stands_where_it_was() {
+    let axes = ([0.0, 0.6, 0.8], [1.0, 0.0, 0.0]);
+    let frame = Frame { origin: [3000.0, -20000.0, 70000.0], x: axes.0, y: axes.1 };
+    let mesh = Mesh { frame: Some(frame), ..strip(2, PLAIN) };
+    let file = encode(&mesh, None, &[], Format::Glb, &WriteOptions::default()).expect("written").remove(0);
+    let document = gltf::Gltf::from_slice(&file).expect("valid glTF");
+    let root = document.default_scene().expect("a scene").nodes().next().expect("a node");
+    let ([tx, ty, tz], _, [scale, ..]) = root.transform().decomposed();
+    let primitive = document.meshes().next().and_then(|mesh| mesh.primitives().next()).expect("a primitive");
+    let positions = primitive.reader(|_| document.blob.as_deref()).read_positions().expect("positions");
+    for ([px, py, pz], [x, y, z]) in positions.zip(mesh.places()) {
+        // The root turns (x, y, z) to (x, z, −y), then shifts.
+        let at = [px * scale + tx, pz * scale + ty, -py * scale + tz].map(f64::from);
+        [x, z, -y].into_iter().zip(at).for_each(|(wanted, found)| assert!((0.001 * wanted - found).abs() < 5e-5));
+    }
+}
+
+#[test]
+fn obj_has_a_material_for_every_region() {
+    let mut mesh = strip(2, ODD);
+    let region = mesh.regions[RegionId(0)];
+    mesh.colours.insert(region, Colour([255, 0, 51, 102]));
+    let files = encode(&mesh, None, &[], Format::Obj, &WriteOptions::default()).expect("written");
+    let [obj, mtl] = [&files[0], &files[1]].map(|file| String::from_utf8(file.clone()).expect("text"));
+    let words = |text: &str, first: &str| -> Vec<String> {
+        text.lines().filter_map(|line| line.strip_prefix(first)).map(str::to_owned).collect()
+    };
+    assert_eq!(words(&obj, "mtllib "), ["mesh.mtl"]);
+    let (used, made) = (words(&obj, "usemtl "), words(&mtl, "newmtl "));
+    assert_eq!(made.len(), counts(&mesh).0.len() + 1, "and one of lines");
+    assert!(used.iter().all(|name| made.contains(name)), "{used:?} {made:?}");
+    assert_eq!(words(&obj, "g ")[..2], made[..2], "materials are called as the groups");
+    assert_eq!((&words(&mtl, "Kd ")[0][..], &words(&mtl, "d ")[0][..]), ("1.000000 0.000000 0.200000", "0.400000"));
+    let bare = WriteOptions { stem: None, ..WriteOptions::default() };
+    let files = encode(&mesh, None, &[], Format::Obj, &bare).expect("written");
+    assert_eq!(files.len(), 1);
+    assert!(!String::from_utf8_lossy(&files[0]).contains("mtl "));
+    assert!(Format::Obj.losses(&mesh, &bare).iter().any(|loss| loss.starts_with("colours")));
+}
+
+#[test]
+fn colours_come_back_from_vtu() {
+    let mut mesh = strip(2, PLAIN);
+    let region = mesh.regions[RegionId(0)];
+    mesh.colours.insert(region, Colour([1, 2, 3, 4]));
+    let back = around(&mesh, Format::Vtu).mesh;
+    let named: Vec<_> = back.colours.iter().map(|(&name, colour)| (back.names.text(name), colour.0)).collect();
+    assert_eq!(named, [(PLAIN[0], [1, 2, 3, 4])]);
 }
 
 #[test]

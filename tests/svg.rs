@@ -1086,3 +1086,59 @@ fn colours_reach_gltf_and_vtu() {
     squinch::export::vtu::write(&mesh, &[], &mut text).unwrap();
     assert!(String::from_utf8_lossy(&text).contains(r#"Name="colour" NumberOfComponents="4""#));
 }
+
+#[test]
+fn several_colours_of_one_name_are_told() {
+    let layer = |inside: &str| format!(r#"<g inkscape:groupmode="layer" inkscape:label="skin">{inside}</g>"#);
+    let drawing =
+        svg(&layer(r#"<rect width="5" height="5" fill="red"/><rect x="20" width="9" height="9" fill="blue"/>"#));
+    let colours: Vec<[u8; 4]> = drawing.colours.values().map(|colour| colour.0).collect();
+    assert_eq!(colours, [[0, 0, 255, 255]], "of most of the area");
+    assert!(
+        drawing.notes.iter().any(|note| note.contains("several colours: 1, the first 'skin'")),
+        "{:?}",
+        drawing.notes
+    );
+    let one = svg(&layer(r#"<rect width="5" height="5" fill="red"/><rect x="20" width="9" height="9" fill="red"/>"#));
+    assert_eq!(one.notes, [""; 0]);
+}
+
+#[test]
+fn values_that_are_not_read_are_told() {
+    let drawing = svg(r#"<circle id="c" cx="50" cy="50" style="r: calc(10px + 2px)"/>
+        <rect width="9" height="9" style="fill: var(--none)"/><rect width="9" height="9" style="fill: var(--none, red)"/>"#);
+    let told: Vec<&String> = drawing.notes.iter().filter(|note| note.starts_with("Values of style")).collect();
+    assert_eq!(told.len(), 1, "{:?}", drawing.notes);
+    assert!(told[0].contains(": 2, the first 'r: calc(10px + 2px)' of circle \"c\" (line 2)"), "{told:?}");
+}
+
+#[test]
+fn a_clip_that_leaves_nothing_is_named() {
+    let error = |inside: &str| svg(inside).arrange(&ArrangeOptions::default()).expect_err("nothing is left");
+    let apart = error(
+        r#"<clipPath id="k"><rect x="50" width="9" height="9"/></clipPath><rect width="9" height="9" clip-path="url(#k)"/>"#,
+    );
+    assert!(apart.help.contains(r#"the first by clipPath "k" (line 2)"#), "{apart}: {}", apart.help);
+    // Boxes meet, outlines do not.
+    let corner = error(
+        r#"<clipPath id="k"><path d="M0 0L9 0L0 9z"/></clipPath><path id="p" d="M9 9L9 1L1 9z" transform="translate(2 2)" clip-path="url(#k)"/>"#,
+    );
+    assert!(corner.what.contains(r#"path "p""#) && corner.what.contains("a clip path"), "{corner}");
+}
+
+#[test]
+fn clips_round_trip_as_outlines() {
+    let drawing = svg(r#"<clipPath id="inner"><circle cx="50" cy="50" r="30"/></clipPath>
+        <clipPath id="outer" clip-path="url(#inner)"><rect x="40" y="10" width="50" height="80"/><path clip-rule="evenodd" d="M20 20h15v15h-15z"/></clipPath>
+        <g clip-path="url(#outer)"><rect id="a" x="10" y="10" width="80" height="80"/><circle id="b" cx="60" cy="50" r="15"/></g>
+        <rect id="c" width="5" height="5"/>"#);
+    assert!(drawing.clips.len() >= 2);
+    let text = squinch::import::outline::to_json(&drawing);
+    let again =
+        read(text.as_bytes(), Format::Outline, "stem", &Options::default()).unwrap_or_else(|e| panic!("{e}\n{text}"));
+    assert_eq!((&again.clips, &again.shapes, &again.curves), (&drawing.clips, &drawing.shapes, &drawing.curves));
+    assert_eq!(squinch::import::outline::to_json(&again), text);
+    let [wanted, found] =
+        [&drawing, &again].map(|d| d.arrange(&ArrangeOptions::default()).expect("a domain").measure());
+    assert_eq!(wanted.to_bits(), found.to_bits());
+}

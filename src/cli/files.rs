@@ -89,7 +89,8 @@ pub fn of_output(path: &Path, format: export::Format) -> Vec<PathBuf> {
 
 /// The name without suffix by which files beside an output call it; `None` of a stream, and of a name that no text can hold.
 pub fn stem(path: &Path) -> Option<String> {
-    let is_stream = path.as_os_str() == "-" || fs::metadata(path).is_ok_and(|there| !there.is_file() && !there.is_dir());
+    let is_stream =
+        path.as_os_str() == "-" || fs::metadata(path).is_ok_and(|there| !there.is_file() && !there.is_dir());
     let stem = path.file_stem()?.to_str()?;
     (!is_stream && !stem.contains(char::is_control)).then(|| stem.to_owned())
 }

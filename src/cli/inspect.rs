@@ -234,13 +234,16 @@ fn face_row(face: &FaceInfo) -> String {
 fn layers(drawing: &Drawing, watch: &mut Watch) -> Vec<LayerFindings> {
     let options = ArrangeOptions { loose: Loose::Drop, ..ArrangeOptions::default() };
     let mut finding = |id: LayerId, layer: &Layer| {
+        // What clips are made of is of no layer, and cuts those of all.
+        let of_clip = |c: &DrawnCurve| c.shape.is_some_and(|shape| drawing.shapes[shape].part_of.is_some());
+        let on_it = drawing.curves.iter().filter(|c| c.layer == Some(id) || of_clip(c));
         // Alone, it needs no layer.
-        let on_it = drawing.curves.iter().filter(|c| c.layer == Some(id));
         let curves: Vec<_> = on_it.map(|c| DrawnCurve { layer: None, ..c.clone() }).collect();
         let alone = Drawing {
             curves,
             names: drawing.names.clone(),
             shapes: drawing.shapes.clone(),
+            clips: drawing.clips.clone(),
             fill: drawing.fill,
             ..Drawing::default()
         };

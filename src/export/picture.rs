@@ -62,6 +62,8 @@ impl Default for PictureOptions {
 }
 
 const INK: Colour = Colour::hex(0x2b3440);
+/// Edges on dark cells.
+const CHALK: Colour = Colour::hex(0xffffff);
 const FAINT: Colour = Colour::hex(0x7b8794);
 const ALARM: Colour = Colour::hex(0xd6002a);
 const BALL: Colour = Colour::hex(0x7a1fa2);
@@ -197,6 +199,7 @@ pub fn picture_of_mesh(mesh: &Mesh, domain: Option<&Domain>, colour: MeshColour,
     let cells = CellColours::new(mesh, colour, &regions);
     match colour {
         MeshColour::Region => legend.areas = entries(&regions, &mesh.names),
+        MeshColour::Paint if mesh.colours.is_empty() => legend.areas = entries(&regions, &mesh.names),
         // The colours are those of the drawing: nothing to explain.
         MeshColour::Paint => {}
         MeshColour::Quality | MeshColour::Size => legend.scale = cells.scale(),
@@ -207,7 +210,7 @@ pub fn picture_of_mesh(mesh: &Mesh, domain: Option<&Domain>, colour: MeshColour,
     let bounds = bounds_of(mesh.nodes.iter().copied()).unwrap_or(Rect::ZERO);
     let mut sheet = Sheet::new(bounds, options, &caption.join(", "), &legend);
     sheet.cells(mesh, &cells);
-    sheet.edges(mesh);
+    sheet.edges(mesh, &cells);
     sheet.boundary(mesh, domain, &used);
     if options.balls {
         sheet.balls(mesh);
@@ -270,6 +273,13 @@ impl<'a> CellColours<'a> {
                 drawn.map_or_else(|| area_colour(class), |drawn| on_white(drawn.0))
             }
         }
+    }
+
+    /// Whether dark lines cannot be seen on the colour: scales are chosen for them, a drawing's colours are what they are.
+    fn is_dark(&self, class: usize) -> bool {
+        let Colour(r, g, b) = self.paint(class);
+        // Rec. 709's luma, of 255.
+        self.colour == MeshColour::Paint && 0.2126 * f64::from(r) + 0.7152 * f64::from(g) + 0.0722 * f64::from(b) < 90.0
     }
 
     /// The legend's scale: its histogram, and what its ends and ticks say.
@@ -525,19 +535,21 @@ impl Sheet {
         }
     }
 
-    /// Every edge once, fainter as cells get small: a mesh of pixel-sized cells would else be black.
-    fn edges(&mut self, mesh: &Mesh) {
-        let mut edges: Vec<[crate::ids::VertexId; 2]> = Vec::with_capacity(mesh.triangles.len() * 3);
-        for [a, b, c] in mesh.triangles.iter().copied() {
+    /// Every edge once, light where all about it is dark, fainter as cells get small: a mesh of pixel-sized cells would else be black.
+    fn edges(&mut self, mesh: &Mesh, colours: &CellColours) {
+        let mut edges: Vec<([crate::ids::VertexId; 2], bool)> = Vec::with_capacity(mesh.triangles.len() * 3);
+        for (t, &[a, b, c]) in mesh.triangles.enumerate() {
             let seen = corners(mesh, &[a, b, c]).map(|p| self.pixel(p));
             if self.canvas.frame().sees(&seen) {
-                edges.extend([[a, b], [b, c], [c, a]].map(|[u, v]| if u < v { [u, v] } else { [v, u] }));
+                let is_dark = colours.is_dark(colours.class(t));
+                edges.extend([[a, b], [b, c], [c, a]].map(|[u, v]| (if u < v { [u, v] } else { [v, u] }, is_dark)));
             }
         }
+        // Of the two cells at an edge a light one comes first.
         edges.sort_unstable();
-        edges.dedup();
-        let mut classes: [Path; 3] = Default::default();
-        for [u, v] in edges {
+        edges.dedup_by_key(|(edge, _)| *edge);
+        let mut classes: [[Path; 2]; 3] = Default::default();
+        for ([u, v], is_dark) in edges {
             let [a, b] = [u, v].map(|n| self.pixel(corners(mesh, &[n, n, n])[0]));
             let length = libm::hypot(a.x - b.x, a.y - b.y);
             let class = match length / self.pen(1.0) {
@@ -546,12 +558,14 @@ impl Sheet {
                 l if l >= 2.0 => 2,
                 _ => continue,
             };
-            self.canvas.frame().add_line(&mut classes[class], &[a, b]);
+            self.canvas.frame().add_line(&mut classes[class][usize::from(is_dark)], &[a, b]);
         }
         self.canvas.layer("edges", true);
-        for (path, (width, opacity)) in classes.into_iter().zip([(0.8, 0.75), (0.55, 0.6), (0.35, 0.4)]) {
-            let stroke = Stroke::new(INK, self.pen(width)).opacity(opacity);
-            self.canvas.path(path, Paint::stroke(stroke));
+        for (paths, (width, opacity)) in classes.into_iter().zip([(0.8, 0.75), (0.55, 0.6), (0.35, 0.4)]) {
+            for (path, (ink, share)) in paths.into_iter().zip([(INK, 1.0), (CHALK, 0.7)]) {
+                let stroke = Stroke::new(ink, self.pen(width)).opacity(share * opacity);
+                self.canvas.path(path, Paint::stroke(stroke));
+            }
         }
     }
 

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Writes meshes in every format and reads them as other people's programs do: meshio, gmsh, MFEM, scikit-fem, pyvista, FreeFEM, deal.II and
+"""Writes meshes in every format and reads them as other people's programs do: meshio, gmsh, MFEM, scikit-fem, pyvista, trimesh, FreeFEM, deal.II and
 the Khronos glTF validator.
 
 `check_formats.py [--deal] SQUINCH VALIDATOR WORK DRAWING...` with the program, the folder of the npm package gltf-validator (`-`: none),
 a folder to write in, and drawings to mesh. Exits 1 where a program refuses a file, or finds other names, other numbers of cells under
 a name or other coordinates than the report and the VTU file have. A reader that is not installed is skipped, and that is said:
 
-    pip install meshio h5py gmsh mfem scikit-fem pyvista
+    pip install meshio h5py gmsh mfem scikit-fem pyvista trimesh
     apt-get install --no-install-recommends freefem++ libfreefem++
 
 `--deal` also runs deal.II, by a reader of a few lines that is compiled into WORK. Its development files are 300 packages, two to three
@@ -38,7 +38,7 @@ def loaded(module):
         return None
 
 
-gmsh, mfem, skfem, pyvista = map(loaded, ("gmsh", "mfem.ser", "skfem", "pyvista"))
+gmsh, mfem, skfem, pyvista, trimesh = map(loaded, ("gmsh", "mfem.ser", "skfem", "pyvista", "trimesh"))
 freefem = shutil.which("FreeFem++-nw") or shutil.which("FreeFem++")
 if not freefem:
     print("SKIPPED: FreeFEM is not installed")
@@ -228,10 +228,14 @@ def check(files, regions, boundaries, expect):
     for name in ("obj", "obj bare"):
         mesh = meshio.read(files[name])
         expect(f"meshio {name}", sum(len(b.data) for b in mesh.cells if b.type == "triangle"), sum(regions.values()))
+        used, made = (words(path, first) for path, first in ((files[name], "usemtl"), (files[name].with_suffix(".mtl"), "newmtl")))
+        expect(f"materials of {name}", used, made)
     rim_edges = len(rim)
     if gmsh:
         gmsh.open(str(files["vtk-text"]))
         expect("gmsh vtk-text", sum(map(len, gmsh.model.mesh.getElements(2)[1])), sum(regions.values()))
+    if trimesh:
+        check_trimesh(files, regions, boundaries, expect)
     if mfem:
         check_mfem(files, regions, boundaries, rim_edges, expect)
     if skfem:
@@ -241,6 +245,25 @@ def check(files, regions, boundaries, expect):
     if freefem:
         check_freefem(files, regions, boundaries, rim_edges, expect)
     return rim_edges
+
+
+def words(path, first):
+    """What follows a word at the beginning of lines."""
+    found = (line.split(maxsplit=1) for line in path.read_text().splitlines())
+    return {line[1] for line in found if len(line) == 2 and line[0] == first}
+
+
+def check_trimesh(files, regions, boundaries, expect):
+    """Named nodes of glTF; materials of OBJ, a mesh each."""
+    for name, boundary in (("glb", boundaries), ("gltf", boundaries), ("glb bare", {})):
+        scene = trimesh.load(files[name], process=False)
+        cells = [len(mesh.faces) for mesh in scene.geometry.values() if isinstance(mesh, trimesh.Trimesh)]
+        expect(f"trimesh {name} regions", sorted(cells), sorted(regions.values()))
+        # Names that are there twice are told apart by it.
+        expect(f"trimesh {name} nodes", set(regions) | set(boundary) <= set(scene.graph.nodes), True)
+        expect(f"trimesh {name} number of nodes", len(scene.graph.nodes_geometry), len(regions) + len(boundary))
+    scene = trimesh.load(files["obj bare"], process=False, split_object=False, group_material=True, force="scene")
+    expect("trimesh obj materials", sorted(len(mesh.faces) for mesh in scene.geometry.values()), sorted(regions.values()))
 
 
 def check_mfem(files, regions, boundaries, rim_edges, expect):

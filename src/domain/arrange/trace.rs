@@ -5,7 +5,7 @@ use super::fill::Fill;
 use super::{ArrangeError, ArrangeOptions, FillRule, Repair, RepairKind, Unarranged};
 use crate::curve::End;
 use crate::domain::locate::{Axis, Hit, Locator, Side, Sight, left_of};
-use crate::domain::{Domain, Incident, Region, SeedKind};
+use crate::domain::{Domain, Drawing, Incident, Region, SeedKind};
 use crate::geometry::{Point, Rect};
 use crate::ids::{CurveId, Id, IdVec, LayerId, NameId, PointId, RegionId};
 use crate::watch::{Progress, Stopped, Watch};
@@ -597,6 +597,9 @@ fn numbered(domain: &Domain, outlines: &[Option<&str>]) -> Vec<String> {
 fn nothing_to_mesh(network: &Network, faces: &Faces, rule: FillRule) -> ArrangeError {
     let has_faces = faces.cycles.len() > faces.outer.len();
     let first = network.drawing.curves.first().map_or(Point::ORIGIN, |c| c.curve.start());
+    if let Some(error) = cut_away(network.drawing, rule) {
+        return error;
+    }
     if has_faces {
         return all_outside(rule, first);
     }
@@ -610,6 +613,26 @@ fn nothing_to_mesh(network: &Network, faces: &Faces, rule: FillRule) -> ArrangeE
         gap.map_or_else(String::new, |gap| format!("{} away from the next free end: ", network.tolerances.told(gap)));
     let what = format!("nothing to mesh: no closed region; {} ends freely", network.entity_of(end));
     ArrangeError::new(what, end.at, format!("{away}close the outline by another curve"))
+}
+
+/// That clips leave nothing of the shapes, where all are cut.
+fn cut_away(drawing: &Drawing, rule: FillRule) -> Option<ArrangeError> {
+    match rule {
+        FillRule::Shapes | FillRule::EvenOddAndShapes => {}
+        FillRule::Regions | FillRule::NonZero | FillRule::EvenOdd => return None,
+    }
+    let mut painted = drawing.shapes.enumerate().filter(|(_, shape)| shape.part_of.is_none());
+    let (id, shape) = painted.next()?;
+    if shape.clip.is_none() || painted.any(|(_, other)| other.clip.is_none()) {
+        return None;
+    }
+    let outline = drawing.curves.iter().find(|c| c.shape == Some(id));
+    let part = drawing.shapes.iter().find(|part| part.part_of == shape.clip);
+    let clip = part.map_or("a clip without extent", |part| &part.entity);
+    let what =
+        format!("nothing to mesh: {} and all other shapes are cut away; the first is cut by {clip}", shape.entity);
+    let at = outline.map_or(Point::ORIGIN, |c| c.curve.start());
+    Some(ArrangeError::new(what, at, "move the clip over what it cuts, or take it off"))
 }
 
 /// Why no face of a drawing that has some is kept.

@@ -5,7 +5,8 @@ use super::super::ImportError;
 use super::path::{Outline, Subpath};
 use super::style::{Property, Style};
 use super::units::{Axis, Quantity, Viewport};
-use super::{Reader, cut, is_flat, known_tag, label, local_name, selector, transform};
+use super::walk::is_flat;
+use super::{Reader, cut, known_tag, label, local_name, selector, transform};
 use crate::domain::{Clip, DrawnCurve, Shape};
 use crate::geometry::{Point, Rect, Vec2};
 use crate::ids::{ClipId, NameId};
@@ -20,6 +21,8 @@ pub(super) struct Cutter {
     bounds: Option<Rect>,
     /// Whether it is all of its bounds.
     is_box: bool,
+    /// What it is, for messages.
+    entity: String,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -38,7 +41,8 @@ type Key = (usize, [u64; 6], Option<CutterId>);
 
 /// What cutting leaves of something.
 pub(super) enum Left {
-    Nothing,
+    /// Because of this one.
+    Nothing(CutterId),
     /// All, or what lies in the clip.
     In(Option<ClipId>),
 }
@@ -118,7 +122,7 @@ fn diagonal(bounds: Rect) -> f64 {
 }
 
 impl Cutters {
-    fn add(&mut self, parts: Vec<Part>, within: Option<CutterId>) -> CutterId {
+    fn add(&mut self, entity: String, parts: Vec<Part>, within: Option<CutterId>) -> CutterId {
         let parts: Vec<Part> = parts.into_iter().filter(|part| !part.subpaths.is_empty()).collect();
         let bounds = parts.iter().filter_map(Part::bounds).reduce(|a, b| a.union(b));
         let is_box = parts.len() == 1 && parts[0].is_box();
@@ -130,7 +134,7 @@ impl Cutters {
             }
             within = self.all[outer.0].within;
         }
-        self.all.push(Cutter { within, parts, bounds, is_box });
+        self.all.push(Cutter { within, parts, bounds, is_box, entity });
         CutterId(self.all.len() - 1)
     }
 
@@ -154,7 +158,7 @@ impl Cutters {
         let in_style = root.attribute("style").unwrap_or("").split(';').filter_map(|d| d.split_once(':'));
         let cuts = root.attribute("overflow").is_some_and(hides)
             || in_style.into_iter().any(|(name, value)| name.trim() == "overflow" && hides(value));
-        let cutter = self.add(vec![box_part(frame, map, "the page".into())], None);
+        let cutter = self.add("the page".into(), vec![box_part(frame, map, "the page".into())], None);
         self.page = Some(Page { cutter, cuts });
     }
 
@@ -170,6 +174,11 @@ impl Cutters {
             Some(page) if !self.covers(page.cutter, bounds, BLEED) => OnPage::Beyond,
             Some(_) | None => OnPage::Within,
         }
+    }
+
+    /// What a cutter is, for messages.
+    pub fn entity(&self, cutter: CutterId) -> &str {
+        &self.all[cutter.0].entity
     }
 
     /// Whether the page hides what reaches beyond it.
@@ -191,7 +200,7 @@ impl<'a> Reader<'a> {
         within: Option<CutterId>,
     ) -> CutterId {
         let entity = format!("the viewport of {} (line {})", label(tag, node), self.line(node));
-        self.cutters.add(vec![box_part(bounds, map, entity)], within)
+        self.cutters.add(entity.clone(), vec![box_part(bounds, map, entity)], within)
     }
 
     /// What the property `clip-path` of an element asks for, within what it lies in already.
@@ -234,9 +243,10 @@ impl<'a> Reader<'a> {
         within: Option<CutterId>,
     ) -> Result<CutterId, ImportError> {
         let Placed { mut map, mut viewport } = placed;
+        let entity = format!("{} (line {})", label("clipPath", target), self.line(target));
         if target.attribute("clipPathUnits") == Some("objectBoundingBox") {
             let Some(own) = self.own_box(node, viewport)?.filter(|own| own.width() > 0.0 && own.height() > 0.0) else {
-                return Ok(self.cutters.add(Vec::new(), within));
+                return Ok(self.cutters.add(entity, Vec::new(), within));
             };
             map =
                 map * Affine::translate(own.origin().to_vec2()) * Affine::scale_non_uniform(own.width(), own.height());
@@ -248,7 +258,7 @@ impl<'a> Reader<'a> {
         }
         self.cutters.open.push(target.id());
         let style = self.style_around(target)?;
-        let (style, declared) = style.of(self.sheet.declared(target)?);
+        let (style, declared) = self.style_of(target, &style)?;
         map *= transform::of(&declared, viewport, None).unwrap_or_default();
         let placed = Placed { map, viewport };
         let outer = match declared.given(Property::ClipPath) {
@@ -261,7 +271,7 @@ impl<'a> Reader<'a> {
             self.add_part(child, &style, placed, None, &mut parts)?;
         }
         self.cutters.open.pop();
-        let id = self.cutters.add(parts, outer);
+        let id = self.cutters.add(entity, parts, outer);
         self.cutters.known.insert(key, id);
         Ok(id)
     }
@@ -283,7 +293,7 @@ impl<'a> Reader<'a> {
         parts: &mut Vec<Part>,
     ) -> Result<(), ImportError> {
         let Some(tag) = local_name(child) else { return Ok(()) };
-        let (style, declared) = style.of(self.sheet.declared(child)?);
+        let (style, declared) = self.style_of(child, style)?;
         if declared.given(Property::Display) == Some("none") {
             return Ok(());
         }
@@ -334,11 +344,12 @@ impl<'a> Reader<'a> {
             Some(end) => (&value[..=end], value[end + 1..].trim()),
             None => ("", value),
         };
+        let entity = format!("the clip path of {} (line {})", label(node.tag_name().name(), node), self.line(node));
         let about = match reference {
             "view-box" => Some(Rect::from_origin_size((0.0, 0.0), placed.viewport.size)),
             _ => self.own_box(node, placed.viewport)?,
         };
-        let Some(about) = about else { return Ok(Some(self.cutters.add(Vec::new(), within))) };
+        let Some(about) = about else { return Ok(Some(self.cutters.add(entity, Vec::new(), within))) };
         let outline = match shape {
             "" => known_box(reference)
                 .then(|| (Outline::of_rect(about.origin(), about.size().to_vec2(), Vec2::ZERO), false)),
@@ -348,9 +359,9 @@ impl<'a> Reader<'a> {
             self.skip(known_tag(node.tag_name().name()), "its clip path is of a kind that is not read; nothing is cut");
             return Ok(within);
         };
-        let entity = format!("the clip path of {} (line {})", label(node.tag_name().name(), node), self.line(node));
         let subpaths = outline.subpaths.into_iter().map(|s| s.transformed(placed.map)).collect();
-        Ok(Some(self.cutters.add(vec![Part { subpaths, even_odd, cut_by: None, entity }], within)))
+        let part = Part { subpaths, even_odd, cut_by: None, entity: entity.clone() };
+        Ok(Some(self.cutters.add(entity, vec![part], within)))
     }
 
     // ---- what is cut ----
@@ -369,7 +380,7 @@ impl<'a> Reader<'a> {
         let mut links = Vec::new();
         for link in std::iter::successors(cutter, |link| self.cutters.all[link.0].within) {
             if self.cutters.misses(link, bounds) {
-                return Ok(Left::Nothing);
+                return Ok(Left::Nothing(link));
             }
             if !self.cutters.covers(link, bounds, ROUNDING) {
                 links.push(link);
@@ -393,7 +404,7 @@ impl<'a> Reader<'a> {
         // Those that cut its parts come first.
         let mut left_of_part = |part: &Part| match part.bounds() {
             Some(bounds) => self.left_of(bounds, part.cut_by, false, name),
-            None => Ok(Left::Nothing),
+            None => Ok(Left::Nothing(cutter)),
         };
         let left: Vec<Left> = parts.iter().map(&mut left_of_part).collect::<Result<_, _>>()?;
         let id = self.drawing.clips.push(Clip { within });

@@ -4,9 +4,10 @@ use super::super::ImportError;
 use super::path::{HUGE, Outline, Subpath};
 use super::style::{self, Declared, Painted, Property};
 use super::units::{Axis, Viewport};
+use super::walk::{Context, USE_DEPTH_MAX};
 use super::{
-    BACKGROUND, BACKGROUND_SLACK, Context, Drawn, Element, Painting, Reader, Strokes, USE_DEPTH_MAX, bounds_of_all,
-    known_tag, label, local_name, path_data, stroke,
+    BACKGROUND, BACKGROUND_SLACK, Drawn, Element, Painting, Reader, Strokes, bounds_of_all, known_tag, label,
+    local_name, path_data, stroke,
 };
 use crate::domain::Layer;
 use crate::geometry::{Point, Vec2};

@@ -40,11 +40,13 @@ const SUBSTITUTIONS_MAX: usize = 16;
 pub(super) struct Declared<'a> {
     values: [Option<&'a str>; PROPERTIES.len()],
     custom: Vec<(&'a str, &'a str)>,
+    /// Property and value, where that is of a kind that is not read: a variable without value, a sum to be calculated.
+    pub unread: Vec<(&'static str, &'a str)>,
 }
 
 impl Default for Declared<'_> {
     fn default() -> Self {
-        Self { values: [None; PROPERTIES.len()], custom: Vec::new() }
+        Self { values: [None; PROPERTIES.len()], custom: Vec::new(), unread: Vec::new() }
     }
 }
 
@@ -92,8 +94,12 @@ impl<'a> Declared<'a> {
 
     /// With the values of its variables, and without the words that stand for no value.
     fn resolved(mut self, variables: &Variables<'a>) -> Self {
-        for value in &mut self.values {
-            *value = value.and_then(|text| substituted(text, variables));
+        for (&(name, property), value) in PROPERTIES.iter().zip(&mut self.values) {
+            let Some(given) = *value else { continue };
+            *value = substituted(given, variables);
+            if value.is_none_or(|value| !is_told(property) && is_calculated(value)) {
+                self.unread.push((name, given));
+            }
         }
         self
     }
@@ -102,6 +108,17 @@ impl<'a> Declared<'a> {
     pub fn opacity(&self, property: Property) -> f64 {
         self.given(property).and_then(share).unwrap_or(1.0)
     }
+}
+
+/// Whether a value has a function of CSS that calculates: none is read.
+fn is_calculated(value: &str) -> bool {
+    ["calc(", "min(", "max(", "clamp("].iter().any(|function| value.contains(function))
+}
+
+/// Whether a value of the property that cannot be read is told where it is read.
+fn is_told(property: Property) -> bool {
+    use Property::{ClipPath, Rotate, Scale, Transform, Translate};
+    matches!(property, ClipPath | Rotate | Scale | Transform | Translate)
 }
 
 /// Whether a value is a word of CSS that every property knows.
