@@ -177,7 +177,7 @@ fn every_option_named_is_an_option() {
     }
     assert!(known.len() > 50, "{known:?}");
     // Options of cargo, what clap adds, and those of which is said that they are not there yet.
-    known.extend(["--features", "--path", "--version", "--radius-edge", "--max-volume"].map(str::to_owned));
+    known.extend(["--locked", "--features", "--path", "--version", "--radius-edge", "--max-volume"].map(str::to_owned));
     let src = sources(&Path::new(ROOT).join("src"));
     for path in src.iter().filter(|path| path.extension().is_some_and(|suffix| suffix == "rs")) {
         for text in texts(&fs::read_to_string(path).expect("a source")) {
