@@ -1179,7 +1179,7 @@ fn a_text_that_stands_alone_in_a_region_names_it() {
     let squares = square("PARTS", 0.0, 4.0) + &square("PARTS", 10.0, 4.0);
     let text = |kind: &str, x: f64, said: &str| format!("0 {kind}; 8 NOTES; 10 {x}; 20 2; 40 0.5; 1 {said}; ");
     let named = |texts: &str| region_names(&(squares.clone() + texts));
-    assert_eq!(named(&(text("TEXT", 1.0, "Core") + &text("MTEXT", 11.0, "{\\fArial;Coil\\P2}"))), ["Core", "Coil 2"]);
+    assert_eq!(named(&(text("TEXT", 1.0, "Core") + &text("MTEXT", 11.0, "{Coil\\P2}"))), ["Core", "Coil 2"]);
     // Two texts name nothing, nor does a number, nor what stands outside.
     let texts = text("TEXT", 1.0, "Core")
         + &text("TEXT", 2.0, "M8")

@@ -2,7 +2,7 @@
 
 use proptest::prelude::*;
 use squinch::curve::{Curve, End};
-use squinch::domain::{Drawing, FillRule, SeedKind, SizeRequest};
+use squinch::domain::{Drawing, DrawnCurve, FillRule, SeedKind, SizeRequest};
 use squinch::geometry::Point;
 use squinch::import::{AirfoilOptions, Format, ImportError, Options, TrailingEdge, format_of, outline, read};
 use std::path::{Path, PathBuf};
@@ -689,7 +689,12 @@ const EVERYTHING: &str = r#"{
 fn round_trips(drawing: &Drawing) {
     let text = outline::to_json(drawing);
     let again = json(&text);
-    assert_eq!(again.curves, drawing.curves);
+    // An outline tells last decimals by its numbers, and has neither layers nor handles.
+    let told = |drawing: &Drawing| -> Vec<DrawnCurve> {
+        let plain = |drawn: &DrawnCurve| DrawnCurve { layer: None, handle: None, last_decimal: 0.0, ..drawn.clone() };
+        drawing.curves.iter().map(plain).collect()
+    };
+    assert_eq!(told(&again), told(drawing));
     assert_eq!(again.points, drawing.points);
     assert_eq!(again.seeds, drawing.seeds);
     assert_eq!(again.sizes, drawing.sizes);

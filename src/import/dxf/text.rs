@@ -1,6 +1,6 @@
 //! Texts: what they say without the codes of their format, and where they stand. Glyphs have no outlines here; a text may name a region.
 
-use super::entities::{Figure, Refusal};
+use super::entities::{Figure, NO_OUTLINE, Refusal};
 use super::sections::Record;
 use crate::geometry::Point;
 
@@ -14,10 +14,9 @@ const SPECIAL: [(char, &str); 3] = [('c', "Ø"), ('d', "°"), ('p', "±")];
 pub(super) fn text(record: &Record) -> Result<Figure<'static>, Refusal> {
     let aligned = record.kind == "TEXT" && (record.integer(72, 0)? != 0 || record.integer(73, 0)? != 0);
     let anchor = if aligned { record.optional_point(11)? } else { None };
-    let [x, y, _] = match anchor {
-        Some(anchor) => anchor,
-        None => record.point(10)?,
-    };
+    let anchor = if anchor.is_some() { anchor } else { record.optional_point(10)? };
+    // A text draws nothing: one without a place is no reason to refuse a drawing.
+    let [x, y, _] = anchor.ok_or(Refusal::Skip(NO_OUTLINE))?;
     let parts = record.pairs.iter().filter(|pair| pair.code == 3 || pair.code == 1).map(|pair| pair.text());
     Ok(Figure::Text { at: Point::new(x, y), bytes: parts.collect::<Vec<_>>().concat() })
 }
