@@ -734,7 +734,8 @@ fn errors_say_where() {
     assert_eq!((error.line, error.column.is_some()), (Some(3), true), "{error}");
     assert_eq!(refused("<svg>\n  <rect").line, Some(2));
     assert!(refused("").what.contains("XML"));
-    assert!(refused("<html>\n</html>").what.contains("'html', not 'svg'"));
+    assert!(refused("<drawing>\n</drawing>").what.contains("'drawing', not 'svg'"));
+    assert!(refused("<html>\n</html>").what.contains("page of HTML"));
     assert!(refused(&format!("{OPEN}<circle r='1e31'/></svg>")).what.contains("circle has a coordinate of 1e31"));
     assert!(refused(&format!("{OPEN}<path id='p' d='M0 0L1e200 0 5 5z'/></svg>")).what.contains("path \"p\""));
     assert!(refused(&format!("{OPEN}<polygon points='0 0 1e200 0 5 5'/></svg>")).what.contains("1e200"));
