@@ -24,7 +24,8 @@ pub(super) fn text(record: &Record) -> Result<Figure<'static>, Refusal> {
 /// What a text says, in one line; `None` of what is no name: an empty text, a long one, or one without a letter, as a dimension has.
 pub(super) fn name(text: &str) -> Option<String> {
     let plain = plain(text).split_whitespace().collect::<Vec<_>>().join(" ");
-    let is_name = plain.chars().any(char::is_alphabetic) && plain.chars().count() <= LONGEST;
+    // A diameter is written with a letter that is none here.
+    let is_name = plain.chars().any(|c| c.is_alphabetic() && c != 'Ø') && plain.chars().count() <= LONGEST;
     is_name.then_some(plain)
 }
 
