@@ -334,8 +334,8 @@ fn each_kind_of_sliver_is_told_to_within_a_few_times() {
     for width in [1e-4, 5e-5] {
         for (name, drawing, most) in [
             ("strip", strip(1.0, width), 1.01),
-            ("needle", needle(width), 2.0),
-            ("spindle", spindle(width), 2.0),
+            ("needle", needle(width), 4.0),
+            ("spindle", spindle(width), 4.0),
             ("ring", ring(width), 4.0),
             ("free ends", free_ends(width), 2.5),
             ("polylines", polylines(width), 8.0),
