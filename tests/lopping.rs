@@ -336,8 +336,8 @@ fn each_kind_of_sliver_is_told_to_within_a_few_times() {
             ("strip", strip(1.0, width), 1.01),
             ("needle", needle(width), 4.0),
             ("spindle", spindle(width), 4.0),
-            ("ring", ring(width), 4.0),
-            ("free ends", free_ends(width), 2.5),
+            ("ring", ring(width), 5.0),
+            ("free ends", free_ends(width), 5.0),
             ("polylines", polylines(width), 8.0),
         ] {
             let (told, taken) = told_and_taken(&drawing, &Options::default());
