@@ -360,18 +360,9 @@ fn a_budget_and_a_watch_end_a_run_with_a_valid_mesh() {
 }
 
 #[test]
-fn a_run_that_gets_nowhere_ends_by_itself_in_each_order() {
-    let domain = domain_of(&touching_circles(), TAU_RAD);
-    let angle = 40f64;
-    let strategies: [&mut dyn SteinerStrategy; 4] = [
-        &mut Center,
-        &mut OffCenter::new(angle.to_radians(), false),
-        &mut Optimal::new(angle.to_radians(), false),
-        &mut Optimal::new(angle.to_radians(), true),
-    ];
-    for (i, strategy) in strategies.into_iter().enumerate() {
-        let refined = gcdr::refine(&domain, &options(angle, Regions::CENTERS), strategy, None, &mut |_| true).unwrap();
-        assert_eq!(refined.stop.reason, StopReason::NoProgress, "strategy {i}");
-        assert!(refined.vertices < 50_000 && refined.mesh.is_some(), "strategy {i}: {}", refined.vertices);
-    }
+fn a_run_that_gets_nowhere_ends_by_itself() {
+    let domain = domain_of(&squares(), TAU_RAD);
+    let refined = gcdr::refine(&domain, &options(40.0, Regions::CENTERS), &mut Center, None, &mut |_| true).unwrap();
+    assert_eq!(refined.stop.reason, StopReason::NoProgress);
+    assert!(refined.vertices < 50_000 && refined.mesh.is_some(), "{}", refined.vertices);
 }
