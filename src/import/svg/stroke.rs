@@ -44,7 +44,7 @@ pub(super) struct Pen {
 }
 
 /// Dashes of one element; where they would be more the line is solid.
-const DASHES_MAX: f64 = 1e5;
+const DASHES_MAX: f64 = 1e4;
 /// How far the offset of a curve that is neither line nor arc may lie off, as a part of the width.
 pub(super) const OFFSET_ERROR: f64 = 1e-4;
 /// Where two curves turn by less than this (a sine), there is no corner.
