@@ -247,7 +247,7 @@ fn has_area(wanted: f64, shape: impl Fn(&mut Step)) {
 }
 
 fn meshed(text: &str, request: &Request) -> Outcome {
-    let source = Source { path: "part.step", bytes: text.as_bytes(), format: None, nodes: None };
+    let source = Source { path: "part.step", bytes: text.as_bytes(), format: None, nodes: None, of_many: false };
     let outcome = run(&source, request, Extent::Whole(&mut |_| true));
     assert_eq!(outcome.exit, Exit::Done, "{:?}", outcome.report.failure);
     outcome
