@@ -3,7 +3,7 @@
 //! A *free end* is a node at which a single piece ends; its *chain* leads from there to the next free end or branch.
 //!
 //! ```text
-//!   a ───────────────── b     b and c are each other's nearest free ends. They are joined (c moves to b) where the last decimal of the file
+//!   a ───────────────── b     b and c are each other's nearest free ends. They are joined at their corner where the last decimal of the file
 //!   │                   c     explains the gap, or within `close`. Else, where chains would close into a ring in this way and every gap is
 //!   │                   │     short beside the chains at it, the outline was meant to be closed, and the drawing is refused (`rings`).
 //!   └───────────────────┘     All other free ends are those of plainly open lines.
@@ -106,7 +106,8 @@ impl Joints {
     }
 }
 
-pub(super) fn far_end(piece: &Piece, from: PointId) -> PointId {
+/// The other end of a piece.
+fn far_end(piece: &Piece, from: PointId) -> PointId {
     if piece.ends[0] == from { piece.ends[1] } else { piece.ends[0] }
 }
 
