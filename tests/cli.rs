@@ -1009,6 +1009,26 @@ fn slivers_that_nobody_drew_on_purpose_are_welded_and_itemised() {
 }
 
 #[test]
+fn walls_of_cells_that_were_computed_twice_become_one() {
+    let bench = Bench::new("cells");
+    let line = |[a, b]: [[f64; 2]; 2]| format!(r#"{{ "line": [{a:?}, {b:?}] }}"#);
+    let cell = |[x, y]: [f64; 2], [w, h]: [f64; 2]| {
+        let corners = [[x, y], [x + w, y], [x + w, y + h], [x, y + h]];
+        [0, 1, 2, 3].map(|i| line([corners[i], corners[(i + 1) % 4]])).join(",")
+    };
+    // The upper cells overlap by 4e-7 of their height of 10, 2e-9 of all.
+    let cells =
+        [cell([0.0, -20.0], [70.0, 20.0]), cell([20.0, 0.0], [10.0, 10.0]), cell([20.0, 9.9999996], [10.0, 10.0])];
+    let table = format!(r#"{{ "squinch": 1, "fill": "regions", "curves": [{}] }}"#, cells.join(","));
+    fs::write(bench.0.join("table.json"), table).unwrap();
+    let output = bench.ends(0, &["mesh", "table.json", "-o", "a.vtu", "--report", "r.json"]);
+    assert!(said(&output).contains("1 tolerance raised"), "{}", said(&output));
+    let report = bench.report("r.json");
+    assert!(report["mesh"]["vertices"].as_u64() < Some(200), "{}", report["mesh"]["vertices"]);
+    assert_eq!(report["mesh"]["regions"].as_array().unwrap().len(), 3);
+}
+
+#[test]
 fn overlaps_of_shapes_become_regions_where_asked_for() {
     let bench = Bench::new("overlap");
     let picture = r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 9 6">

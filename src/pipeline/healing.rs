@@ -7,7 +7,7 @@
 //!   1e-5 and 1e-4 of its diagonal that leaves slivers of few vertices, where those of the finer weld would take many; its area may change
 //!   by a thousandth.
 //! - Any other drawing is welded within 1e-6 where the slivers narrower than that would take tens of thousands of vertices, and its area
-//!   changes by no more than a billionth: exact work stays exact, or is refused by the estimate.
+//!   changes by no more than 1e-8 of it: exact work stays exact, or is refused by the estimate.
 //! - `--min-edge H` says that nothing finer than H needs to be meshed: any drawing is a sketch of a third of it (a loop is safe from three
 //!   tolerances on).
 //! - What cannot be meshed because its features lie nearer to each other than the coordinates can tell apart is tried again within the
@@ -39,8 +39,8 @@ const EXACT_VERTICES: [f64; 2] = [50_000.0, 0.0];
 /// Part of the whole area by which welding may change the regions of a sketch in sum: what loses more consists of slivers.
 const SKETCH_AREA: f64 = 1e-3;
 
-/// The same of other drawings.
-const EXACT_AREA: f64 = 1e-9;
+/// The same of other drawings: cells whose common walls were computed twice miss each other by some 1e-9 of it.
+const EXACT_AREA: f64 = 1e-8;
 
 /// A coarser tolerance must lessen the vertices of slivers to this part to be worth it.
 const WORTH: f64 = 0.5;

@@ -204,23 +204,30 @@ pub(super) fn closed_outlines(network: &Network) -> Vec<bool> {
     closed
 }
 
-/// Ends of drawn lines that lie within another line along which the line runs there, each with these others.
+/// Ends of drawn lines that lie within another line which ends within the first, each with these others. A line that lies within another
+/// with both its ends is a copy of a part of it, and nothing goes on there.
 ///
 /// ```text
 ///   a ═══════╤═══════ b      a ends within b, and b within a: where one ends the other goes on
 /// ```
 fn carried_on(network: &Network) -> BTreeMap<PointId, BTreeSet<usize>> {
-    let mut carried: BTreeMap<PointId, BTreeSet<usize>> = BTreeMap::new();
+    let ends_at = |source: usize, node: PointId| network.drawn_ends[source].iter().flatten().any(|&end| end == node);
+    // The line that ends, and the one that passes, with the point.
+    let mut ending: BTreeMap<(usize, usize), BTreeSet<PointId>> = BTreeMap::new();
     let overlaps = network.pieces.enumerate().filter(|(_, piece)| !piece.merged.is_empty());
     for (id, piece) in overlaps {
         let along: BTreeSet<usize> = drawn_along(network, id).map(|(source, _)| source as usize).collect();
-        let ends_at =
-            |source: usize, node: PointId| network.drawn_ends[source].iter().flatten().any(|&end| end == node);
         for node in piece.ends {
-            let (ending, passing): (Vec<usize>, Vec<usize>) = along.iter().partition(|&&source| ends_at(source, node));
-            if !ending.is_empty() && !passing.is_empty() {
-                carried.entry(node).or_default().extend(passing);
+            let (here, passing): (Vec<usize>, Vec<usize>) = along.iter().partition(|&&source| ends_at(source, node));
+            for (a, b) in here.into_iter().flat_map(|a| passing.iter().map(move |&b| (a, b))) {
+                ending.entry((a, b)).or_default().insert(node);
             }
+        }
+    }
+    let mut carried: BTreeMap<PointId, BTreeSet<usize>> = BTreeMap::new();
+    for (&(_, b), nodes) in ending.iter().filter(|&(&(a, b), _)| ending.contains_key(&(b, a))) {
+        for &node in nodes {
+            carried.entry(node).or_default().insert(b);
         }
     }
     carried
