@@ -189,7 +189,9 @@ fn every_option_named_is_an_option() {
 
 #[test]
 fn outlines_that_miss_closing() {
-    let bench = Bench::new("closing", &[("gap.json", GAP), ("crack.json", CRACK)]);
+    let beyond =
+        GAP.replace("[10, 0]] }, {", "[12, 0]] }, {").replace("[[10, 0],", "[[10, 0.01],").replace("0.03", "0");
+    let bench = Bench::new("closing", &[("gap.json", GAP), ("beyond.json", &beyond), ("crack.json", CRACK)]);
     bench.said(&words("draw gap.json --stage drawing -o gap.svg"), 0);
     bench.said(&words("draw gap.json --stage drawing -o gap.png"), 0);
     let bored = 100.0 - std::f64::consts::PI;
@@ -201,6 +203,9 @@ fn outlines_that_miss_closing() {
         bench.said(&words(&format!("mesh gap.json -o o.vtu --report r.json {choice}")), 0);
         assert!((bench.area() - std::f64::consts::PI).abs() < 1e-9, "{choice}");
     }
+    // The lower side goes on beyond the corner, which the right side stops short of.
+    bench.follow("mesh beyond.json -o o.vtu --report r.json", 4, "--close");
+    assert!((bench.area() - bored).abs() < 1e-9);
     let (_, then) = bench.follow("mesh crack.json -o o.vtu", 0, "--loose");
     assert!(then.contains("they were left out"), "{then}");
     let (typed, _) = bench.follow("mesh crack.json -o o.vtu --loose error", 4, "--loose");

@@ -1350,6 +1350,41 @@ fn a_speck_on_the_tip_of_a_sliver_is_named_by_its_own_shape() {
 }
 
 #[test]
+fn lines_that_stop_short_of_lines_that_go_on_beyond_the_corner() {
+    let options = |close| ArrangeOptions { close, ..ArrangeOptions::default() };
+    let hole = [Curve::circle(p(5.0, 5.0), 1.0).unwrap()];
+    // The right side stops short of the lower one, which is the other end of its own chain; all four sides stop short of each other.
+    let own = [
+        line((0.0, 0.0), (12.0, 0.0)),
+        line((10.0, 0.01), (10.0, 8.0)),
+        line((10.0, 8.0), (0.0, 8.0)),
+        line((0.0, 8.0), (0.0, 0.0)),
+    ];
+    let pinwheel = [
+        line((0.01, 0.0), (12.0, 0.0)),
+        line((10.0, 0.01), (10.0, 10.0)),
+        line((9.99, 8.0), (-2.0, 8.0)),
+        line((0.0, 7.99), (0.0, -2.0)),
+    ];
+    for outline in [own, pinwheel] {
+        let drawn = drawing(outline.into_iter().chain(hole.clone()));
+        let missed = drawn.arrange(&options(None)).unwrap_err();
+        assert!(missed.what.contains("stops 0.01 short of") && missed.help.contains("--close 0.011"), "{missed:?}");
+        let domain = drawn.arrange(&options(Some(0.011))).unwrap();
+        let area = domain.regions().iter().map(|region| region.area).sum::<f64>();
+        assert!((area - (80.0 - PI)).abs() < 1e-9, "{area}");
+    }
+    // A wall within an outline that stops short of the other side, and a hook that comes near to its own middle: open lines.
+    let plate = polygon(&[(0.0, 0.0), (8.0, 0.0), (8.0, 6.0), (0.0, 6.0)]);
+    let wall = line((4.0, 0.0), (4.0, 5.99));
+    let domain = drawing(plate.iter().cloned().chain([wall])).arrange(&options(None)).unwrap();
+    assert_eq!(domain.regions().len(), 1);
+    let comb = [line((1.0, 1.0), (7.0, 1.0)), line((2.0, 1.01), (2.0, 5.0)), line((3.0, 1.01), (3.0, 5.0))];
+    let domain = drawing(plate.into_iter().chain(comb)).arrange(&options(None)).unwrap();
+    assert_eq!(domain.regions().len(), 1);
+}
+
+#[test]
 fn a_hole_of_arcs_that_overlap_in_part_is_a_hole() {
     let arc = |from: f64, to: f64| Curve::arc(p(4.0, 3.0), 1.0, from, to - from).unwrap();
     let plate = polygon(&[(0.0, 0.0), (8.0, 0.0), (8.0, 6.0), (0.0, 6.0)]);

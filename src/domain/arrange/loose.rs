@@ -14,8 +14,8 @@ use super::{ArrangeError, Loose, RepairKind};
 use crate::curve::End;
 use crate::geometry::boxes::BoxHierarchy;
 use crate::geometry::{Point, Rect, Vec2, scaled};
-use crate::ids::{CurveId, IdVec, PointId};
-use std::collections::BTreeSet;
+use crate::ids::{CurveId, Forest, Id, IdVec, PointId};
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A gap is narrower than this part of the chains beside it: else it is no gap, but the length of a stub.
 const NARROW: f64 = 0.5;
@@ -25,6 +25,9 @@ const SQUARE: f64 = 0.1;
 
 /// The corner that two lines make lies within so many gaps of their ends.
 const FARTHER: f64 = 2.0;
+
+/// An end stops short of a line of its own chain where the way along the chain is so many times as long as the gap.
+const AROUND: f64 = 4.0;
 
 /// Places that a note lists.
 const LISTED: usize = 3;
@@ -52,6 +55,22 @@ pub(super) struct FreeEnd {
 #[derive(Clone, Copy)]
 pub(super) struct Gap {
     pub ends: [usize; 2],
+    pub width: f64,
+}
+
+/// A free end that stops short of the inside of an open line: had it reached the line, they might bound something.
+///
+/// ```text
+///   ─────────────┬─────       the line goes on beyond the corner
+///                · gap
+///                │
+/// ```
+#[derive(Clone, Copy)]
+pub(super) struct Short {
+    pub end: usize,
+    pub onto: CurveId,
+    /// The nearest point of the line.
+    pub at: Point,
     pub width: f64,
 }
 
@@ -122,7 +141,7 @@ impl Network<'_> {
         loop {
             let gaps = self.gaps_to_join(&ends, &left);
             if gaps.is_empty() {
-                return joined;
+                return self.reach_open_lines(&ends, &left) || joined;
             }
             let gone: BTreeSet<usize> = gaps.iter().flat_map(|gap| gap.ends).collect();
             left.retain(|i| !gone.contains(i));
@@ -152,6 +171,44 @@ impl Network<'_> {
         nearest.into_iter().filter(is_gap).collect()
     }
 
+    /// Moves ends that stop short of open lines onto them, as far as was asked for; whether there were any.
+    fn reach_open_lines(&mut self, ends: &[FreeEnd], left: &[usize]) -> bool {
+        let close = self.tolerances.close;
+        let mut shorts = if close > 0.0 { self.shorts(ends, left, |_| close.next_up()) } else { Vec::new() };
+        shorts.retain(|short| short.width < NARROW * ends[short.end].chain);
+        for short in &shorts {
+            let Owner::Node(node) = ends[short.end].owner else { continue };
+            let [a, b] = [self.nodes[node].origin.text(self.drawing), self.text_of(short.onto)];
+            let what = format!("a gap between the end of {a} and {b} was closed");
+            self.repair(RepairKind::GapClosed, short.at, short.width, what);
+            (self.nodes[node].at, self.nodes[node].fresh) = (short.at, true);
+        }
+        !shorts.is_empty()
+    }
+
+    /// Of each end in `among`, the nearest line whose inside is nearer than `bound` allows; of its own chain, a line farther on. Only where
+    /// neither is connected with anything closed: lines that stop short of each other within a grid take nothing from what it bounds.
+    pub(super) fn shorts(&self, ends: &[FreeEnd], among: &[usize], bound: impl Fn(usize) -> f64) -> Vec<Short> {
+        let open = self.pieces_of_trees();
+        let boxes = BoxHierarchy::new(open.iter().map(|&id| self.pieces[id].bounds));
+        let joints = Joints::new(self);
+        let short = |&i: &usize| {
+            let Owner::Node(node) = ends[i].owner else { return None };
+            open.binary_search(&joints.0[node][0]).ok()?;
+            let along: BTreeMap<CurveId, f64> = self.chain(node, &joints).into_iter().collect();
+            let p = ends[i].at;
+            let foot = |k: usize| self.pieces[open[k]].curve.nearest(p, 0.0, 1.0);
+            let away = |k: usize, _| {
+                let (t, width) = foot(k);
+                let is_apart = along.get(&open[k]).is_none_or(|&way| way > AROUND * width);
+                if 0.0 < t && t < 1.0 && is_apart { width } else { f64::INFINITY }
+            };
+            let (k, width) = boxes.nearest(p, bound(i), away)?;
+            Some(Short { end: i, onto: open[k], at: self.pieces[open[k]].curve.point(foot(k).0), width })
+        };
+        among.iter().filter_map(short).collect()
+    }
+
     /// Moves both ends of a gap to where they meet, which becomes the place of the first.
     fn join(&mut self, ends: &[FreeEnd], gap: &Gap) {
         let [Owner::Node(kept), Owner::Node(moved)] = gap.ends.map(|end| ends[end].owner) else { return };
@@ -173,21 +230,28 @@ impl Network<'_> {
     }
 
     fn free_end(&self, node: PointId, joints: &Joints) -> FreeEnd {
-        let first = joints.0[node][0];
-        let (mut chain, mut here, mut along) = (0.0, node, first);
-        loop {
-            chain += extent(self.pieces[along].bounds);
-            here = far_end(&self.pieces[along], here);
-            match joints.0[here][..] {
-                [a, b] if a != b => along = if a == along { b } else { a },
-                _ => break,
-            }
-        }
-        let piece = &self.pieces[first];
+        let (last, before) = *self.chain(node, joints).last().expect("a free end has a piece");
+        let chain = before + extent(self.pieces[last].bounds);
+        let piece = &self.pieces[joints.0[node][0]];
         let end = if piece.ends[0] == node { End::Start } else { End::Finish };
         let direction = piece.curve.direction_at(end);
         let last_decimal = self.drawing.curves[piece.source as usize].last_decimal;
         FreeEnd { at: self.nodes[node].at, direction, owner: Owner::Node(node), chain, last_decimal }
+    }
+
+    /// The pieces from a free end to the next free end or branch, each with the length of those before it, as the boxes around them tell it.
+    fn chain(&self, node: PointId, joints: &Joints) -> Vec<(CurveId, f64)> {
+        let (mut here, mut along, mut before) = (node, joints.0[node][0], 0.0);
+        let mut chain = vec![(along, before)];
+        loop {
+            here = far_end(&self.pieces[along], here);
+            before += extent(self.pieces[along].bounds);
+            match joints.0[here][..] {
+                [a, b] if a != b => along = if a == along { b } else { a },
+                _ => return chain,
+            }
+            chain.push((along, before));
+        }
     }
 
     /// Refuses outlines that miss closing, and leaves out or tells of what is open, as `loose` says; what is to be told.
@@ -230,6 +294,22 @@ impl Network<'_> {
                 FreeEnd { at: entity.ends[end], direction, owner, chain, last_decimal: 0.0 }
             })
         })
+    }
+
+    /// Pieces that are connected with nothing closed, ascending.
+    fn pieces_of_trees(&self) -> Vec<CurveId> {
+        let mut parts = Forest::new(self.nodes.len());
+        let mut closed = Vec::new();
+        for piece in self.pieces.iter() {
+            let [a, b] = piece.ends.map(Id::index);
+            if parts.root(a) == parts.root(b) {
+                closed.push(a);
+            }
+            parts.join(a, b);
+        }
+        let closed: BTreeSet<usize> = closed.into_iter().map(|node| parts.root(node)).collect();
+        let mut is_tree = |&id: &CurveId| !closed.contains(&parts.root(self.pieces[id].ends[0].index()));
+        self.pieces.ids().filter(|id| is_tree(id)).collect()
     }
 
     /// Pieces that lead to free ends and bound nothing.
@@ -278,6 +358,11 @@ impl Network<'_> {
             Owner::Node(node) => self.nodes[node].origin.text(self.drawing),
             Owner::OffPlane(k, _) => &self.drawing.off_plane[k].entity,
         }
+    }
+
+    /// The entity of a piece.
+    pub(super) fn text_of(&self, id: CurveId) -> &str {
+        &self.drawing.curves[self.pieces[id].source as usize].entity
     }
 
     fn open_refused(&self, ends: &[FreeEnd]) -> ArrangeError {

@@ -6,10 +6,13 @@
 //!    └─────── ──┘          links. A ring that is hardly wider than its gaps is a pair of parallel lines.
 //!           gap
 //! ```
+//!
+//! A free end without such a link may stop short of the inside of another open line, which goes on beyond the corner: it is linked with the
+//! nearest point there, under the same limits.
 
 use super::ArrangeError;
 use super::cut::{Network, extent};
-use super::loose::{FreeEnd, Gap, Owner, nearest_ends};
+use super::loose::{FreeEnd, Gap, Owner, Short, nearest_ends};
 use crate::geometry::Point;
 use crate::ids::{CurveId, Forest, Id, PointId};
 use std::collections::{BTreeSet, VecDeque};
@@ -32,18 +35,24 @@ enum Via {
     Piece(CurveId),
     OffPlane(usize),
     Gap(Gap),
+    /// From a free end to the inside of an open line.
+    Short(Short),
+    /// From there to an end of the line.
+    Rest,
 }
 
 /// Chains that close up where each gap is bridged.
 struct Ring {
     gaps: Vec<Gap>,
+    shorts: Vec<Short>,
     off_plane: BTreeSet<usize>,
 }
 
-/// Nodes, then both ends of each entity that leaves the plane; what leads from each to others.
+/// Nodes, then both ends of each entity that leaves the plane, then the points that free ends stop short of; what leads from each to others.
 struct Ways<'n, 'a> {
     network: &'n Network<'a>,
     ends: &'n [FreeEnd],
+    shorts: &'n [Short],
     from: Vec<Vec<(usize, Via)>>,
     steps_left: usize,
     /// By place: the search that reached it last, and from where.
@@ -52,12 +61,13 @@ struct Ways<'n, 'a> {
 }
 
 impl<'n, 'a> Ways<'n, 'a> {
-    fn new(network: &'n Network<'a>, ends: &'n [FreeEnd]) -> Self {
-        let count = network.nodes.len() + 2 * network.drawing.off_plane.len();
+    fn new(network: &'n Network<'a>, ends: &'n [FreeEnd], shorts: &'n [Short]) -> Self {
+        let count = network.nodes.len() + 2 * network.drawing.off_plane.len() + shorts.len();
         let nothing = (0, 0, Via::OffPlane(0));
         let mut ways = Self {
             network,
             ends,
+            shorts,
             from: vec![Vec::new(); count],
             steps_left: STEPS_MAX,
             reached: vec![nothing; count],
@@ -70,6 +80,10 @@ impl<'n, 'a> Ways<'n, 'a> {
             let ends = [0, 1].map(|end| ways.place_of(Owner::OffPlane(k, end)));
             ways.add(ends, Via::OffPlane(k));
         }
+        for (k, short) in shorts.iter().enumerate() {
+            let foot = ways.foot(k);
+            network.pieces[short.onto].ends.into_iter().for_each(|end| ways.add([foot, end.index()], Via::Rest));
+        }
         ways
     }
 
@@ -80,10 +94,16 @@ impl<'n, 'a> Ways<'n, 'a> {
         }
     }
 
+    /// The place of the point that an end stops short of.
+    fn foot(&self, k: usize) -> usize {
+        self.from.len() - self.shorts.len() + k
+    }
+
     fn at(&self, place: usize) -> Point {
-        match place.checked_sub(self.network.nodes.len()) {
-            None => self.network.nodes[PointId::from_index(place)].at,
-            Some(beyond) => self.network.drawing.off_plane[beyond / 2].ends[beyond % 2],
+        match (place.checked_sub(self.network.nodes.len()), place.checked_sub(self.foot(0))) {
+            (None, _) => self.network.nodes[PointId::from_index(place)].at,
+            (Some(_), Some(k)) => self.shorts[k].at,
+            (Some(beyond), None) => self.network.drawing.off_plane[beyond / 2].ends[beyond % 2],
         }
     }
 
@@ -96,21 +116,23 @@ impl<'n, 'a> Ways<'n, 'a> {
         gap.ends.map(|end| self.place_of(self.ends[end].owner))
     }
 
-    /// The ring that a gap closes: by the way of the fewest steps. `None` where it is too narrow, or not found within the budget.
-    fn ring(&mut self, gap: Gap) -> Option<Ring> {
-        let [start, goal] = self.places(&gap);
+    /// The ring that a link from one place to another closes: by the way of the fewest steps. `None` where it is too narrow, or not found
+    /// within the budget.
+    fn ring(&mut self, [start, goal]: [usize; 2], link: Via) -> Option<Ring> {
         let mut via = self.way(start, goal)?;
-        via.push((goal, start, Via::Gap(gap)));
+        via.push((goal, start, link));
         let width = self.width(&via);
-        let mut ring = Ring { gaps: Vec::new(), off_plane: BTreeSet::new() };
+        let mut ring = Ring { gaps: Vec::new(), shorts: Vec::new(), off_plane: BTreeSet::new() };
         for (_, _, via) in via {
             match via {
-                Via::Piece(_) => {}
+                Via::Piece(_) | Via::Rest => {}
                 Via::OffPlane(k) => _ = ring.off_plane.insert(k),
                 Via::Gap(gap) => ring.gaps.push(gap),
+                Via::Short(short) => ring.shorts.push(short),
             }
         }
-        let widest = ring.gaps.iter().map(|gap| gap.width).fold(0.0, f64::max);
+        let widths = ring.gaps.iter().map(|gap| gap.width).chain(ring.shorts.iter().map(|short| short.width));
+        let widest = widths.fold(0.0, f64::max);
         (width > WIDE * widest).then_some(ring)
     }
 
@@ -145,7 +167,7 @@ impl<'n, 'a> Ways<'n, 'a> {
         Some(steps)
     }
 
-    /// Twice the area within a closed way over its length: the width of a long strip.
+    /// Twice the area within a closed way over its length: the width of a long strip. Of a line in whose inside the way begins, the chord.
     fn width(&self, way: &[(usize, usize, Via)]) -> f64 {
         let origin = self.at(way[0].0);
         let (mut area, mut length) = (0.0, 0.0);
@@ -158,7 +180,7 @@ impl<'n, 'a> Ways<'n, 'a> {
                     area += if piece.ends[0].index() == from { green } else { -green };
                     length += extent(piece.bounds);
                 }
-                Via::OffPlane(_) | Via::Gap(_) => {
+                Via::OffPlane(_) | Via::Gap(_) | Via::Short(_) | Via::Rest => {
                     area += 0.5 * (a - origin).cross(b - origin);
                     length += a.distance(b);
                 }
@@ -177,22 +199,29 @@ impl Network<'_> {
         links.iter_mut().for_each(|gap| gap.ends.sort_unstable());
         links.sort_by(|a, b| a.width.total_cmp(&b.width).then(a.ends.cmp(&b.ends)));
         links.dedup_by_key(|gap| gap.ends);
-        if links.is_empty() {
+        let linked: BTreeSet<usize> = links.iter().flat_map(|gap| gap.ends).collect();
+        let left: Vec<usize> = (0..ends.len()).filter(|i| !linked.contains(i)).collect();
+        let mut shorts = self.shorts(ends, &left, |i| MISSED * ends[i].chain);
+        shorts.retain(|short| short.width < MISSED * extent(self.pieces[short.onto].bounds));
+        if links.is_empty() && shorts.is_empty() {
             return None;
         }
-        let mut ways = Ways::new(self, ends);
+        let mut ways = Ways::new(self, ends, &shorts);
         let mut parts = Forest::new(ways.from.len());
         for (here, ways) in ways.from.iter().enumerate() {
             ways.iter().for_each(|&(there, _)| parts.join(here, there));
         }
+        let across = links.iter().map(|gap| (ways.places(gap), Via::Gap(*gap)));
+        let onto =
+            |(k, short): (usize, &Short)| ([ways.place_of(ends[short.end].owner), ways.foot(k)], Via::Short(*short));
+        let links: Vec<([usize; 2], Via)> = across.chain(shorts.iter().enumerate().map(onto)).collect();
         let mut rings = Vec::new();
-        for gap in links {
-            let [a, b] = ways.places(&gap);
+        for ([a, b], via) in links {
             if parts.root(a) == parts.root(b) {
-                rings.extend(ways.ring(gap));
+                rings.extend(ways.ring([a, b], via));
             }
             parts.join(a, b);
-            ways.add([a, b], Via::Gap(gap));
+            ways.add([a, b], via);
         }
         self.missed(&rings, ends)
     }
@@ -206,22 +235,32 @@ impl Network<'_> {
         let mut gaps: Vec<Gap> = rings.iter().flat_map(|ring| ring.gaps.iter().copied()).collect();
         gaps.sort_by_key(|gap| gap.ends);
         gaps.dedup_by_key(|gap| gap.ends);
-        let widest = gaps.iter().map(|gap| gap.width).reduce(f64::max)?;
-        let told = |gap: &Gap| {
-            let [a, b] = gap.ends.map(|end| &ends[end]);
-            format!("{} and {} are {} apart", self.place(a), self.place(b), self.tolerances.told(gap.width))
+        let mut shorts: Vec<Short> = rings.iter().flat_map(|ring| ring.shorts.iter().copied()).collect();
+        shorts.sort_by_key(|short| short.end);
+        shorts.dedup_by_key(|short| short.end);
+        // Widths and places of all, with what is to be said of each.
+        let between = |gap: &Gap| {
+            let [a, b] = gap.ends.map(|end| self.place(&ends[end]));
+            (gap.width, ends[gap.ends[0]].at, format!("{a} and {b} are {} apart", self.tolerances.told(gap.width)))
         };
-        let listed: Vec<String> = gaps.iter().take(LISTED).map(told).collect();
-        let more = if gaps.len() > LISTED { format!(", and {} gaps more", gaps.len() - LISTED) } else { String::new() };
+        let before = |short: &Short| {
+            let end = &ends[short.end];
+            let [a, b] = [self.place(end), self.text_of(short.onto).to_owned()];
+            (short.width, end.at, format!("{a} stops {} short of {b}", self.tolerances.told(short.width)))
+        };
+        let missing: Vec<(f64, Point, String)> = gaps.iter().map(between).chain(shorts.iter().map(before)).collect();
+        let widest = missing.iter().map(|gap| gap.0).reduce(f64::max)?;
+        let listed: Vec<&str> = missing.iter().take(LISTED).map(|gap| &gap.2[..]).collect();
+        let more =
+            if missing.len() > LISTED { format!(", and {} gaps more", missing.len() - LISTED) } else { String::new() };
         let outlines = if rings.len() == 1 { "an outline misses" } else { "outlines miss" };
         let what = format!("{outlines} closing: {}{more}", listed.join("; "));
         let help = format!(
             "--close {} joins these ends and welds nothing else; --loose keep takes them for open lines, --loose drop leaves them out",
             rounded_up(widest * self.tolerances.unit)
         );
-        let at = |gap: &Gap| ends[gap.ends[0]].at;
-        let also_at = gaps.iter().take(LISTED).skip(1).map(at).collect();
-        Some(ArrangeError { also_at, ..ArrangeError::new(what, at(&gaps[0]), help) })
+        let also_at = missing.iter().take(LISTED).skip(1).map(|gap| gap.1).collect();
+        Some(ArrangeError { also_at, ..ArrangeError::new(what, missing[0].1, help) })
     }
 }
 
