@@ -332,7 +332,10 @@ fn give_names(drawing: &mut Drawing, request: &Request, of_many: bool) -> Result
         match drawing.give_name(name) {
             Ok(what) => drawing.notes.extend(what),
             Err(why) if of_many => drawing.notes.push(format!("--name {name}: {why}")),
-            Err(why) => return Err(FailureReport::new(FailureKind::Request, format!("--name {name}: {why}"), "")),
+            Err(why) => {
+                let help = "--name NAME=x,y names the nearest curve; squinch inspect lists what the drawing has";
+                return Err(FailureReport::new(FailureKind::Request, format!("--name {name}: {why}"), help));
+            }
         }
     }
     Ok(())

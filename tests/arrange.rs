@@ -1456,6 +1456,11 @@ fn outlines_that_cross_those_of_another_layer_are_told() {
     let notes = notes_of(&[disk.clone(), bolts]);
     assert!(notes.contains("layer CENTER cross those of layer 0") && notes.contains("5 places more"), "{notes}");
     assert!(notes.contains("--skip-layers CENTER"), "{notes}");
+    // On one layer with its holes, too; but not holes that run into each other.
+    let notes = notes_of(&[("0", [disk.1.clone(), vec![circle(0.0, 0.0, 6.0)]].concat())]);
+    assert!(notes.contains("curve on 0 crosses 3 circles of its layer") && notes.contains("--skip-layers"), "{notes}");
+    let row = (0..6).map(|i| circle(f64::from(i), 0.0, 0.8)).collect();
+    assert_eq!(notes_of(&[("0", row)]), "");
     // What only touches, shares a wall, or is open, crosses nothing.
     let beside = ("SIDE", vec![circle(12.0, 0.0, 2.0)]);
     assert_eq!(notes_of(&[disk, beside]), "");

@@ -844,7 +844,7 @@ fn layers_can_be_chosen_and_left_out() {
         assert_eq!(drawing.curves.len(), 1, "{only:?} {skip:?}");
         assert_eq!(drawing.unmatched, []);
         let left_out: Vec<_> = drawing.skipped.iter().map(|s| (s.entity.as_str(), s.count, s.why.as_str())).collect();
-        assert_eq!(left_out, [("LINE", 2, "on a layer that was not asked for")]);
+        assert_eq!(left_out, [("LINE", 2, "on a layer that --layers or --skip-layers leaves out")]);
     }
     let drawing = chosen(&file, &[], &["FRMAE 1"]);
     assert_eq!(drawing.unmatched[0].near[0], "FRAME 1");

@@ -1,5 +1,5 @@
-//! Linework that is no edge of the part, where inside and outside are told by how often outlines go around: drawing frames, and outlines that
-//! cross those of another layer, as bolt circles do. It is taken as drawn, and told with the option that leaves it out.
+//! Linework that is no edge of the part, where inside and outside are told by how often outlines go around: drawing frames, outlines that
+//! cross those of another layer, and bolt circles. It is taken as drawn, and told with the option that leaves it out.
 
 use super::cut::Network;
 use super::fill::{closed_outlines, drawn_along};
@@ -13,6 +13,9 @@ use std::collections::{BTreeMap, BTreeSet};
 /// Parts of names that layers of drawing frames have, in the languages of common templates.
 const FRAMES: [&str; 9] = ["frame", "border", "title", "sheet", "rahmen", "schriftfeld", "cadre", "cartouche", "marco"];
 
+/// A bolt circle runs through so many holes or more.
+const HOLES: usize = 3;
+
 /// What is to be told of a drawing with layers.
 pub(super) fn remarks(network: &Network, domain: &Domain, faces: &Faces) -> Vec<String> {
     if network.drawing.layers.is_empty() {
@@ -21,6 +24,7 @@ pub(super) fn remarks(network: &Network, domain: &Domain, faces: &Faces) -> Vec<
     let outlines = Outlines::new(network, faces);
     let mut remarks = outlines.frames();
     remarks.extend(outlines.crossings(domain));
+    remarks.extend(outlines.bolt_circles(domain));
     remarks
 }
 
@@ -29,6 +33,8 @@ struct Outlines<'a> {
     network: &'a Network<'a>,
     faces: &'a Faces,
     by_curve: Vec<BTreeSet<LayerId>>,
+    /// The drawn curves that are closed each for itself, with a layer: circles, mostly.
+    circles: Vec<BTreeSet<usize>>,
     by_component: Vec<BTreeSet<LayerId>>,
 }
 
@@ -39,13 +45,21 @@ impl<'a> Outlines<'a> {
             let sources = drawn_along(network, id).map(|(source, _)| source as usize).filter(|&source| closed[source]);
             sources.filter_map(|source| network.drawing.curves[source].layer).collect::<BTreeSet<_>>()
         };
+        let is_circle = |source: usize| {
+            let is_closed = network.drawn_ends[source].is_some_and(|[start, end]| start == end);
+            is_closed && network.drawing.curves[source].layer.is_some()
+        };
+        let circles = |id: CurveId| {
+            drawn_along(network, id).map(|(source, _)| source as usize).filter(|&s| is_circle(s)).collect()
+        };
         let by_curve: Vec<_> = network.pieces.ids().map(layers).collect();
+        let circles = network.pieces.ids().map(circles).collect();
         let mut by_component = vec![BTreeSet::new(); faces.outer.len()];
         for (k, layers) in by_curve.iter().enumerate() {
             let half = Half { curve: CurveId::from_index(k), side: Side::Left };
             by_component[faces.cycles[faces.cycle_of[half.index()]].component].extend(layers);
         }
-        Self { network, faces, by_curve, by_component }
+        Self { network, faces, by_curve, circles, by_component }
     }
 
     fn name(&self, layer: LayerId) -> &str {
@@ -108,25 +122,31 @@ impl<'a> Outlines<'a> {
         }
     }
 
-    /// Pairs of layers whose closed outlines cross: around a point the curves of the two take turns.
+    /// Pairs of layers whose closed outlines cross.
     fn crossings(&self, domain: &Domain) -> Vec<String> {
-        let mut places: BTreeMap<[LayerId; 2], Vec<Point>> = BTreeMap::new();
-        for (point, star) in domain.stars.enumerate() {
-            let around: Vec<&BTreeSet<LayerId>> =
-                star.iter().map(|incident| &self.by_curve[incident.curve.index()]).filter(|l| !l.is_empty()).collect();
-            if around.len() < 4 {
-                continue;
-            }
-            let layers: BTreeSet<LayerId> = around.iter().flat_map(|layers| layers.iter().copied()).collect();
-            for &a in &layers {
-                for &b in layers.range(a..).skip(1) {
-                    if take_turns(&around, a, b) {
-                        places.entry([a, b]).or_default().push(domain.points[point]);
-                    }
-                }
-            }
-        }
+        let places = crossings(domain, &self.by_curve);
         places.iter().map(|(&pair, places)| self.tell_crossing(pair, places)).collect()
+    }
+
+    /// Circles that cross others of their own layer, which do not cross each other.
+    fn bolt_circles(&self, domain: &Domain) -> Vec<String> {
+        let layer = |circle: usize| self.network.drawing.curves[circle].layer;
+        let mut crossed: BTreeMap<usize, BTreeSet<usize>> = BTreeMap::new();
+        let pairs = crossings(domain, &self.circles).into_keys().filter(|&[a, b]| layer(a) == layer(b));
+        for [a, b] in pairs {
+            crossed.entry(a).or_default().insert(b);
+            crossed.entry(b).or_default().insert(a);
+        }
+        let is_bolt_circle =
+            |holes: &BTreeSet<usize>| holes.len() >= HOLES && holes.iter().all(|hole| crossed[hole].is_disjoint(holes));
+        let told = |(&circle, holes): (&usize, &BTreeSet<usize>)| {
+            format!(
+                "{} crosses {} circles of its layer, as a bolt circle does: inside and outside change places there. On a layer of its own it can be left out by --skip-layers.",
+                self.network.drawing.curves[circle].entity,
+                holes.len()
+            )
+        };
+        crossed.iter().filter(|(_, holes)| is_bolt_circle(holes)).map(told).collect()
     }
 
     /// The layer of fewer outlines is the one that crosses.
@@ -148,14 +168,36 @@ impl<'a> Outlines<'a> {
     }
 }
 
-/// Whether, in order around a point, curves of one layer alone and of another alone take turns twice.
-fn take_turns(around: &[&BTreeSet<LayerId>], a: LayerId, b: LayerId) -> bool {
-    let only = |layers: &&BTreeSet<LayerId>| match (layers.contains(&a), layers.contains(&b)) {
+/// The points at which closed outlines of two kinds cross, by the kinds: around the point their curves take turns. `kinds` are those of each
+/// curve of the domain.
+fn crossings<K: Copy + Ord>(domain: &Domain, kinds: &[BTreeSet<K>]) -> BTreeMap<[K; 2], Vec<Point>> {
+    let mut places: BTreeMap<[K; 2], Vec<Point>> = BTreeMap::new();
+    for (point, star) in domain.stars.enumerate() {
+        let around: Vec<&BTreeSet<K>> =
+            star.iter().map(|incident| &kinds[incident.curve.index()]).filter(|kinds| !kinds.is_empty()).collect();
+        if around.len() < 4 {
+            continue;
+        }
+        let met: BTreeSet<K> = around.iter().flat_map(|kinds| kinds.iter().copied()).collect();
+        for &a in &met {
+            for &b in met.range(a..).skip(1) {
+                if take_turns(&around, a, b) {
+                    places.entry([a, b]).or_default().push(domain.points[point]);
+                }
+            }
+        }
+    }
+    places
+}
+
+/// Whether, in order around a point, curves of one kind alone and of another alone take turns twice.
+fn take_turns<K: Copy + Ord>(around: &[&BTreeSet<K>], a: K, b: K) -> bool {
+    let only = |kinds: &&BTreeSet<K>| match (kinds.contains(&a), kinds.contains(&b)) {
         (true, false) => Some(a),
         (false, true) => Some(b),
         (true, true) | (false, false) => None,
     };
-    let turns: Vec<LayerId> = around.iter().filter_map(only).collect();
+    let turns: Vec<K> = around.iter().filter_map(only).collect();
     let changes = turns.iter().zip(turns.iter().cycle().skip(1)).filter(|(x, y)| x != y).count();
     changes >= 4
 }

@@ -20,7 +20,7 @@ const OFF: &str = "on a layer that is off";
 const DEFPOINTS: &str = "on the layer Defpoints, of construction points";
 /// Why what is drawn in a line type of drafting standards is left out.
 pub(super) const AUXILIARY: &str = "of a line type that draws no edge (--line-types all keeps it)";
-const NOT_SELECTED: &str = "on a layer that was not asked for";
+const NOT_SELECTED: &str = "on a layer that --layers or --skip-layers leaves out";
 
 /// Why nothing on a layer is seen.
 #[derive(Clone, Copy, PartialEq, Eq)]
