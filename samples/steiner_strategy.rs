@@ -6,10 +6,10 @@
 use squinch::curve::Curve;
 use squinch::domain::{ArrangeOptions, Drawing};
 use squinch::geometry::Point;
-use squinch::mesh::verify::verify;
 use squinch::plane::gcdr::steiner::Skinny;
 use squinch::plane::gcdr::{Options, Regions, SteinerStrategy, refine};
 use squinch::size::Sizing;
+use squinch::verify::verify;
 
 struct NearSensors(Vec<Point>);
 
@@ -42,7 +42,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let options = Options { angle_min_rad: 20f64.to_radians(), regions, sizing, max_vertices: 100_000, record: false };
     let refined = refine(&domain, &options, &mut NearSensors(sensors.clone()), None, &mut |_progress| true)?;
     let mesh = refined.mesh.ok_or("a budget ended before there was a mesh")?;
-    let verdict = verify(Some(&domain), &mesh, &options.promise(0.5, false, false));
+    let verdict = verify(Some(&domain), &mesh, &options.promise(false, false));
     let met = sensors.iter().filter(|&s| mesh.nodes.iter().any(|n| n == s)).count();
     println!(
         "{} triangles, {met} of {} sensors on vertices, promise kept: {}",

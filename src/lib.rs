@@ -7,7 +7,7 @@
 //! use squinch::curve::Curve;
 //! use squinch::domain::{ArrangeOptions, Drawing};
 //! use squinch::geometry::Point;
-//! use squinch::mesh::verify::verify;
+//! use squinch::verify::verify;
 //! use squinch::plane::lopping::{Options, refine};
 //!
 //! // A disk with a smaller one that touches it from inside: an angle of zero.
@@ -21,7 +21,7 @@
 //! let refined = refine(&domain, &options, &mut |_progress| true)?;
 //! let mesh = refined.mesh.expect("the budget is large");
 //!
-//! let verdict = verify(Some(&domain), &mesh, &options.promise(tau_rad, false));
+//! let verdict = verify(Some(&domain), &mesh, &options.promise(false));
 //! assert!(verdict.kept());
 //! assert_eq!(verdict.excused.len(), 1); // the corner where the circles touch excuses the sharp triangles there
 //! # Ok::<(), Box<dyn std::error::Error>>(())
@@ -44,9 +44,11 @@ pub mod import;
 pub mod mesh;
 pub mod pipeline;
 pub mod plane;
+pub mod promise;
 pub mod reduce;
 pub mod refine;
 pub mod report;
 pub mod request;
 pub mod size;
+pub mod verify;
 pub mod watch;

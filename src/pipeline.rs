@@ -12,7 +12,6 @@ use crate::ids::{Id, PointId, VertexId};
 use crate::import::{self, AirfoilOptions, DxfOptions, Format, ImportError, Selection, SvgOptions};
 use crate::mesh::elevate::elevate;
 use crate::mesh::quality::Quality;
-use crate::mesh::verify::{self, Check, Promise, Status, Verdict, verify};
 use crate::mesh::{Insertion, Mesh};
 use crate::plane;
 use crate::plane::gcdr;
@@ -20,12 +19,14 @@ use crate::plane::gcdr::parameters::radius_edge_of;
 use crate::plane::gcdr::steiner::{self, Disks, SteinerStrategy};
 use crate::plane::lopping::demand::{Circles, Demand};
 use crate::plane::lopping::{self, Lopping, RefineError, Refined, Shrinking};
+use crate::promise::{Promise, arc_turning};
 use crate::refine::{Stop, StopReason};
 use crate::report::{FailureKind, FailureReport, MeshReport, PromiseReport, Report, StopReport};
 use crate::request::{
     BallShrinking, Engine, LineTypes, Midpoint, Order, Request, SizeOf, SnapTo, Steiner, Strokes, TrailingEdge,
 };
 use crate::size::{ByPlace, Given, SAMPLE_GRADE, Sizing, Source as SizeSource};
+use crate::verify::{self, Check, Status, Verdict, verify};
 use crate::watch::{Progress, Stopped, Watch};
 use healing::Healing;
 use kurbo::Affine;
@@ -201,7 +202,7 @@ impl Outcome {
             self.report.stop = Some(StopReport::new(&stop).owing_angles(&verdict));
         }
         self.report.mesh = Some(MeshReport::new(&mesh).with_straightened(&mesh, &straightened));
-        self.report.quality = Some(Quality::of(Some(&domain), &mesh, &verdict));
+        self.report.quality = Some(Quality::of(Some(&domain), &mesh, verdict.exempt_cells()));
         self.report.promise = Some(PromiseReport::new(&verdict));
         self.report.seconds.verify = clock.lap();
         self.exit = exit_of(&verdict, stop.reason);
@@ -596,8 +597,8 @@ impl Gcdr {
         }
     }
 
-    fn promise(&self, tau_rad: f64, foreign: bool) -> Promise {
-        self.options.promise(tau_rad, self.steiner.is_free(), foreign)
+    fn promise(&self, foreign: bool) -> Promise {
+        self.options.promise(self.steiner.is_free(), foreign)
     }
 
     /// As many steps as there are or are asked for, as long as the watch says to go on.
@@ -627,8 +628,8 @@ impl Plan {
             Progress { phase: "measuring", vertices: domain.points().len(), queued }.tell(watch)?;
             lens = lens.max(curve.curve.lens_angle(0.0, 1.0));
         }
-        let arc_turning = lopping::arc_turning(options.angle_min_rad, lens);
-        options.corner_arcs = request.corner_arcs.is_on().then_some(arc_turning);
+        let turning_rad = arc_turning(options.angle_min_rad, lens);
+        options.corner_arcs = request.corner_arcs.is_on().then_some(turning_rad);
         let gcdr = Gcdr::asked(request, &options);
         gcdr.iter().try_for_each(|gcdr| gcdr.check(&domain))?;
         Ok((domain, Self { tau_rad, options, gcdr }))
@@ -692,8 +693,8 @@ impl Plan {
 
     fn promise(&self, foreign: bool) -> Promise {
         match &self.gcdr {
-            Some(gcdr) => gcdr.promise(self.tau_rad, foreign),
-            None => self.options.promise(self.tau_rad, foreign),
+            Some(gcdr) => gcdr.promise(foreign),
+            None => self.options.promise(foreign),
         }
     }
 

@@ -6,9 +6,9 @@
 use crate::curve::Curve;
 use crate::domain::{FillRule, Loose, NameBy, Naming};
 use crate::import::Glob;
-use crate::mesh::verify::guaranteed_angle;
 use crate::plane::gcdr::Regions;
 use crate::plane::gcdr::parameters::radius_edge_of;
+use crate::promise::guaranteed_angle;
 use crate::size::{Given, rows_of};
 use clap::ValueEnum;
 use serde::{Deserialize, Serialize};

@@ -3,10 +3,10 @@
 use squinch::geometry::Point;
 use squinch::ids::VertexId;
 use squinch::import::Format;
-use squinch::mesh::verify::Status;
 use squinch::mesh::{Mesh, quality};
 use squinch::pipeline::{self, Exit, Extent, Outcome, Source};
 use squinch::request::{Order, Request};
+use squinch::verify::Status;
 
 /// A run of an outline to order 2.
 fn meshed(outline: &str, request: Request) -> Outcome {

@@ -7,7 +7,6 @@ use squinch::domain::Drawing;
 use squinch::generate::curved_complex;
 use squinch::geometry::Point;
 use squinch::import::{self, Format};
-use squinch::mesh::verify::{Status, Verdict, densities, verify};
 use squinch::mesh::{InsertionKind, Mesh};
 use squinch::plane::gcdr::steiner::{
     BySize, Center, Encroached, Extreme, Grid, OffCenter, Optimal, Places, Random, Skinny,
@@ -15,6 +14,7 @@ use squinch::plane::gcdr::steiner::{
 use squinch::plane::gcdr::{self, Options, Regions, SteinerStrategy};
 use squinch::refine::StopReason;
 use squinch::size::Sizing;
+use squinch::verify::{Status, Verdict, densities, verify};
 use std::f64::consts::SQRT_2;
 
 const TAU_RAD: f64 = 0.5;
@@ -50,7 +50,7 @@ fn kept(drawing: &Drawing, options: &Options, strategy: &mut dyn SteinerStrategy
     assert_eq!(refined.stop.reason, StopReason::Done);
     assert_eq!(refined.stop.owed, 0);
     let mesh = refined.mesh.expect("a run that is done has a mesh");
-    let verdict = verify(Some(&domain), &mesh, &options.promise(TAU_RAD, strategy.is_free(), false));
+    let verdict = verify(Some(&domain), &mesh, &options.promise(strategy.is_free(), false));
     assert_kept(&verdict);
     (mesh, verdict)
 }
@@ -328,7 +328,7 @@ fn random_complexes_end_and_verify() {
         let refined = gcdr::refine(&domain, &options, &mut Center, None, &mut |_| true)
             .unwrap_or_else(|e| panic!("seed {seed}: {e}"));
         assert_eq!((refined.stop.reason, refined.stop.owed), (StopReason::Done, 0), "seed {seed}");
-        let verdict = verify(Some(&domain), &refined.mesh.unwrap(), &options.promise(TAU_RAD, false, false));
+        let verdict = verify(Some(&domain), &refined.mesh.unwrap(), &options.promise(false, false));
         let broken: Vec<_> = verdict.checks.iter().filter(|c| c.status == Status::Broken).collect();
         assert!(broken.is_empty(), "seed {seed}: {broken:#?}");
     }
@@ -352,7 +352,7 @@ fn a_budget_and_a_watch_end_a_run_with_a_valid_mesh() {
     let all = options(30.0, Regions::CENTERS);
     let refined = gcdr::refine(&domain, &all, &mut Center, None, &mut |p| p.vertices < 200).unwrap();
     assert_eq!(refined.stop.reason, StopReason::Cancelled);
-    let verdict = verify(Some(&domain), &refined.mesh.unwrap(), &all.promise(TAU_RAD, false, false));
+    let verdict = verify(Some(&domain), &refined.mesh.unwrap(), &all.promise(false, false));
     assert_eq!(status(&verdict, "constrained_delaunay"), Status::Proven);
     assert_eq!(status(&verdict, "conforming"), Status::Proven);
     let begun = gcdr::refine(&domain, &all, &mut Center, Some(0), &mut |_| true).unwrap();

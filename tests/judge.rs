@@ -9,9 +9,10 @@ use squinch::geometry::exact::{CircleSide, Orientation, in_circle, in_diametral,
 use squinch::geometry::{Point, Vec2};
 use squinch::ids::{CurveId, NameId, PointId, RegionId, TriangleId, VertexId};
 use squinch::mesh::quality::{Quality, boundary_measures, region_measures};
-use squinch::mesh::verify::{Check, Promise, Status, Verdict, verify};
 use squinch::mesh::{Ball, BallReason, CurveEdge, CurveLink, Mesh};
+use squinch::promise::{EnginePromise, LoppingPromise, Promise};
 use squinch::size::{Sizing, Source};
+use squinch::verify::{Check, Status, Verdict, verify};
 use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_3, PI, SQRT_2};
 
@@ -41,18 +42,21 @@ impl Scene {
     fn judged(&self) -> Verdict {
         verify(Some(&self.domain), &self.mesh, &self.promise)
     }
+
+    fn lopping(&mut self) -> &mut LoppingPromise {
+        match &mut self.promise.engine {
+            EnginePromise::Lopping(lopping) => lopping,
+            EnginePromise::Constrained(_) => panic!("no scene is constrained"),
+        }
+    }
 }
 
 fn promise(angle_min_deg: f64) -> Promise {
+    let lopping = LoppingPromise { beta: 0.95, arc_turning_rad: Some(FRAC_PI_3), midpoint_bisector: true };
     Promise {
         angle_min_rad: Some(angle_min_deg.to_radians()),
-        tau_rad: 0.5,
-        beta: 0.95,
-        corner_arcs: true,
-        arc_turning_rad: FRAC_PI_3,
-        midpoint_bisector: true,
         sizing: Sizing::default(),
-        constrained: None,
+        engine: EnginePromise::Lopping(lopping),
         foreign: false,
     }
 }
@@ -303,7 +307,7 @@ fn an_angle_is_proven_only_below_the_guarantee_of_the_turning() {
     assert_eq!(status(&scene), Status::Reached);
     scene.promise.angle_min_rad = Some(14f64.to_radians());
     assert_eq!(status(&scene), Status::Proven);
-    scene.promise.midpoint_bisector = false;
+    scene.lopping().midpoint_bisector = false;
     assert_eq!(status(&scene), Status::Reached);
     // The wedge has an acute corner and so arcs of π/3: 8.594°, below that of its bow.
     let mut scene = wedge(HERE);
@@ -319,7 +323,7 @@ fn an_angle_is_proven_only_below_the_guarantee_of_the_turning() {
 fn a_small_angle_at_an_acute_corner_is_excused_and_told_by_corner() {
     for arcs in [true, false] {
         let mut scene = wedge(HERE);
-        scene.promise.corner_arcs = arcs;
+        scene.lopping().arc_turning_rad = arcs.then_some(FRAC_PI_3);
         let verdict = scene.judged();
         assert_eq!(told(&verdict), [""; 0]);
         let [excuse] = verdict.excused.as_slice() else { panic!("{:?}", verdict.excused) };
@@ -327,7 +331,7 @@ fn a_small_angle_at_an_acute_corner_is_excused_and_told_by_corner() {
         assert_eq!(excuse.cells, [triangle_at(&scene, 1.0, 0.1).0]);
         let asked = if arcs { Status::Reached } else { Status::NotAsked };
         assert_eq!(check(&verdict, "max_angle").status, asked);
-        let quality = Quality::of(Some(&scene.domain), &scene.mesh, &verdict);
+        let quality = Quality::of(Some(&scene.domain), &scene.mesh, verdict.exempt_cells());
         assert!(quality.min_angle_deg < 20.7 && quality.min_unexcused_angle_deg > 20.7);
     }
 }
@@ -374,7 +378,7 @@ fn without_a_domain_only_the_triangles_are_judged() {
 fn qualities_are_those_of_the_shape() {
     let scene = keyhole(HERE);
     let verdict = scene.judged();
-    let quality = Quality::of(Some(&scene.domain), &scene.mesh, &verdict);
+    let quality = Quality::of(Some(&scene.domain), &scene.mesh, verdict.exempt_cells());
     let step = PI / 7.0;
     approx::assert_relative_eq!(quality.measure, 1.0 + 7.0 * 0.125 * step.sin(), max_relative = 1e-12);
     approx::assert_relative_eq!(quality.exact_measure.unwrap(), 1.0 + PI / 8.0, max_relative = 1e-12);
@@ -574,12 +578,12 @@ fn min_angle_finds_a_small_angle_that_no_ball_excuses() {
     });
     breaks(wedge(HERE), &["min_angle"], "has an angle of 17.", |s| s.mesh.balls.clear());
     breaks(wedge(HERE), &["min_angle"], "has an angle of 17.", |s| {
-        s.promise.corner_arcs = false;
+        s.lopping().arc_turning_rad = None;
         s.mesh.balls.clear();
     });
     // A ball excuses only what is in it: outside the corner the angles are above 35°.
     breaks(wedge(HERE), &["min_angle"], "has an angle of 4", |s| {
-        s.promise.corner_arcs = false;
+        s.lopping().arc_turning_rad = None;
         s.promise.angle_min_rad = Some(50f64.to_radians());
     });
 }
@@ -648,9 +652,9 @@ fn lfs_ratio_finds_a_ball_that_is_too_small_unless_a_size_limit_capped_it() {
     let mut scene = wedge(HERE);
     scene.mesh.balls[0].radius *= 0.9;
     scene.mesh.balls[0].why = BallReason::Encroached;
-    scene.promise.beta = 0.5;
+    scene.lopping().beta = 0.5;
     assert_eq!(check(&scene.judged(), "lfs_ratio").status, Status::Proven);
-    scene.promise.corner_arcs = false;
+    scene.lopping().arc_turning_rad = None;
     assert_eq!(check(&scene.judged(), "lfs_ratio").status, Status::Broken);
 }
 

@@ -8,15 +8,16 @@ use squinch::domain::{ArrangeOptions, Domain, Drawing, FillRule};
 use squinch::generate::curved_complex;
 use squinch::geometry::Point;
 use squinch::ids::PointId;
-use squinch::mesh::verify::{Status, Verdict, guaranteed_angle, verify};
 use squinch::mesh::{BallReason, Mesh, quality};
 use squinch::pipeline::{self, Exit, Extent, Outcome, Source};
 use squinch::plane::Midpoint;
 use squinch::plane::lopping::demand::{Circles, Demand};
-use squinch::plane::lopping::{self, Options, Refined, Shrinking, arc_turning};
+use squinch::plane::lopping::{self, Options, Refined, Shrinking};
+use squinch::promise::{arc_turning, guaranteed_angle};
 use squinch::refine::StopReason;
 use squinch::request::{Engine, Request, SizeOf, Steiner};
 use squinch::size::Sizing;
+use squinch::verify::{Status, Verdict, verify};
 use squinch::watch::Progress;
 use std::f64::consts::FRAC_PI_3;
 
@@ -30,7 +31,7 @@ fn kept(drawing: &Drawing, tau_rad: f64, options: &Options) -> (Mesh, Verdict) {
     let refined = refine(&domain, options);
     assert_eq!(refined.stop.reason, StopReason::Done);
     let mesh = refined.mesh.expect("a run that is done has a mesh");
-    let verdict = verify(Some(&domain), &mesh, &options.promise(tau_rad, false));
+    let verdict = verify(Some(&domain), &mesh, &options.promise(false));
     assert_kept(&verdict);
     (mesh, verdict)
 }
@@ -190,7 +191,7 @@ fn a_budget_ends_with_a_valid_mesh_and_says_what_is_owed() {
     let refined = refine(&domain, &options);
     assert_eq!(refined.stop.reason, StopReason::VertexBudget);
     assert!(refined.stop.owed > 0 && !refined.stop.places.is_empty());
-    let verdict = verify(Some(&domain), &refined.mesh.expect("it was valid before"), &options.promise(0.5, false));
+    let verdict = verify(Some(&domain), &refined.mesh.expect("it was valid before"), &options.promise(false));
     let broken: Vec<_> = verdict.checks.iter().filter(|c| c.status == Status::Broken).map(|c| c.name).collect();
     assert!(broken.iter().all(|name| ["size", "min_angle", "max_angle"].contains(name)), "{broken:?}");
 }

@@ -7,10 +7,10 @@ use clap::Args;
 use squinch::domain::Domain;
 use squinch::import::mesh::{self, MeshFile};
 use squinch::mesh::quality::Quality;
-use squinch::mesh::verify::Status;
 use squinch::pipeline::{self, Exit, Plan};
 use squinch::report::{FailureKind, FailureReport, MeshReport, PromiseReport, Report};
 use squinch::request::Request;
+use squinch::verify::Status;
 use std::path::{Path, PathBuf};
 
 #[derive(Args)]
@@ -82,7 +82,7 @@ impl Check {
         report.input.notes.extend(untied.is_some().then(|| BY_PLACE.to_owned()));
         let mesh = untied.unwrap_or(mesh);
         report.mesh = Some(MeshReport::new(&mesh));
-        report.quality = Some(Quality::of(domain.as_ref(), &mesh, &verdict));
+        report.quality = Some(Quality::of(domain.as_ref(), &mesh, verdict.exempt_cells()));
         report.promise = Some(PromiseReport::new(&verdict));
         if let Some(path) = &self.report {
             let mut staged = Staged::default();

@@ -3,7 +3,6 @@
 
 pub mod elevate;
 pub mod quality;
-pub mod verify;
 
 use crate::geometry::{Frame, Point};
 use crate::ids::{Colour, CurveId, IdVec, NameId, Names, PointId, RegionId, TriangleId, VertexId};

@@ -1,7 +1,6 @@
 //! Angles, areas and lengths of a mesh.
 
 use super::Mesh;
-use super::verify::Verdict;
 use crate::domain::Domain;
 use crate::geometry::{Point, Vec2};
 use crate::ids::{Id, TriangleId, VertexId};
@@ -49,12 +48,10 @@ pub struct BoundaryMeasure {
 }
 
 impl Quality {
-    /// Measures a mesh; `verdict` says which triangles are excused.
-    pub fn of(domain: Option<&Domain>, mesh: &Mesh, verdict: &Verdict) -> Self {
+    /// Measures a mesh; `exempt` are the triangles that a corner excuses.
+    pub fn of(domain: Option<&Domain>, mesh: &Mesh, exempt: impl IntoIterator<Item = TriangleId>) -> Self {
         let mut excused = vec![false; mesh.triangles.len()];
-        for &cell in verdict.excused.iter().flat_map(|e| &e.cells) {
-            excused[TriangleId(cell).index()] = true;
-        }
+        exempt.into_iter().for_each(|cell| excused[cell.index()] = true);
         let mut quality = Self {
             min_angle_deg: 180.0,
             max_angle_deg: 0.0,

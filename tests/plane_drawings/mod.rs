@@ -3,7 +3,7 @@
 use squinch::curve::Curve;
 use squinch::domain::{ArrangeOptions, Domain, Drawing, FillRule};
 use squinch::geometry::Point;
-use squinch::mesh::verify::{Status, Verdict};
+use squinch::verify::{Status, Verdict};
 
 pub fn domain_of(drawing: &Drawing, tau_rad: f64) -> Domain {
     drawing.arrange(&ArrangeOptions::default()).expect("a sound drawing").split_to_turning(tau_rad)

@@ -45,8 +45,8 @@ use super::suspects::{self, Suspect, Suspects};
 use crate::domain::Domain;
 use crate::geometry::{self, Point};
 use crate::ids::{BallId, CurveId, Id, IdVec, PieceId, PointId, TriangleId, VertexId};
-use crate::mesh::verify::{ConstrainedPromise, DensityPromise, Promise};
 use crate::mesh::{Insertion, InsertionKind, RIM_ROUNDING};
+use crate::promise::{ConstrainedPromise, DensityPromise, EnginePromise, Promise};
 use crate::refine::{Counters, Stop, StopReason};
 use crate::size::{SizeField, Sizing};
 use crate::watch::{Progress, Watch};
@@ -75,17 +75,12 @@ pub const SHARP_RAD: f64 = FRAC_PI_3 - 1e-8;
 impl Options {
     /// What the judge holds a mesh to that was made by these options and a strategy that is `free` or not; `foreign`: it comes from
     /// elsewhere, without links to curves.
-    pub fn promise(&self, tau_rad: f64, free: bool, foreign: bool) -> Promise {
+    pub fn promise(&self, free: bool, foreign: bool) -> Promise {
         let proven = self.regions.proven_above(self.angle_min_rad);
         Promise {
             angle_min_rad: (self.angle_min_rad > 0.0).then_some(self.angle_min_rad),
-            constrained: Some(ConstrainedPromise { proven_above_rad: proven.filter(|_| !free) }),
-            tau_rad,
-            beta: 0.0,
-            corner_arcs: false,
-            arc_turning_rad: 0.0,
-            midpoint_bisector: true,
             sizing: self.sizing.clone(),
+            engine: EnginePromise::Constrained(ConstrainedPromise { proven_above_rad: proven.filter(|_| !free) }),
             foreign,
         }
     }

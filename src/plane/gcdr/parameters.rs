@@ -1,6 +1,6 @@
 //! δ₂, δ₁ and μ, which say how large the selection regions are, and what is known of the mesh for them.
 
-use crate::mesh::verify::{Densities, DensityPromise};
+use crate::promise::{Densities, DensityPromise};
 use std::f64::consts::FRAC_PI_2;
 
 /// The sizes of the selection regions (Definitions 3.1–3.3); 1: the region is its centre.

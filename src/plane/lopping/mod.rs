@@ -46,8 +46,8 @@ use super::suspects::{self, DETAIL_RAD, Suspect, Suspects};
 use crate::domain::Domain;
 use crate::geometry::{self, Point};
 use crate::ids::{BallId, CurveId, IdVec, PieceId, PointId, TriangleId, VertexId};
-use crate::mesh::verify::{Promise, guaranteed_angle};
 use crate::mesh::{Ball, Mesh, RIM_ROUNDING};
+use crate::promise::{EnginePromise, LoppingPromise, Promise};
 use crate::refine::{Counters, Stop, StopReason};
 use crate::size::{SizeField, Sizing};
 use crate::watch::{Progress, Watch};
@@ -87,16 +87,16 @@ impl Default for Options {
 
 impl Options {
     /// What the judge holds a mesh to that was made by these options; `foreign`: it comes from elsewhere, without links to curves.
-    pub fn promise(&self, tau_rad: f64, foreign: bool) -> Promise {
+    pub fn promise(&self, foreign: bool) -> Promise {
+        let lopping = LoppingPromise {
+            beta: self.beta,
+            arc_turning_rad: self.corner_arcs,
+            midpoint_bisector: self.midpoint == Midpoint::Bisector,
+        };
         Promise {
             angle_min_rad: (self.angle_min_rad > 0.0).then_some(self.angle_min_rad),
-            tau_rad,
-            beta: self.beta,
-            corner_arcs: self.corner_arcs.is_some(),
-            arc_turning_rad: self.corner_arcs.unwrap_or(0.0),
-            midpoint_bisector: self.midpoint == Midpoint::Bisector,
             sizing: self.sizing.clone(),
-            constrained: None,
+            engine: EnginePromise::Lopping(lopping),
             foreign,
         }
     }
@@ -343,27 +343,4 @@ impl Lopping {
         self.counters.add("walk_steps", kernel.walk_steps);
         self.counters.add("cavity_triangles", kernel.cavity_triangles);
     }
-}
-
-/// The largest turning of corner arcs for which κ is proven, where that is the domain's to prove: `lambda_rad` is the largest lens angle
-/// of its curves. Elsewhere π/3, the largest that keeps the angles at the rim of a ball at 60° and more (section 6).
-///
-/// Arcs are curves: of turning T they have λ = T/2, so arcs of π/3 prove κ only up to 8.594°. Finer ones than a tenth of a radian would
-/// crowd the ball with vertices for the sake of the proof; then the angle is reached, not proven.
-pub fn arc_turning(kappa_rad: f64, lambda_rad: f64) -> f64 {
-    const FINEST: f64 = 0.1;
-    if kappa_rad >= guaranteed_angle(lambda_rad) || kappa_rad < guaranteed_angle(FRAC_PI_3 / 2.0) {
-        return FRAC_PI_3;
-    }
-    // The guarantee falls as λ grows: 50 halvings reach the spacing of f64.
-    let (mut covered, mut missed) = (0.0, FRAC_PI_3 / 2.0);
-    for _ in 0..50 {
-        let middle = 0.5 * (covered + missed);
-        if kappa_rad < guaranteed_angle(middle) {
-            covered = middle;
-        } else {
-            missed = middle;
-        }
-    }
-    if 2.0 * covered >= FINEST { 2.0 * covered } else { FRAC_PI_3 }
 }

@@ -2,8 +2,9 @@
 
 use crate::run::{self, Run};
 use squinch::generate;
-use squinch::mesh::verify::{Status, guaranteed_angle};
-use squinch::plane::lopping::{Options, arc_turning};
+use squinch::plane::lopping::Options;
+use squinch::promise::{arc_turning, guaranteed_angle};
+use squinch::verify::Status;
 use std::f64::consts::FRAC_PI_3;
 
 pub fn print(n: u64) {

@@ -2,10 +2,11 @@
 
 use crate::run;
 use squinch::domain::{ArrangeOptions, Domain};
-use squinch::mesh::verify::{Densities, DensityPromise, densities};
 use squinch::plane::gcdr::steiner::{Extreme, Random};
 use squinch::plane::gcdr::{self, Options, Regions, SteinerStrategy};
+use squinch::promise::{Densities, DensityPromise};
 use squinch::size::Sizing;
+use squinch::verify::densities;
 use std::f64::consts::{FRAC_PI_2, SQRT_2};
 
 /// Runs a row of experiment 2 is repeated.

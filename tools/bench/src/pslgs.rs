@@ -5,11 +5,11 @@ use squinch::domain::{ArrangeOptions, Drawing, FillRule};
 use squinch::geometry::Point;
 use squinch::geometry::dice::Dice;
 use squinch::geometry::exact::{Orientation, orient};
-use squinch::mesh::verify::verify;
 use squinch::plane::gcdr::steiner::{Center, Extreme, Optimal, Random};
 use squinch::plane::gcdr::{self, Options, Regions, SteinerStrategy};
 use squinch::refine::StopReason;
 use squinch::size::Sizing;
+use squinch::verify::verify;
 
 /// A bound for every strategy in turn: proven, at the brink, and beyond what is proven.
 const TURNS: [(f64, &str); 4] = [(20.7, "center"), (20.7, "random"), (20.7, "extreme"), (30.0, "optimal-free")];
@@ -55,7 +55,7 @@ fn refined(drawing: &Drawing, degrees: f64, strategy: &str, seed: u64) -> Result
     if refined.stop.reason != StopReason::Done || refined.stop.owed > 0 {
         return Err(format!("{:?}, {} owed", refined.stop.reason, refined.stop.owed));
     }
-    let verdict = verify(Some(&domain), &mesh, &options.promise(0.5, strategy.is_free(), false));
+    let verdict = verify(Some(&domain), &mesh, &options.promise(strategy.is_free(), false));
     if verdict.kept() { Ok(mesh.triangles.len()) } else { Err("broken".into()) }
 }
 

@@ -2,11 +2,11 @@
 
 use squinch::domain::{ArrangeOptions, Domain, Drawing};
 use squinch::import::{self, Format};
-use squinch::mesh::verify::{self, Status, Verdict};
 use squinch::mesh::{Mesh, quality};
 use squinch::plane::lopping::{self, Options};
 use squinch::refine::{Counters, Stop};
 use squinch::size::Sizing;
+use squinch::verify::{self, Status, Verdict};
 use std::time::Instant;
 
 /// What a run made.
@@ -46,9 +46,9 @@ pub fn run(drawing: &Drawing, tau_rad: f64, options: &Options) -> Result<Run, St
     seconds.refine = start.elapsed().as_secs_f64();
     let mesh = refined.mesh.ok_or_else(|| format!("no mesh: {:?}", refined.stop.reason))?;
     let start = Instant::now();
-    let verdict = verify::verify(Some(&domain), &mesh, &options.promise(tau_rad, false));
+    let verdict = verify::verify(Some(&domain), &mesh, &options.promise(false));
     seconds.verify = start.elapsed().as_secs_f64();
-    let quality = quality::Quality::of(Some(&domain), &mesh, &verdict);
+    let quality = quality::Quality::of(Some(&domain), &mesh, verdict.exempt_cells());
     Ok(Run { domain, mesh, stop: refined.stop, counters: refined.counters, verdict, quality, seconds })
 }
 

@@ -10,68 +10,49 @@ use crate::geometry::exact::{CircleSide, in_circle};
 use crate::geometry::{Point, Rect};
 use crate::ids::{CurveId, Id, PointId, TriangleId, VertexId};
 use crate::mesh::quality::angle_range;
+use crate::promise::{ANGLE_RULE_GUARANTEE_RAD, ConstrainedPromise, EnginePromise, LoppingPromise, guaranteed_angle};
 use std::collections::BTreeMap;
-use std::f64::consts::{FRAC_PI_2, PI, SQRT_2};
-
-/// The guarantee of the angle rule on straight input, arcsin ¼ = 14.4775° in radians.
-///
-/// Where z encroaches xy, the rule cuts at p with |xp| : |py| = a : b, a = |xz| ≤ b = |yz|. With |xy| = 2 Stewart's
-/// theorem gives |pz|²/|xp|² = (b/a)·((a+b)² − 4)/4, and a² + b² ≤ 4 (z is in the circle) bounds that by b²/2 ≤ 2: η =
-/// √2, approached as a → 0; with ζ = √2, arcsin(1/(2ζη)) = arcsin ¼. No η is known of the rule on curves, so there
-/// nothing is proven.
-pub const ANGLE_RULE_GUARANTEE_RAD: f64 = 0.252_680_255_142_078_65;
-
-/// The κ (radians) below which corner lopping with the bisector rule is proven to end where no curve has a lens angle
-/// above `lambda_rad` (Pav & Walkington 2005, Corollary 3, with λ for τ; 0 ≤ λ ≤ π/3). 20.705° for straight input.
-///
-/// κ < arcsin(1/(2√2μ)) ∧ arcsin(1/(2ζη)) with t = tan(λ/2), η = (1+t)/(1−t), μ = 1/(1−t). Lemma 2's ζ is *corrected*:
-/// the lens' arc has central angle 2λ (the proof has λ), so ζ = √2·sin λ/(sin λ + cos λ − 1), which is √2/(1−t) and so
-/// well defined at λ = 0. (Counterexample to the printed ζ: the chord (±1, 0), the curve bent at (0, tan(λ/2)), and p =
-/// (0, 1).)
-///
-/// Beyond λ = π/2 nothing is guaranteed: 0.
-pub fn guaranteed_angle(lambda_rad: f64) -> f64 {
-    if lambda_rad.is_nan() || lambda_rad >= FRAC_PI_2 {
-        return 0.0;
-    }
-    let t = libm::tan(0.5 * lambda_rad);
-    let (eta, mu, zeta) = ((1.0 + t) / (1.0 - t), 1.0 / (1.0 - t), SQRT_2 / (1.0 - t));
-    libm::asin(1.0 / (2.0 * SQRT_2 * mu)).min(libm::asin(1.0 / (2.0 * zeta * eta)))
-}
+use std::f64::consts::{FRAC_PI_2, PI};
 
 /// What κ the theory covers for this domain: whether a bound that holds is proven or merely reached.
 fn status_of_angle_bound(ev: &Evidence, kappa: f64) -> Status {
     // What theory says of our engine says nothing of a mesh from elsewhere; and triangles left alone for their size are
     // no part of it.
     let ours = ev.domain.filter(|_| !ev.promise.foreign && ev.promise.sizing.min_edge.is_none());
-    if let Some(constrained) = ev.promise.constrained {
-        let straight = |domain: &Domain| domain.curves().iter().all(|c| c.curve.is_straight());
-        let proven = ours.filter(|d| straight(d)).zip(constrained.proven_above_rad).is_some_and(|(domain, least)| {
-            let corners = domain.points().ids().filter_map(|p| domain.corner(p));
-            // An angle of the bound itself, rounded, is not above it.
-            corners.map(|corner| corner.angle_rad).all(|angle| angle > least + 1e-9)
-        });
-        return if proven { Status::Proven } else { Status::Reached };
-    }
-    let covered = |domain: &Domain| {
-        let lens = domain.curves().iter().map(|c| c.curve.lens_angle(0.0, 1.0)).fold(0.0, f64::max);
-        let has_arcs = ev.promise.corner_arcs && domain.points().ids().any(|p| domain.is_acute(p));
-        // A circular arc's lens angle is half its turning.
-        let lens = if has_arcs { lens.max(0.5 * ev.promise.arc_turning_rad) } else { lens };
-        match ev.promise.midpoint_bisector {
-            true => guaranteed_angle(lens),
-            false if lens == 0.0 => ANGLE_RULE_GUARANTEE_RAD,
-            false => 0.0,
-        }
+    let proven = match &ev.promise.engine {
+        EnginePromise::Lopping(lopping) => ours.is_some_and(|domain| kappa < covered(lopping, domain)),
+        EnginePromise::Constrained(constrained) => ours.is_some_and(|domain| is_covered(constrained, domain)),
     };
-    if ours.is_some_and(|domain| kappa < covered(domain)) { Status::Proven } else { Status::Reached }
+    if proven { Status::Proven } else { Status::Reached }
+}
+
+/// The κ that corner lopping covers.
+fn covered(lopping: &LoppingPromise, domain: &Domain) -> f64 {
+    let lens = domain.curves().iter().map(|c| c.curve.lens_angle(0.0, 1.0)).fold(0.0, f64::max);
+    let arcs = lopping.arc_turning_rad.filter(|_| domain.points().ids().any(|p| domain.is_acute(p)));
+    // A circular arc's lens angle is half its turning.
+    let lens = lens.max(0.5 * arcs.unwrap_or(0.0));
+    match lopping.midpoint_bisector {
+        true => guaranteed_angle(lens),
+        false if lens == 0.0 => ANGLE_RULE_GUARANTEE_RAD,
+        false => 0.0,
+    }
+}
+
+/// Whether constrained refinement proves its angle here: on segments, none of which meet too sharply.
+fn is_covered(constrained: &ConstrainedPromise, domain: &Domain) -> bool {
+    let Some(least) = constrained.proven_above_rad else { return false };
+    let corners = domain.points().ids().filter_map(|p| domain.corner(p));
+    domain.curves().iter().all(|c| c.curve.is_straight())
+        // An angle of the bound itself, rounded, is not above it.
+        && corners.map(|corner| corner.angle_rad).all(|angle| angle > least + 1e-9)
 }
 
 /// No triangle beside an edge has its far corner inside the circle of the other, exactly; where the mesh is constrained Delaunay, edges on
 /// curves are exempt. Checked: edges with two triangles. Worst: the largest sum of the two angles that face an edge, in degrees (180 where
 /// all four corners lie on a circle).
 pub fn delaunay(ev: &Evidence) -> Check {
-    let constrained = ev.promise.constrained.is_some();
+    let constrained = ev.promise.is_constrained();
     let mut tally = Tally::highest(if constrained { "constrained_delaunay" } else { "delaunay" });
     let mut on_curve = vec![false; if constrained { ev.edges.edges().len() } else { 0 }];
     if constrained {
@@ -121,7 +102,7 @@ pub fn min_angle(ev: &Evidence, balls: &[SoundBall]) -> (Check, Vec<Excuse>) {
     let Some(kappa) = ev.promise.angle_min_rad else { return (Check::not_asked("min_angle"), Vec::new()) };
     let mut tally = Tally::lowest("min_angle");
     let corners = Corners::new(ev, balls);
-    let across = ev.domain.filter(|_| ev.promise.constrained.is_some()).map(|domain| AcrossCorners::new(ev, domain));
+    let across = ev.domain.filter(|_| ev.promise.is_constrained()).map(|domain| AcrossCorners::new(ev, domain));
     let mut input_angles: BTreeMap<PointId, Vec<u32>> = BTreeMap::new();
     let mut cells: Vec<Vec<u32>> = vec![Vec::new(); balls.len()];
     let mut too_small = Vec::new();
@@ -232,7 +213,7 @@ fn excuse_of_min_edge(ev: &Evidence, too_small: &[TriangleId]) -> Option<Excuse>
 /// With corner arcs: no angle of any triangle, excused or not, is above max(180° − 2κ, 90°) (section 6). Worst in
 /// degrees.
 pub fn max_angle(ev: &Evidence) -> Check {
-    let Some(kappa) = ev.promise.angle_min_rad.filter(|_| ev.promise.corner_arcs) else {
+    let Some(kappa) = ev.promise.angle_min_rad.filter(|_| ev.promise.has_corner_arcs()) else {
         return Check::not_asked("max_angle");
     };
     let mut tally = Tally::highest("max_angle");
@@ -282,7 +263,7 @@ impl<'a> Corners<'a> {
     /// The ball that excuses a triangle.
     fn excuse(&self, t: TriangleId) -> Option<usize> {
         let corners = self.ev.mesh.corners(t);
-        if self.ev.promise.corner_arcs { self.holding(&corners) } else { self.over(Circle::around(corners)?) }
+        if self.ev.promise.has_corner_arcs() { self.holding(&corners) } else { self.over(Circle::around(corners)?) }
     }
 
     /// The ball in which all corners lie, up to the rounding of nodes that were placed on its rim.
@@ -339,55 +320,6 @@ impl Circle {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn guarantees_are_those_of_the_corrected_theory() {
-        // τ, degrees guaranteed for any curve (λ = τ), and for circular arcs (λ = τ/2).
-        let table = [
-            (0.0, 20.705, 20.705),
-            (0.02, 20.065, 20.382),
-            (0.1, 17.689, 19.141),
-            (0.2, 15.074, 17.689),
-            (0.5, 8.985, 13.893),
-            (PI / 3.0, 2.295, 8.594),
-        ];
-        for (tau, any, arcs) in table {
-            // The table has three decimals.
-            approx::assert_abs_diff_eq!(guaranteed_angle(tau).to_degrees(), any, epsilon = 5e-4);
-            approx::assert_abs_diff_eq!(guaranteed_angle(0.5 * tau).to_degrees(), arcs, epsilon = 5e-4);
-        }
-    }
-
-    #[test]
-    fn the_short_form_of_zeta_is_the_printed_one_with_twice_the_angle() {
-        for lambda in [0.02, 0.1, 0.5, PI / 3.0] {
-            let zeta = SQRT_2 * libm::sin(lambda) / (libm::sin(lambda) + libm::cos(lambda) - 1.0);
-            approx::assert_relative_eq!(zeta, SQRT_2 / (1.0 - libm::tan(0.5 * lambda)), max_relative = 1e-12);
-        }
-        assert_eq!(guaranteed_angle(2.0), 0.0);
-    }
-
-    #[test]
-    fn the_angle_rule_on_a_segment_has_eta_of_at_most_root_two_and_nearly_attains_it() {
-        let (x, y) = (Point::new(-1.0, 0.0), Point::new(1.0, 0.0));
-        let mut largest: f64 = 0.0;
-        for i in 1..400 {
-            for j in 1..400 {
-                // Denser towards the circle and the end y, where the ratio is largest.
-                let (u, v) = (f64::from(i) / 400.0, f64::from(j) / 400.0);
-                let (r, phi) = (1.0 - u * u * u, PI * v * v);
-                let z = Point::new(r * libm::cos(phi), r * libm::sin(phi));
-                let (a, b) = (z.distance(x), z.distance(y));
-                let p = x.lerp(y, a / (a + b));
-                if (x - z).dot(y - z) < 0.0 {
-                    largest = largest.max(p.distance(z) / (1.0 - p.x.abs()));
-                }
-            }
-        }
-        // The nearest z lies 2e-5 from y, so that 1 − |p.x| keeps eleven digits.
-        assert!(largest < SQRT_2 + 1e-9 && largest > 1.4, "{largest}");
-        approx::assert_abs_diff_eq!(ANGLE_RULE_GUARANTEE_RAD, libm::asin(0.25), epsilon = 1e-15);
-    }
 
     #[test]
     fn a_circle_passes_through_its_triangle_wherever_it_lies() {

@@ -53,7 +53,7 @@ impl Circles {
         if side == CircleSide::Outside {
             return;
         }
-        if ev.promise.constrained.is_some() {
+        if ev.promise.is_constrained() {
             if side == CircleSide::Inside && orient(x, y, ev.signs[v]) == Orientation::Collinear {
                 self.intruder[i].fetch_min(v.0, Ordering::Relaxed);
             }
@@ -70,7 +70,7 @@ impl Circles {
 
     /// Chords that cross although their curves do not: the triangles beside them would overlap.
     pub fn tell_crossings(&self, ev: &Evidence, tally: &mut Tally) {
-        if ev.promise.constrained.is_some() {
+        if ev.promise.is_constrained() {
             self.tell_nodes_on_chords(ev, tally);
         }
         for (i, other) in self.crossing.iter().enumerate() {

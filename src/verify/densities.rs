@@ -6,23 +6,8 @@ use crate::domain::Domain;
 use crate::geometry::Point;
 use crate::ids::{Id, VertexId};
 use crate::mesh::{Insertion, InsertionKind, Mesh};
+use crate::promise::DensityPromise;
 use std::collections::BTreeMap;
-
-/// Bounds on D(p) = lfs(p)/R(p) by the type of p; infinite where there is none.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Densities {
-    pub a: f64,
-    pub b: f64,
-    pub c: f64,
-}
-
-/// What densities are held to.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct DensityPromise {
-    pub bounds: Densities,
-    /// Whether theory stands behind the bounds.
-    pub proven: bool,
-}
 
 /// *density_a*, *density_b*, *density_c*: lfs is measured anew on the domain; the recorded R(p) is not believed to be larger than the edges that
 /// the vertex has in the mesh with older ones. Worst: the largest density. Not asked where there is no finite bound.

@@ -113,7 +113,8 @@ fn balls_that_meet(ev: &Evidence, domain: &Domain) -> Vec<Option<PointId>> {
 fn ratio(ev: &Evidence, domain: &Domain) -> (Check, Vec<bool>) {
     let mut tally = Tally::highest("lfs_ratio");
     let lfs = domain.lfs();
-    let grading = if ev.promise.corner_arcs { GRADING.max(1.5 / ev.promise.beta) } else { GRADING };
+    let beta = ev.promise.lopping().filter(|lopping| lopping.arc_turning_rad.is_some()).map(|lopping| lopping.beta);
+    let grading = beta.map_or(GRADING, |beta| GRADING.max(1.5 / beta));
     let field = SizeField::new(&ev.promise.sizing, domain);
     let lfs0 = domain.lfs0();
     // Found by the same steps from the same numbers, but for the scale: 1e-9 is above any rounding in between.

@@ -12,7 +12,7 @@
 //! (*conforming* looks into every circle all the same), and is Delaunay but at chords (*constrained_delaunay*).
 //!
 //! **Proven or reached.** A check of the output is `proven` where it holds, since nothing is left to believe. The angle
-//! bounds are `proven` only where [`guaranteed_angle`] covers κ, so that no input of that turning could have missed it;
+//! bounds are `proven` only where [`crate::promise::guaranteed_angle`] covers κ, so that no input of that turning could have missed it;
 //! else `reached`.
 //!
 //! Signs come from [`crate::geometry::exact`] on coordinates scaled to unit magnitude; everything measured is plain
@@ -30,43 +30,15 @@ mod measures;
 mod tally;
 mod topology;
 
-pub use angles::{ANGLE_RULE_GUARANTEE_RAD, guaranteed_angle};
-pub use densities::{Densities, DensityPromise, densities};
+pub use densities::densities;
 
-use super::Mesh;
 use crate::domain::Domain;
-use crate::size::Sizing;
+use crate::ids::TriangleId;
+use crate::mesh::Mesh;
+use crate::promise::Promise;
 use circles::Circles;
 use evidence::Evidence;
 use tally::Tally;
-
-/// What a mesh is held to.
-#[derive(Clone, Debug)]
-pub struct Promise {
-    /// κ, the smallest angle asked for; `None`: not asked.
-    pub angle_min_rad: Option<f64>,
-    /// τ of the split.
-    pub tau_rad: f64,
-    pub beta: f64,
-    /// Whether corner arcs were on: which excuse holds, and C₀.
-    pub corner_arcs: bool,
-    /// Largest turning of a corner arc (for what is proven).
-    pub arc_turning_rad: f64,
-    /// The bisector rule (whose η, μ are known), or the angle rule (η ≥ √2).
-    pub midpoint_bisector: bool,
-    pub sizing: Sizing,
-    /// Made by constrained Delaunay refinement: what it promises instead of empty diametral circles and balls.
-    pub constrained: Option<ConstrainedPromise>,
-    /// A mesh from elsewhere: no links to curves, balls taken as (√2−1)·lfs₀.
-    pub foreign: bool,
-}
-
-/// What generalized constrained Delaunay refinement promises.
-#[derive(Clone, Copy, Debug)]
-pub struct ConstrainedPromise {
-    /// The angle is proven on segments that meet at more than this; `None`: nowhere.
-    pub proven_above_rad: Option<f64>,
-}
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, schemars::JsonSchema)]
 #[serde(rename_all = "lowercase")]
@@ -124,6 +96,11 @@ impl Verdict {
     pub fn kept(&self) -> bool {
         self.checks.iter().all(|c| c.status != Status::Broken)
     }
+
+    /// The triangles that a corner excuses.
+    pub fn exempt_cells(&self) -> impl Iterator<Item = TriangleId> {
+        self.excused.iter().flat_map(|excuse| &excuse.cells).map(|&cell| TriangleId(cell))
+    }
 }
 
 fn is_zero(n: &usize) -> bool {
@@ -147,7 +124,7 @@ pub fn verify(domain: Option<&Domain>, mesh: &Mesh, promise: &Promise) -> Verdic
     // Checks share nothing but the evidence: the dear ones take what cores there are.
     let (circles, delaunay) =
         rayon::join(|| domain.map(|d| (d, Circles::look(&evidence, d))), || angles::delaunay(&evidence));
-    let constrained = promise.constrained.is_some();
+    let constrained = promise.is_constrained();
     let (conforming, empty_diametral) = match circles {
         Some((domain, circles)) if constrained => {
             (topology::conforming(&evidence, domain, &circles), Check::not_asked("empty_diametral"))

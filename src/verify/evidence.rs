@@ -1,12 +1,12 @@
 //! What the judge finds out for itself before it checks anything.
 
-use super::Promise;
 use super::edges::EdgeTable;
 use crate::domain::Domain;
 use crate::geometry::boxes::BoxHierarchy;
 use crate::geometry::{self, Point, Rect};
 use crate::ids::{CurveId, Id, IdVec, NameId, PointId, RegionId, TriangleId, VertexId};
 use crate::mesh::{Mesh, RIM_ROUNDING};
+use crate::promise::Promise;
 use std::collections::BTreeSet;
 
 /// A stretch of a curve that a mesh edge stands for.
