@@ -5,8 +5,8 @@
 
 use squinch::cad::truck::drawing_of_truck_face;
 use squinch::export::{Format, WriteOptions, encode};
-use squinch::pipeline::{Exit, Extent, run_drawing};
-use squinch::request::Request;
+use squinch::run::request::Request;
+use squinch::run::{Exit, Extent, run_drawing};
 use std::error::Error;
 use truck_modeling::{Face, Point3, Rad, Vector3, Wire, builder};
 

@@ -27,13 +27,12 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! [`pipeline::run`] does all of this from the bytes of a file, as the command line does.
+//! [`run::run`] does all of this from the bytes of a file, as the command line does.
 #![forbid(unsafe_code)]
 
 #[cfg(feature = "cad")]
 pub mod cad;
 pub mod canvas;
-pub mod case;
 pub mod curve;
 pub mod domain;
 pub mod export;
@@ -42,13 +41,10 @@ pub mod geometry;
 pub mod ids;
 pub mod import;
 pub mod mesh;
-pub mod pipeline;
 pub mod plane;
 pub mod promise;
-pub mod reduce;
 pub mod refine;
-pub mod report;
-pub mod request;
+pub mod run;
 pub mod size;
 pub mod verify;
 pub mod watch;

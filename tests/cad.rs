@@ -10,8 +10,8 @@ use squinch::geometry::{Frame, Point};
 use squinch::import::mesh::vtu;
 use squinch::import::{self, Format, Options, step};
 use squinch::mesh::Mesh;
-use squinch::pipeline::{Exit, Extent, Outcome, Plan, Source, run, run_drawing};
-use squinch::request::Request;
+use squinch::run::request::Request;
+use squinch::run::{Exit, Extent, Outcome, Plan, Source, run, run_drawing};
 use std::f64::consts::PI;
 use std::fmt::Write;
 

@@ -1,8 +1,8 @@
 //! Runs that once went wrong, each as its case file: they end with a verified mesh, at an announced limit, or with a located refusal.
 
-use squinch::case::Case;
 use squinch::import::Format;
-use squinch::pipeline::{Exit, Extent, Source, run};
+use squinch::run::case::Case;
+use squinch::run::{Exit, Extent, Source, run};
 use std::fs;
 use std::path::PathBuf;
 

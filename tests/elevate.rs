@@ -4,8 +4,8 @@ use squinch::geometry::Point;
 use squinch::ids::VertexId;
 use squinch::import::Format;
 use squinch::mesh::{Mesh, quality};
-use squinch::pipeline::{self, Exit, Extent, Outcome, Source};
-use squinch::request::{Order, Request};
+use squinch::run::request::{Order, Request};
+use squinch::run::{self, Exit, Extent, Outcome, Source};
 use squinch::verify::Status;
 
 /// A run of an outline to order 2.
@@ -17,7 +17,7 @@ fn meshed(outline: &str, request: Request) -> Outcome {
         nodes: None,
         of_many: false,
     };
-    let outcome = pipeline::run(&source, &request, Extent::Whole(&mut |_| true));
+    let outcome = run::run(&source, &request, Extent::Whole(&mut |_| true));
     assert_eq!(outcome.exit, Exit::Done, "{:?}", outcome.report.promise);
     outcome
 }
@@ -85,8 +85,8 @@ fn a_cell_between_tangent_curves_has_its_curved_side_straightened() {
 fn judged_after(outcome: &Outcome, change: impl FnOnce(&mut Mesh)) -> Vec<&'static str> {
     let mut mesh = outcome.mesh.clone().unwrap();
     change(&mut mesh);
-    let plan = pipeline::Plan::without_domain(&Request::default());
-    pipeline::broken(&plan.judge(outcome.domain.as_ref(), &mesh))
+    let plan = run::Plan::without_domain(&Request::default());
+    run::broken(&plan.judge(outcome.domain.as_ref(), &mesh))
 }
 
 #[test]

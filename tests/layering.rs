@@ -1,59 +1,69 @@
 //! Who may import whom: the table of `src/README.md`, kept.
 //!
-//! The sources are read as text: every `crate::…` path outside comments must lead to a module that its own module may know.
+//! The sources are read as text: every path outside comments that begins with `crate`, `squinch` or `super` must lead to a room that its own
+//! room may know. A row may be of a part of a room, as `import/mesh`: it may import what its room may, and what its own row adds.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Ground that every module stands on.
-const GROUND: &[&str] = &["ids", "geometry", "canvas", "trace", "watch"];
+/// Rooms by their paths below `src`, each with those that it may import.
+struct Table {
+    rows: BTreeMap<String, BTreeSet<String>>,
+    /// Rooms on which every other may stand.
+    ground: BTreeSet<String>,
+}
 
-/// Module, and what it may import besides the ground. `*`: everything.
-const TABLE: &[(&str, &[&str])] = &[
-    ("ids", &[]),
-    ("geometry", &[]),
-    ("canvas", &[]),
-    ("trace", &[]),
-    ("watch", &[]),
-    ("curve", &[]),
-    ("domain", &["curve"]),
-    ("size", &["curve", "domain"]),
-    ("refine", &[]),
-    ("mesh", &["curve", "domain"]),
-    ("promise", &["size"]),
-    ("verify", &["curve", "domain", "size", "mesh", "promise"]),
-    ("plane", &["curve", "domain", "size", "refine", "mesh", "promise"]),
-    ("import", &["curve", "domain"]),
-    ("export", &["curve", "domain", "mesh"]),
-    ("cad", &["curve", "domain"]),
-    ("generate", &["curve", "domain"]),
-    ("lib", &["*"]),
-    ("main", &["*"]),
-    ("cli", &["*"]),
-    ("case", &["*"]),
-    ("reduce", &["*"]),
-    ("request", &["*"]),
-    ("report", &["*"]),
-    ("pipeline", &["*"]),
-];
+impl Table {
+    /// The table under the heading "Who may import whom", and the ground that the sentence above it names.
+    fn read(map: &str) -> Self {
+        let section = map.split("## Who may import whom").nth(1).expect("the map has the table");
+        let section = section.split("\n## ").next().unwrap_or(section);
+        let (above, table) = section.split_at(section.find("| module |").expect("the table has a head"));
+        let cells = |line: &str| line.split('|').skip(1).take(2).map(quoted).collect::<Vec<_>>();
+        let mut rows = BTreeMap::new();
+        for line in table.lines().skip(2).take_while(|line| line.starts_with('|')) {
+            let [rooms, may] = &cells(line)[..] else { panic!("a row has rooms and what they import: {line}") };
+            assert!(!rooms.is_empty() && !may.contains("*"), "{line}");
+            rooms.iter().for_each(|room| assert!(rows.insert(room.clone(), may.clone()).is_none(), "{room} twice"));
+        }
+        Self { rows, ground: quoted(above) }
+    }
 
-/// Files (or folders, by their slash) that may import more than the rest of their module.
-const EXCEPTIONS: &[(&str, &[&str])] = &[
-    // Reads back mesh files, not drawings.
-    ("import/mesh/", &["mesh"]),
-    // Knows the format; what a face of a solid is, any door of a solid shares.
-    ("import/step.rs", &["cad"]),
-];
+    /// The room that a path lies in: the longest one of the table that it begins with.
+    fn room_of(&self, path: &str) -> Option<&str> {
+        let is_within =
+            |room: &&String| path.strip_prefix(room.as_str()).is_some_and(|r| r.is_empty() || r.starts_with('/'));
+        self.rows.keys().filter(is_within).max_by_key(|room| room.len()).map(String::as_str)
+    }
+
+    fn may_import(&self, room: &str, target: &str) -> bool {
+        let is_within = |outer: &str| target == outer || target.starts_with(&format!("{outer}/"));
+        let around = room.split_once('/').map(|(whole, _)| whole);
+        let listed = [Some(room), around].into_iter().flatten().flat_map(|room| &self.rows[room]);
+        target == room || Some(target) == around || listed.chain(&self.ground).any(|may| is_within(may))
+    }
+}
+
+/// What stands between backquotes.
+fn quoted(text: &str) -> BTreeSet<String> {
+    text.split('`').skip(1).step_by(2).map(str::to_owned).collect()
+}
+
+fn table() -> Table {
+    Table::read(&fs::read_to_string(source_root().join("README.md")).expect("the map is readable"))
+}
 
 #[test]
-fn every_module_keeps_to_the_table() {
+fn every_room_keeps_to_the_table() {
+    let table = table();
     let mut broken = Vec::new();
     for file in sources() {
         let text = fs::read_to_string(source_root().join(&file)).expect("a source is readable");
-        for target in imported(&text) {
-            if !may_import(&file, &target) {
-                broken.push(format!("{file} imports crate::{target}"));
+        let Some(room) = table.room_of(module_of(&file)) else { continue };
+        for path in imported(&text, module_of(&file)) {
+            if table.room_of(&path).is_some_and(|target| !table.may_import(room, target)) {
+                broken.push(format!("{file} imports {path}"));
             }
         }
     }
@@ -61,15 +71,18 @@ fn every_module_keeps_to_the_table() {
 }
 
 #[test]
-fn every_module_stands_in_the_table() {
-    let known: BTreeSet<&str> = TABLE.iter().map(|(module, _)| *module).collect();
-    let missing: BTreeSet<String> =
-        sources().iter().map(|file| module_of(file)).filter(|module| !known.contains(module.as_str())).collect();
+fn every_room_has_a_row() {
+    let table = table();
+    let sources = sources();
+    let missing: Vec<&String> = sources.iter().filter(|file| table.room_of(module_of(file)).is_none()).collect();
     assert!(missing.is_empty(), "not in the table: {missing:?}");
+    let is_there = |room: &String| sources.iter().any(|file| table.room_of(module_of(file)) == Some(room));
+    let gone: Vec<&String> = table.rows.keys().filter(|room| !is_there(room)).collect();
+    assert!(gone.is_empty(), "without a source: {gone:?}");
 }
 
 #[test]
-fn the_reader_of_paths_finds_them_all() {
+fn what_is_forbidden_is_found() {
     let text = "
         use crate::plane::lopping;
         use crate::{ids::CurveId, mesh::{Mesh, quality}, size};
@@ -77,14 +90,33 @@ fn the_reader_of_paths_finds_them_all() {
         /// [`crate::nothing`]
         fn f() { crate::curve::g(crate::domain::h()) }
         use super::super::export;
+        use super::Cavity;
+        use squinch::run::{self, request::Request};
     ";
-    let found: Vec<String> = imported(text).into_iter().collect();
-    assert_eq!(found, ["curve", "domain", "export", "ids", "mesh", "plane", "size"]);
-    assert!(may_import("plane/lopping.rs", "mesh"));
-    assert!(may_import("import/mesh/vtu.rs", "mesh"));
-    assert!(!may_import("import/poly.rs", "mesh"));
-    assert!(!may_import("verify/mod.rs", "plane"), "the judge must not know the kernels");
-    assert!(may_import("cli/mesh.rs", "plane"));
+    let found: Vec<String> = imported(text, "plane/gcdr/triangles").into_iter().collect();
+    let all = [
+        "curve/g",
+        "domain/h",
+        "ids/CurveId",
+        "mesh/Mesh",
+        "mesh/quality",
+        "plane/export",
+        "plane/gcdr/Cavity",
+        "plane/lopping",
+        "run",
+        "run/request/Request",
+        "size",
+    ];
+    assert_eq!(found, all);
+    let table = table();
+    let may = |file: &str, path: &str| {
+        let [room, target] = [file, path].map(|path| table.room_of(path).expect("it has a row"));
+        table.may_import(room, target)
+    };
+    assert!(may("plane/insert", "mesh/Mesh") && may("plane/lopping/begin", "plane/insert") && may("cli/mesh", "run"));
+    assert!(may("import/mesh/vtu", "mesh") && !may("import/poly", "mesh"));
+    assert!(!may("verify/mod", "plane/insert"), "the verifier must not know the kernels");
+    assert!(!may("plane/gcdr", "plane/lopping/begin") && !may("plane/insert", "plane/gcdr"), "nor engines each other");
 }
 
 fn source_root() -> PathBuf {
@@ -112,47 +144,46 @@ fn sources() -> Vec<String> {
     files
 }
 
-/// The top module that a file belongs to.
-fn module_of(file: &str) -> String {
-    file.split('/').next().unwrap_or(file).trim_end_matches(".rs").to_owned()
+/// A source without its suffix; a room's own `mod.rs` is the room.
+fn module_of(file: &str) -> &str {
+    let module = file.trim_end_matches(".rs");
+    module.strip_suffix("/mod").unwrap_or(module)
 }
 
-fn may_import(file: &str, target: &str) -> bool {
-    let module = module_of(file);
-    let allowed = |list: &[&str]| list.contains(&target) || list.contains(&"*");
-    let row = TABLE.iter().find(|(name, _)| *name == module);
-    let exception = EXCEPTIONS.iter().find(|(name, _)| *name == file || name.ends_with('/') && file.starts_with(name));
-    target == module
-        || GROUND.contains(&target)
-        || row.is_some_and(|(_, list)| allowed(list))
-        || exception.is_some_and(|(_, list)| allowed(list))
-}
-
-/// The top modules that a source names by `crate::`, or by climbing out of its own module.
-fn imported(text: &str) -> BTreeSet<String> {
-    let code: String = text
-        .lines()
+/// The paths that a source names by `crate` or `squinch`, or by climbing out of its module; with `/`, below `src`.
+fn imported(text: &str, module: &str) -> BTreeSet<String> {
+    let code: String = (text.lines())
         .filter(|line| !line.trim_start().starts_with("//"))
         .fold(String::new(), |all, line| all + line + "\n");
     let mut found = BTreeSet::new();
-    for (at, _) in code.match_indices("crate::") {
-        heads(&code[at + "crate::".len()..], &mut found);
+    for root in ["crate::", "squinch::"] {
+        for (at, _) in code.match_indices(root) {
+            expand(&code[at + root.len()..], "", &mut found);
+        }
     }
-    let known: BTreeSet<&str> = TABLE.iter().map(|(module, _)| *module).collect();
-    for (at, _) in code.match_indices("super::super::") {
-        let mut above = BTreeSet::new();
-        heads(&code[at + "super::super::".len()..], &mut above);
-        found.extend(above.into_iter().filter(|name| known.contains(name.as_str())));
+    let mut rest = &code[..];
+    while let Some(at) = rest.find("super::") {
+        rest = &rest[at..];
+        let mut above = module;
+        while let Some(inner) = rest.strip_prefix("super::") {
+            (above, rest) = (above.rsplit_once('/').map_or("", |(above, _)| above), inner);
+        }
+        expand(rest, above, &mut found);
     }
     found
 }
 
-/// The first name of a path, or of every path of a `{…}` group.
-fn heads(path: &str, found: &mut BTreeSet<String>) {
-    let name =
-        |text: &str| -> String { text.trim_start().chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect() };
+/// A path, or every path of a `{…}` group, behind those that lead to it.
+fn expand(path: &str, above: &str, found: &mut BTreeSet<String>) {
+    let path = path.trim_start();
+    let join = |name: &str| if above.is_empty() { name.to_owned() } else { format!("{above}/{name}") };
     let Some(group) = path.strip_prefix('{') else {
-        found.insert(name(path));
+        let name: String = path.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect();
+        match path[name.len()..].strip_prefix("::") {
+            Some(rest) => expand(rest, &join(&name), found),
+            None if name.is_empty() || name == "self" => _ = found.insert(above.to_owned()),
+            None => _ = found.insert(join(&name)),
+        }
         return;
     };
     let (mut depth, mut start) = (0_usize, 0);
@@ -160,9 +191,8 @@ fn heads(path: &str, found: &mut BTreeSet<String>) {
         match c {
             '{' => depth += 1,
             ',' | '}' if depth == 0 => {
-                let head = name(&group[start..i]);
-                if !head.is_empty() {
-                    found.insert(head);
+                if !group[start..i].trim().is_empty() {
+                    expand(&group[start..i], above, found);
                 }
                 if c == '}' {
                     return;

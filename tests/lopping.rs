@@ -9,13 +9,13 @@ use squinch::generate::curved_complex;
 use squinch::geometry::Point;
 use squinch::ids::PointId;
 use squinch::mesh::{BallReason, Mesh, quality};
-use squinch::pipeline::{self, Exit, Extent, Outcome, Source};
 use squinch::plane::Midpoint;
 use squinch::plane::lopping::demand::{Circles, Demand};
 use squinch::plane::lopping::{self, Options, Refined, Shrinking};
 use squinch::promise::{arc_turning, guaranteed_angle};
 use squinch::refine::StopReason;
-use squinch::request::{Engine, Request, SizeOf, Steiner};
+use squinch::run::request::{Engine, Request, SizeOf, Steiner};
+use squinch::run::{self, Exit, Extent, Outcome, Source};
 use squinch::size::Sizing;
 use squinch::verify::{Status, Verdict, verify};
 use squinch::watch::Progress;
@@ -358,7 +358,7 @@ fn each_kind_of_sliver_is_told_to_within_a_few_times() {
 
 fn run(drawing: &str, request: &Request) -> Outcome {
     let source = Source { path: "a.json", bytes: drawing.as_bytes(), format: None, nodes: None, of_many: false };
-    pipeline::run(&source, request, Extent::Whole(&mut |_| true))
+    run::run(&source, request, Extent::Whole(&mut |_| true))
 }
 
 #[test]

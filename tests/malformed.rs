@@ -4,8 +4,8 @@
 
 use squinch::import::mesh::{self, MeshFile};
 use squinch::import::{self, Format, ImportError, Options};
-use squinch::pipeline::{Exit, Extent, Outcome, Source, run};
-use squinch::request::{LineTypes, LooseEnds, Request, Strokes, Switch};
+use squinch::run::request::{LineTypes, LooseEnds, Request, Strokes, Switch};
+use squinch::run::{Exit, Extent, Outcome, Source, run};
 use std::time::{Duration, Instant};
 
 /// Far more than any of these files takes, on a slow machine and without optimisation.

@@ -3,8 +3,8 @@
 use squinch::domain::{ArrangeOptions, Domain, Drawing};
 use squinch::generate::known::{self, Known, Near};
 use squinch::geometry::Vec2;
-use squinch::pipeline::{Exit, Extent, run_drawing};
-use squinch::request::Request;
+use squinch::run::request::Request;
+use squinch::run::{Exit, Extent, run_drawing};
 
 fn arranged(drawing: &Drawing) -> Domain {
     let domain = drawing.arrange(&ArrangeOptions::default()).unwrap_or_else(|e| panic!("{e}"));

@@ -10,12 +10,12 @@ use super::{Halt, Volume};
 use clap::Args;
 pub use record::Line;
 use record::{Desk, Record};
-use squinch::case;
 use squinch::export::Format;
 use squinch::import;
-use squinch::pipeline::{self, Exit, Extent, Outcome, Source};
-use squinch::report::{FailureKind, FailureReport};
-use squinch::request::Request;
+use squinch::run::case;
+use squinch::run::report::{FailureKind, FailureReport};
+use squinch::run::request::Request;
+use squinch::run::{self, Exit, Extent, Outcome, Source};
 use std::collections::BTreeMap;
 use std::fs;
 use std::io;
@@ -88,7 +88,7 @@ impl Job {
     /// A job for each planar face of a solid; itself where there are none, or the file cannot be read.
     fn by_faces(self, request: &Request, format: Option<import::Format>) -> Vec<Self> {
         let read = || {
-            let drawing = pipeline::read(&open(&self, format).ok()?.source(), &self.request(request)).ok()?;
+            let drawing = run::read(&open(&self, format).ok()?.source(), &self.request(request)).ok()?;
             Some(drawing.faces)
         };
         // What is wrong with the file is told when its job is done.
@@ -169,9 +169,9 @@ impl Batch {
 
     fn mesh(&self, job: &Job, request: &Request, format: Option<import::Format>) -> Result<Line, FailureReport> {
         let input = open(job, format)?;
-        let outcome = pipeline::run(&Source { of_many: true, ..input.source() }, request, Extent::Whole(&mut |_| true));
+        let outcome = run::run(&Source { of_many: true, ..input.source() }, request, Extent::Whole(&mut |_| true));
         if outcome.exit == Exit::Bug {
-            self.keep_case(job, request, format, &pipeline::ending(&outcome));
+            self.keep_case(job, request, format, &run::ending(&outcome));
         }
         let written = self.write(job, request, &outcome);
         let line = Line::of(job.shown(), &outcome);

@@ -7,9 +7,9 @@ use clap::Args;
 use squinch::domain::Domain;
 use squinch::import::mesh::{self, MeshFile};
 use squinch::mesh::quality::Quality;
-use squinch::pipeline::{self, Exit, Plan};
-use squinch::report::{FailureKind, FailureReport, MeshReport, PromiseReport, Report};
-use squinch::request::Request;
+use squinch::run::report::{FailureKind, FailureReport, MeshReport, PromiseReport, Report};
+use squinch::run::request::Request;
+use squinch::run::{self, Exit, Plan};
 use squinch::verify::Status;
 use std::path::{Path, PathBuf};
 
@@ -102,14 +102,14 @@ impl Check {
 /// The domain that a mesh is to be of, and what is asked of it.
 fn against(input: &Input, request: &Request, report: &mut Report) -> Result<(Domain, Plan), Halt> {
     remember(input, request);
-    let watch = &mut pipeline::timer(request);
+    let watch = &mut run::timer(request);
     let mut stages = || {
-        let drawing = pipeline::read(&input.source(), request)?;
-        let arranged = pipeline::arrange(&drawing, request, watch)?;
+        let drawing = run::read(&input.source(), request)?;
+        let arranged = run::arrange(&drawing, request, watch)?;
         let (domain, plan) = Plan::new(&drawing, &arranged, request, watch)?;
         report.input.describe(&drawing);
         report.input.repairs = arranged.repairs().to_vec();
-        report.request.note_use(&drawing, &arranged, &plan);
+        report.request.note_use(&drawing, &arranged, plan.tau_rad, plan.sizing());
         Ok((domain, plan))
     };
     stages().map_err(|failure| Halt::Failure(Box::new(failure), Some(Box::new(input.clone()))))

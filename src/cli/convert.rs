@@ -6,7 +6,7 @@ use super::writing::Writing;
 use super::{Halt, Volume, check, say};
 use clap::Args;
 use squinch::export::{self, Format};
-use squinch::pipeline::Exit;
+use squinch::run::Exit;
 use std::path::PathBuf;
 
 #[derive(Args)]

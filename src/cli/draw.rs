@@ -10,9 +10,9 @@ use squinch::domain::{Domain, Drawing};
 use squinch::export::picture::{MeshColour, PictureOptions, picture_of_domain, picture_of_drawing, picture_of_mesh};
 use squinch::export::{Format, format_of};
 use squinch::geometry::{Point, Rect};
-use squinch::pipeline::{self, Exit, Plan};
-use squinch::report::FailureReport;
-use squinch::request::Request;
+use squinch::run::report::FailureReport;
+use squinch::run::request::Request;
+use squinch::run::{self, Exit, Plan};
 use squinch::watch::Watch;
 use std::path::PathBuf;
 
@@ -124,14 +124,14 @@ impl Draw {
     }
 
     fn stage(&self, input: &Input, request: &Request) -> Result<Canvas, FailureReport> {
-        let watch: &mut Watch = &mut pipeline::timer(request);
-        let drawing = pipeline::read(&input.source(), request)?;
-        let arranged = pipeline::arrange(&drawing, request, watch);
+        let watch: &mut Watch = &mut run::timer(request);
+        let drawing = run::read(&input.source(), request)?;
+        let arranged = run::arrange(&drawing, request, watch);
         let mut picture = self.picture(drawing.title.clone(), self.shown() != Stage::Mesh);
         if matches!(self.shown(), Stage::Drawing | Stage::Domain) {
             picture.repairs = arranged.as_ref().map(|domain| domain.repairs().to_vec()).unwrap_or_default();
             // A picture shows no notes.
-            picture.unhealed = pipeline::unhealed(&drawing, request, &mut Vec::new(), watch);
+            picture.unhealed = run::unhealed(&drawing, request, &mut Vec::new(), watch);
         }
         if self.shown() == Stage::Drawing {
             let marks = arranged.err().map_or_else(Vec::new, marks);
@@ -159,7 +159,7 @@ impl Draw {
             Stage::Triangulation => plan.conform(&domain, watch)?,
             _ => plan.refine(&domain, watch)?,
         };
-        let mesh = refined.mesh.ok_or_else(|| pipeline::no_mesh(&refined.stop, "--timeout"))?;
+        let mesh = refined.mesh.ok_or_else(|| run::no_mesh(&refined.stop, "--timeout"))?;
         Ok(picture_of_mesh(&mesh, Some(&domain), self.colour.of_mesh(), picture))
     }
 

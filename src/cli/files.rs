@@ -1,11 +1,11 @@
 //! Files in and out: inputs with their bytes, outputs that are whole or not there.
 
 use super::Halt;
-use squinch::case::Case;
 use squinch::export;
 use squinch::import::Format;
-use squinch::pipeline::Source;
-use squinch::request::Request;
+use squinch::run::Source;
+use squinch::run::case::Case;
+use squinch::run::request::Request;
 use std::fs;
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};

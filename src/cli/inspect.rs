@@ -7,8 +7,8 @@ use clap::Args;
 use serde::Serialize;
 use squinch::domain::{ArrangeOptions, Domain, Drawing, DrawnCurve, FaceInfo, Layer, Loose, Repair, Skipped};
 use squinch::ids::{Id, IdVec, LayerId, PointId};
-use squinch::pipeline::{self, Exit};
-use squinch::report::{FailureReport, SCHEMA, kinds};
+use squinch::run::report::{FailureReport, SCHEMA, kinds};
+use squinch::run::{self, Exit};
 use squinch::watch::Watch;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
@@ -31,16 +31,16 @@ impl Inspect {
         let Resolved { request, input_format } = self.options.resolve()?;
         let input = Input::open(&self.input, input_format)?;
         remember(&input, &request);
-        let drawing = match pipeline::read(&input.source(), &request) {
+        let drawing = match run::read(&input.source(), &request) {
             Ok(drawing) => drawing,
             Err(failure) => return Err(Halt::Failure(Box::new(failure), Some(Box::new(input)))),
         };
-        let watch = &mut pipeline::timer(&request);
-        let arranged = pipeline::arrange(&drawing, &request, watch);
+        let watch = &mut run::timer(&request);
+        let arranged = run::arrange(&drawing, &request, watch);
         let unarranged = arranged.as_ref().err().map(|failure| failure.kind.exit());
         let mut findings = Findings::new(&input.path, &drawing, arranged);
         findings.layers = layers(&drawing, watch);
-        findings.unhealed = pipeline::unhealed(&drawing, &request, &mut findings.notes, watch);
+        findings.unhealed = run::unhealed(&drawing, &request, &mut findings.notes, watch);
         let text = if self.json {
             serde_json::to_string_pretty(&findings).expect("findings are strings, numbers and lists of them") + "\n"
         } else {

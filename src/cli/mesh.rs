@@ -9,8 +9,8 @@ use clap::Args;
 use squinch::domain::RepairKind;
 use squinch::export::{self, Format, WriteOptions};
 use squinch::mesh;
-use squinch::pipeline::{self, Exit, Extent, Outcome};
-use squinch::request::Request;
+use squinch::run::request::Request;
+use squinch::run::{self, Exit, Extent, Outcome};
 use squinch::watch::Progress;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -85,7 +85,7 @@ impl Mesh {
             files.for_each(|(path, format)| say::losses(*format, mesh, &self.writing.options(path)));
         }
         if outcome.exit == Exit::Bug {
-            write_case(&pipeline::ending(&outcome), "broken");
+            write_case(&run::ending(&outcome), "broken");
         }
         Ok(outcome.exit)
     }
@@ -138,7 +138,7 @@ impl Mesh {
             staged.add(path, outcome.report.to_json().as_bytes()).map_err(unwritable)?;
         }
         if let Some(path) = &self.case {
-            let case = input.case(&pipeline::ending(outcome), request);
+            let case = input.case(&run::ending(outcome), request);
             staged.add(path, case.to_toml().as_bytes()).map_err(unwritable)?;
         }
         staged.commit().map_err(unwritable)?;
@@ -146,14 +146,14 @@ impl Mesh {
     }
 }
 
-/// The pipeline under a progress line.
+/// The run under a progress line.
 pub fn mesh_with_progress(input: &Input, request: &Request, volume: Volume) -> Outcome {
     let mut bar = say::Bar::new(volume);
     let mut watch = |progress: &Progress| {
         bar.tell(progress);
         true
     };
-    pipeline::run(&input.source(), request, Extent::Whole(&mut watch))
+    run::run(&input.source(), request, Extent::Whole(&mut watch))
 }
 
 /// A mesh as the bytes of its files, stamped with what it was asked for, and the tolerance where that had to be raised.

@@ -16,10 +16,10 @@ mod writing;
 
 use clap::{Parser, Subcommand};
 use files::{Input, Staged};
-use squinch::case::{self, Case};
-use squinch::pipeline::Exit;
-use squinch::report::FailureReport;
-use squinch::request::Request;
+use squinch::run::Exit;
+use squinch::run::case::{self, Case};
+use squinch::run::report::FailureReport;
+use squinch::run::request::Request;
 use std::path::Path;
 use std::process::ExitCode;
 use std::sync::{Mutex, PoisonError};

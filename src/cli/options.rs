@@ -6,8 +6,8 @@ use clap::Args;
 use serde::{Deserialize, Serialize};
 use squinch::domain::NameBy;
 use squinch::import::{Format, Glob};
-use squinch::pipeline::Exit;
-use squinch::request::{
+use squinch::run::Exit;
+use squinch::run::request::{
     BallShrinking, ChordError, EdgeTurning, Engine, FillChoice, Keep, LineTypes, LooseEnds, MaxTurning, Midpoint,
     NamesOf, Order, Overlap, Request, SizeOf, SnapTo, Steiner, Strokes, Switch, TrailingEdge,
 };

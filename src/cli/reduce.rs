@@ -3,12 +3,12 @@
 use super::files::{Input, Staged, unwritable};
 use super::{Halt, Volume, replay, say};
 use clap::Args;
-use squinch::case;
 use squinch::domain::Drawing;
 use squinch::import::{Format, outline};
-use squinch::pipeline::{self, Exit};
-use squinch::reduce::{Reduced, reduce};
-use squinch::request::Request;
+use squinch::run::case;
+use squinch::run::reduce::{Reduced, reduce};
+use squinch::run::request::Request;
+use squinch::run::{self, Exit};
 use std::path::{Path, PathBuf};
 
 #[derive(Args)]
@@ -30,7 +30,7 @@ impl Reduce {
         if volume > Volume::Quiet {
             replay::tell_version(&case);
         }
-        let drawing = case::caught(|| pipeline::read(&input.source(), &case.request)).map_err(|panic| {
+        let drawing = case::caught(|| run::read(&input.source(), &case.request)).map_err(|panic| {
             Halt::Unreadable(format!("the reader breaks down before there is a drawing to reduce: {panic}"))
         })?;
         let drawing = drawing.map_err(|failure| Halt::Failure(Box::new(failure), Some(Box::new(input))))?;

@@ -4,9 +4,9 @@ use super::files::{self, Input};
 use super::mesh::mesh_with_progress;
 use super::{Halt, Volume, remember, say};
 use clap::Args;
-use squinch::case::Case;
 use squinch::import::Format;
-use squinch::pipeline::{self, Exit, Extent};
+use squinch::run::case::Case;
+use squinch::run::{self, Exit, Extent};
 use std::path::{Path, PathBuf};
 
 #[derive(Args)]
@@ -51,14 +51,14 @@ impl Replay {
             tell_version(&case);
         }
         let outcome = match self.until {
-            Some(steps) => pipeline::run(&input.source(), &case.request, Extent::Steps(steps)),
+            Some(steps) => run::run(&input.source(), &case.request, Extent::Steps(steps)),
             None => mesh_with_progress(&input, &case.request, volume),
         };
         if let Some(failure) = &outcome.report.failure {
             say::failure(failure, Some(&input));
         }
         say::summary(&outcome, &[], volume);
-        let ending = pipeline::ending(&outcome);
+        let ending = run::ending(&outcome);
         if self.until.is_none() && ending != case.outcome && volume > Volume::Quiet {
             say::line(&format!("recorded by squinch {}: {}; now: {ending}", case.squinch, case.outcome));
         }

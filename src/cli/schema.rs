@@ -4,8 +4,8 @@ use super::{Halt, batch, files};
 use clap::{Args, ValueEnum};
 use serde_json::{Value, json};
 use squinch::import::outline;
-use squinch::pipeline::Exit;
-use squinch::report::{Report, schema_of};
+use squinch::run::Exit;
+use squinch::run::report::{Report, schema_of};
 
 #[derive(Args)]
 pub struct Schema {

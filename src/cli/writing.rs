@@ -6,7 +6,7 @@ use clap::{Args, ValueEnum};
 use serde::Serialize;
 use squinch::export::{Format, WriteOptions, XdmfGrids};
 use squinch::geometry::Rect;
-use squinch::request::Switch;
+use squinch::run::request::Switch;
 use std::path::Path;
 
 /// How meshes are written where a format, or a reader of it, leaves a choice.

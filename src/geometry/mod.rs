@@ -5,6 +5,7 @@ pub mod dice;
 pub mod exact;
 pub mod order;
 pub mod space;
+pub mod triangle;
 
 pub use kurbo::{Point, Rect, Vec2};
 

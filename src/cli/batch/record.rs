@@ -10,9 +10,9 @@ use crate::cli::{Halt, Volume, say};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use squinch::export::Format;
-use squinch::pipeline::{self, Exit, Outcome};
-use squinch::report::{FailureKind, FailureReport};
-use squinch::request::Request;
+use squinch::run::report::{FailureKind, FailureReport};
+use squinch::run::request::Request;
+use squinch::run::{self, Exit, Outcome};
 use std::collections::BTreeMap;
 use std::fs::{File, OpenOptions};
 use std::io::{self, IsTerminal, Write};
@@ -51,7 +51,7 @@ impl Line {
         Self {
             input,
             exit: outcome.exit as u8,
-            ending: pipeline::ending(outcome),
+            ending: run::ending(outcome),
             kept: report.promise.as_ref().is_some_and(|p| p.kept),
             outputs: Vec::new(),
             vertices: report.mesh.as_ref().map_or(0, |m| m.vertices),

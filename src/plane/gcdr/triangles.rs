@@ -3,12 +3,12 @@
 use super::parameters::radius_edge_of;
 use super::steiner::{Disks, Order, Skinny};
 use super::{Gcdr, Origin, Suspect, suspects};
+use crate::geometry::triangle::{circumcircle, sin2_smallest};
 use crate::geometry::{Point, scaled};
 use crate::ids::{CurveId, PieceId, RegionId, TriangleId, VertexId};
 use crate::mesh::InsertionKind;
 use crate::plane::constrained::Look;
 use crate::plane::insert::{self, Location};
-use crate::plane::lopping::splittri::{circumcircle, sin2_smallest};
 use crate::plane::suspects::DETAIL_RAD;
 use crate::plane::triangulation::{GHOST, Side};
 use crate::refine::{Patience, StopReason};

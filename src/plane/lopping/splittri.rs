@@ -1,7 +1,8 @@
 //! Rule 4, splittri: which triangles miss a bound, and the circumcenters that mend them.
 
 use super::{Lopping, Origin, Suspect, suspects};
-use crate::geometry::{Point, Vec2};
+use crate::geometry::Point;
+use crate::geometry::triangle::{circumcircle, sin2_smallest};
 use crate::ids::{PieceId, TriangleId};
 use crate::plane::carve;
 use crate::plane::insert::{self, Location};
@@ -43,18 +44,6 @@ impl Lopping {
     pub(super) fn is_stale(&self, suspect: &Suspect) -> bool {
         suspects::is_stale(self.delaunay.topology(), suspect)
     }
-}
-
-/// sin² of the smallest angle of a triangle.
-pub(in crate::plane) fn sin2_smallest([a, b, c]: [Point; 3]) -> f64 {
-    let (ab, bc, ca) = (b - a, c - b, a - c);
-    let [shortest, l1, l2] = {
-        let mut l = [ab.hypot2(), bc.hypot2(), ca.hypot2()];
-        l.sort_unstable_by(f64::total_cmp);
-        l
-    };
-    let cross = ab.cross(ca);
-    if shortest == 0.0 { 0.0 } else { cross * cross / (l1 * l2) }
 }
 
 impl Lopping {
@@ -150,13 +139,4 @@ impl Lopping {
             .filter(|&piece| !self.subcurves.get(piece).is_spoke() && self.encroaches(at, piece))
             .max_by(|&a, &b| length(a).total_cmp(&length(b)).then(b.cmp(&a)))
     }
-}
-
-/// Circumcenter and circumradius.
-pub(in crate::plane) fn circumcircle([a, b, c]: [Point; 3]) -> (Point, f64) {
-    let (ab, ac) = (b - a, c - a);
-    let (bb, cc) = (ab.hypot2(), ac.hypot2());
-    let double = 2.0 * ab.cross(ac);
-    let offset = Vec2::new(ac.y * bb - ab.y * cc, ab.x * cc - ac.x * bb) / double;
-    (a + offset, offset.hypot())
 }

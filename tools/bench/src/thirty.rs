@@ -2,9 +2,9 @@
 
 use crate::run;
 use squinch::domain::Domain;
-use squinch::pipeline::{Exit, Extent, run_drawing};
 use squinch::plane::gcdr::SHARP_RAD;
-use squinch::request::{Engine, Request, Steiner};
+use squinch::run::request::{Engine, Request, Steiner};
+use squinch::run::{Exit, Extent, run_drawing};
 use std::path::PathBuf;
 
 /// Counts of one folder.

@@ -3,10 +3,10 @@
 use squinch::generate::known::{self, Known, Near};
 use squinch::geometry::{Vec2, scaled};
 use squinch::mesh::Mesh;
-use squinch::pipeline::{Exit, Extent, Outcome, run_drawing};
 use squinch::refine::StopReason;
-use squinch::report::FailureKind;
-use squinch::request::Request;
+use squinch::run::report::FailureKind;
+use squinch::run::request::Request;
+use squinch::run::{Exit, Extent, Outcome, run_drawing};
 use std::collections::{BTreeMap, BTreeSet};
 use std::time::Instant;
 

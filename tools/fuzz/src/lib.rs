@@ -6,8 +6,8 @@ use sketch::Sketch;
 use squinch::domain::{ArrangeOptions, Domain, Drawing, FillRule, Unarranged};
 use squinch::geometry::{magnitude, scaled};
 use squinch::import::{Format, mesh};
-use squinch::pipeline::{self, Exit, Extent, Outcome, Plan, Source};
-use squinch::request::{Keep, LineTypes, LooseEnds, NamesOf, Request, Strokes, Switch, TrailingEdge};
+use squinch::run::{self, Exit, Extent, Outcome, Plan, Source};
+use squinch::run::request::{Keep, LineTypes, LooseEnds, NamesOf, Request, Strokes, Switch, TrailingEdge};
 use squinch::watch::Progress;
 use std::collections::BTreeMap;
 
@@ -57,7 +57,7 @@ pub fn read(bytes: &[u8], formats: &[Format]) {
     let (bytes, request) = file_and_request(bytes);
     for &format in formats {
         let source = Source { path: "fuzz", bytes, format: Some(format), nodes: None, of_many: false };
-        match pipeline::read(&source, &request) {
+        match run::read(&source, &request) {
             Ok(drawing) => {
                 assert!(drawing.curves.iter().all(|c| c.curve.start().is_finite() && c.curve.end().is_finite()))
             }
@@ -171,7 +171,7 @@ fn check_faces(domain: &Domain) {
 /// Meshes a sketch, within a budget: the run ends without a fault of ours, and a mesh covers the area that the curves enclose.
 pub fn mesh(sketch: &Sketch) {
     let request = sketch.request(VERTICES);
-    let outcome = pipeline::run_drawing(&sketch.drawing, &request, Extent::Whole(&mut budget()));
+    let outcome = run::run_drawing(&sketch.drawing, &request, Extent::Whole(&mut budget()));
     check_outcome(&outcome, &request);
 }
 
@@ -180,8 +180,8 @@ pub fn mesh_file(bytes: &[u8]) {
     let (bytes, request) = file_and_request(bytes);
     let Some(format) = Format::sniff(bytes) else { return };
     let source = Source { path: "fuzz", bytes, format: Some(format), nodes: None, of_many: false };
-    if pipeline::read(&source, &request).is_ok_and(|drawing| drawing.curves.len() <= CURVES) {
-        let outcome = pipeline::run(&source, &request, Extent::Whole(&mut budget()));
+    if run::read(&source, &request).is_ok_and(|drawing| drawing.curves.len() <= CURVES) {
+        let outcome = run::run(&source, &request, Extent::Whole(&mut budget()));
         check_outcome(&outcome, &request);
     }
 }

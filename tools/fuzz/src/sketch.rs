@@ -7,7 +7,7 @@ use squinch::curve::{Curve, End};
 use squinch::domain::{ArrangeOptions, Drawing, DrawnPoint, FillRule, Seed, SeedKind, Shape};
 use squinch::geometry::{Point, Vec2, direction};
 use squinch::import::outline;
-use squinch::request::{Keep, Order, Request};
+use squinch::run::request::{Keep, Order, Request};
 use std::f64::consts::{PI, TAU};
 
 /// More than this adds nothing but time.

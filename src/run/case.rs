@@ -2,8 +2,8 @@
 //!
 //! Written when we panic, when a promise breaks that no request can excuse, and by `mesh --case`.
 
-use crate::pipeline::Source;
-use crate::request::Request;
+use super::Source;
+use super::request::Request;
 use base64::Engine;
 use serde::{Deserialize, Serialize};
 use std::any::Any;

@@ -2,13 +2,13 @@
 //!
 //! All but `seconds` and `peak_memory_bytes` is the same, byte for byte, for the same input.
 
+use super::request::{Engine, Request};
 use crate::domain::{Domain, Drawing, Repair, Skipped};
 use crate::geometry::Point;
 use crate::mesh::Mesh;
 use crate::mesh::quality::{BoundaryMeasure, Quality, RegionMeasure, boundary_measures, region_measures};
-use crate::pipeline::Plan;
 use crate::refine::{Counters, Stop, StopReason};
-use crate::request::{Engine, Request};
+use crate::size::Sizing;
 use crate::verify::{Check, Excuse, Verdict};
 use schemars::generate::SchemaSettings;
 use schemars::transform::RecursiveTransform;
@@ -207,11 +207,11 @@ impl RequestReport {
 
 impl RequestReport {
     /// What the options came to for a drawing and its domain.
-    pub fn note_use(&mut self, drawing: &Drawing, domain: &Domain, plan: &Plan) {
+    pub fn note_use(&mut self, drawing: &Drawing, domain: &Domain, tau_rad: f64, sizing: &Sizing) {
         self.length_unit = drawing.unit.as_ref().map(|(unit, _)| unit.clone());
         self.tolerance = Some(domain.tolerance());
-        self.tau_rad = Some(plan.tau_rad);
-        self.chord_error = plan.sizing().chord_error;
+        self.tau_rad = Some(tau_rad);
+        self.chord_error = sizing.chord_error;
     }
 }
 

@@ -1,10 +1,10 @@
 //! Shrinks a drawing while a run of it ends the same way: what is left shows the fault and little else.
 
-use crate::case::{Panic, caught};
+use super::case::{Panic, caught};
+use super::request::Request;
+use super::{Extent, Outcome, ending, run_drawing};
 use crate::curve::Curve;
 use crate::domain::{Drawing, DrawnCurve};
-use crate::pipeline::{Extent, Outcome, ending, run_drawing};
-use crate::request::Request;
 
 /// A drawing from which nothing more could be taken, or not within the budget.
 #[derive(Clone, Debug)]

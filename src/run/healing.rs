@@ -16,11 +16,11 @@
 //!
 //! That it was done is the first repair of the list ([`RepairKind::ToleranceRaised`]), with the tolerance taken.
 
+use super::report::{FailureKind, FailureReport};
+use super::request::{Keep, Overlap, Request};
 use crate::domain::{ArrangeOptions, Domain, Drawing, Repair, RepairKind, Unarranged};
 use crate::geometry::Point;
 use crate::plane::lopping::demand::{Sliver, costly_slivers};
-use crate::report::{FailureKind, FailureReport};
-use crate::request::{Keep, Overlap, Request};
 use crate::watch::{Stopped, Watch};
 use std::collections::BTreeMap;
 
@@ -50,8 +50,8 @@ const COUNTED: f64 = 64.0;
 
 /// A drawing on its way to a domain within the right tolerance.
 pub struct Healing<'a> {
-    drawing: &'a Drawing,
-    request: &'a Request,
+    pub drawing: &'a Drawing,
+    pub request: &'a Request,
     /// Coarser tolerances that may be taken, in the order in which they are tried.
     left: Vec<f64>,
     /// The one that was taken last; 0 before.

@@ -1,10 +1,10 @@
 //! What a request takes at least, known before an engine starts; and where that is too much, a way out.
 
-use super::healing::Healing;
 use super::{Plan, no_mesh};
 use crate::domain::Domain;
 use crate::refine::{Stop, StopReason};
-use crate::report::FailureReport;
+use crate::run::healing::Healing;
+use crate::run::report::FailureReport;
 use crate::watch::Watch;
 
 /// Tolerances that are tried where slivers are too dear, as multiples of the width that is told for them, which is at most the true one.

@@ -15,7 +15,7 @@ use super::Plan;
 use crate::domain::Domain;
 use crate::plane::lopping::Refined;
 use crate::refine::StopReason;
-use crate::report::FailureReport;
+use crate::run::report::FailureReport;
 use crate::watch::{Stopped, Watch};
 
 /// Up to this angle the engine is asked at once.
@@ -90,7 +90,7 @@ impl Plan {
     ///
     /// # Errors
     /// As [`Plan::refine`].
-    pub(super) fn leave_crowded(
+    pub fn leave_crowded(
         &self,
         refined: Refined,
         domain: &Domain,

@@ -1,0 +1,246 @@
+//! From bytes to a judged mesh: read → arrange → split to turning → refine → verify. Each stage can be had alone.
+
+pub mod case;
+mod exit;
+mod healing;
+mod plan;
+pub mod reduce;
+pub mod report;
+pub mod request;
+mod source;
+
+pub use exit::{Exit, broken, ending, no_mesh};
+pub use plan::Plan;
+pub use source::{Source, read};
+
+use crate::domain::{Domain, Drawing, Repair, Target};
+use crate::ids::{PointId, VertexId};
+use crate::mesh::Mesh;
+use crate::mesh::elevate::elevate;
+use crate::mesh::quality::Quality;
+use crate::plane::lopping::Refined;
+use crate::refine::StopReason;
+use crate::verify::Verdict;
+use crate::watch::{Progress, Watch};
+use exit::exit_of;
+use healing::Healing;
+use report::{FailureKind, FailureReport, MeshReport, PromiseReport, Report, StopReport};
+use request::{Order, Request};
+use std::time::{Duration, Instant};
+
+/// What came of a run: as much of it as there is.
+#[derive(Debug)]
+pub struct Outcome {
+    pub exit: Exit,
+    pub report: Report,
+    /// The domain, its curves cut to τ.
+    pub domain: Option<Domain>,
+    pub mesh: Option<Mesh>,
+    pub verdict: Option<Verdict>,
+}
+
+/// How far a run goes.
+pub enum Extent<'a> {
+    /// To its end, as long as the watch says to go on and the time asked for lasts.
+    Whole(&'a mut Watch<'a>),
+    /// So many steps of the engine, whatever the time.
+    Steps(u64),
+}
+
+/// Reads, arranges, refines and judges.
+pub fn run(source: &Source, request: &Request, extent: Extent) -> Outcome {
+    let mut outcome = Outcome::begun(source.path, request);
+    let start = Instant::now();
+    let drawing = read(source, request);
+    outcome.report.seconds.read = start.elapsed().as_secs_f64();
+    match drawing {
+        Ok(drawing) => outcome.go_on(&drawing, request, extent, start),
+        Err(failure) => outcome.fail(failure),
+    }
+    outcome.report.seconds.total = start.elapsed().as_secs_f64();
+    outcome
+}
+
+/// The run from a drawing on.
+pub fn run_drawing(drawing: &Drawing, request: &Request, extent: Extent) -> Outcome {
+    let mut outcome = Outcome::begun(&drawing.title, request);
+    outcome.go_on(drawing, request, extent, Instant::now());
+    outcome
+}
+
+impl Outcome {
+    fn begun(path: &str, request: &Request) -> Self {
+        Self { exit: Exit::Done, report: Report::new(path, request), domain: None, mesh: None, verdict: None }
+    }
+
+    fn fail(&mut self, failure: FailureReport) {
+        self.exit = failure.kind.exit();
+        self.report.stop = self.report.stop.take().or_else(|| failure.stop.as_deref().cloned());
+        self.report.failure = Some(failure);
+    }
+
+    fn go_on(&mut self, drawing: &Drawing, request: &Request, extent: Extent, begun: Instant) {
+        let mut timer = timer_from(begun, request);
+        let ended = match extent {
+            Extent::Whole(watch) => self.stages(drawing, request, &mut |p| watch(p) && timer(p), None),
+            Extent::Steps(steps) => self.stages(drawing, request, &mut |_| true, Some(steps)),
+        };
+        if let Err(failure) = ended {
+            self.fail(failure);
+        }
+    }
+
+    fn stages(
+        &mut self,
+        drawing: &Drawing,
+        request: &Request,
+        watch: &mut Watch,
+        steps: Option<u64>,
+    ) -> Result<(), FailureReport> {
+        self.report.input.describe(drawing);
+        let mut clock = Clock::start();
+        let mut healing = Healing::new(drawing, request);
+        let arranged = healing.arrange(watch);
+        self.report.input.unhealed = unhealed(drawing, request, &mut self.report.input.notes, watch);
+        let (domain, plan, refined) = self.mesh_healed(arranged?, &mut healing, &mut clock, steps, watch)?;
+        let refined = plan.leave_crowded(refined, &domain, watch)?;
+        let Refined { mesh, stop, counters, insertions, .. } = refined;
+        self.report.stop = Some(StopReport::new(&stop));
+        self.report.counters = counters;
+        let mut mesh = mesh.ok_or_else(|| no_mesh(&stop, more_of(steps)))?;
+        dress(&mut mesh, drawing, &domain);
+        let straightened = match request.order {
+            Order::First => Vec::new(),
+            Order::Second => elevate(&mut mesh, &domain),
+        };
+        self.report.seconds.mesh += clock.lap();
+
+        // Whatever the time: a mesh that nobody judged is worth nothing, and the judge's work is bounded by its size.
+        let mut verdict = plan.judge(Some(&domain), &mesh);
+        verdict.checks.extend(plan.densities(&domain, &mesh, &insertions));
+        if stop.angle_deg.is_some() {
+            self.report.stop = Some(StopReport::new(&stop).owing_angles(&verdict));
+        }
+        self.report.mesh = Some(MeshReport::new(&mesh).with_straightened(&mesh, &straightened));
+        self.report.quality = Some(Quality::of(Some(&domain), &mesh, verdict.exempt_cells()));
+        self.report.promise = Some(PromiseReport::new(&verdict));
+        self.report.seconds.verify = clock.lap();
+        self.exit = exit_of(&verdict, stop.reason);
+        if self.exit == Exit::Bug {
+            let what = format!("the mesh breaks what no request can excuse: {}", broken(&verdict).join(", "));
+            self.report.failure = Some(FailureReport::new(FailureKind::Bug, what, "please send us the case file"));
+        }
+        (self.domain, self.mesh, self.verdict) = (Some(domain), Some(mesh), Some(verdict));
+        Ok(())
+    }
+
+    /// Refines what was arranged; where coordinates cannot tell its features apart, what a coarser tolerance makes of the drawing, as often as
+    /// healing has one left. The domain, its curves cut to τ, and what was asked of the engine.
+    fn mesh_healed(
+        &mut self,
+        mut arranged: Domain,
+        healing: &mut Healing,
+        clock: &mut Clock,
+        steps: Option<u64>,
+        watch: &mut Watch,
+    ) -> Result<(Domain, Plan, Refined), FailureReport> {
+        let (drawing, request) = (healing.drawing, healing.request);
+        let read = self.report.input.notes.len();
+        loop {
+            self.report.input.repairs = arranged.repairs().to_vec();
+            self.report.input.notes.splice(read.., arranged.notes().iter().cloned());
+            check_named_regions(&arranged, request)?;
+            let (domain, plan) = Plan::new(drawing, &arranged, request, watch)?;
+            self.report.request.note_use(drawing, &arranged, plan.tau_rad, plan.sizing());
+            self.report.seconds.arrange += clock.lap();
+            plan.afford(&domain, healing, watch)?;
+            let refined = match steps {
+                None => plan.refine(&domain, watch),
+                Some(steps) => plan.refine_steps(&domain, steps),
+            };
+            self.report.seconds.mesh += clock.lap();
+            let coarser = match &refined {
+                Err(failure) if failure.kind == FailureKind::Geometry => healing.retreat(failure, watch)?,
+                Ok(refined) if refined.stop.reason == StopReason::Arithmetic => {
+                    healing.retreat(&no_mesh(&refined.stop, more_of(steps)), watch)?
+                }
+                _ => None,
+            };
+            match coarser {
+                Some(coarser) => arranged = coarser,
+                None => return Ok((domain, plan, refined?)),
+            }
+        }
+    }
+}
+
+/// The option that lets a run go on longer.
+fn more_of(steps: Option<u64>) -> &'static str {
+    if steps.is_none() { "--timeout" } else { "--until" }
+}
+
+/// Gives a mesh the unit and the plane of its drawing, and its named nodes.
+fn dress(mesh: &mut Mesh, drawing: &Drawing, domain: &Domain) {
+    mesh.unit = drawing.unit.as_ref().map(|(unit, _)| unit.clone());
+    mesh.frame = drawing.frame;
+    let name_of = |&(point, node): &(PointId, VertexId)| Some((node, *domain.point_names().get(&point)?));
+    mesh.named_nodes = mesh.points.iter().filter_map(name_of).collect();
+    mesh.named_nodes.sort_unstable();
+}
+
+/// Laps of a wall clock.
+struct Clock(Instant);
+
+impl Clock {
+    fn start() -> Self {
+        Self(Instant::now())
+    }
+
+    /// Seconds since the start or the last lap.
+    fn lap(&mut self) -> f64 {
+        let now = Instant::now();
+        std::mem::replace(&mut self.0, now).elapsed().as_secs_f64()
+    }
+}
+
+/// A watch that says stop when the request's time, which begins now, is over.
+pub fn timer(request: &Request) -> impl FnMut(&Progress) -> bool + use<> {
+    timer_from(Instant::now(), request)
+}
+
+fn timer_from(begun: Instant, request: &Request) -> impl FnMut(&Progress) -> bool + use<> {
+    let limit = request.timeout.map(|s| Duration::try_from_secs_f64(s).unwrap_or(Duration::MAX));
+    move |_| limit.is_none_or(|limit| begun.elapsed() < limit)
+}
+
+/// Drawing → domain, as long as `watch` says to go on, within the request's tolerance or the one that `Healing` takes.
+pub fn arrange(drawing: &Drawing, request: &Request, watch: &mut Watch) -> Result<Domain, FailureReport> {
+    Healing::new(drawing, request).arrange(watch)
+}
+
+/// Where the request says to heal nothing: what the default tolerance would have mended. A note where that cannot be told.
+pub fn unhealed(drawing: &Drawing, request: &Request, notes: &mut Vec<String>, watch: &mut Watch) -> Vec<Repair> {
+    if request.tolerance != Some(0.0) {
+        return Vec::new();
+    }
+    drawing.unhealed(watch).unwrap_or_else(|why| {
+        notes.push(format!("--tolerance 0: it cannot be told what the default would heal: {why}"));
+        Vec::new()
+    })
+}
+
+/// Refuses the name of a region at a place that is in none.
+fn check_named_regions(domain: &Domain, request: &Request) -> Result<(), FailureReport> {
+    let is_there = |name: &str| domain.regions().iter().any(|region| domain.name(region.name) == name);
+    for name in &request.name {
+        if let Target::Region(at) = name.target
+            && !is_there(&name.name)
+        {
+            let help = "name a place well within a region: squinch draw shows them";
+            return Err(
+                FailureReport::new(FailureKind::Request, format!("--name {name}: no region is there"), help).at(at)
+            );
+        }
+    }
+    Ok(())
+}

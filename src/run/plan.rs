@@ -1,0 +1,333 @@
+//! A request made ready for one domain: sizes, turning, the engine and its options, and what the verifier holds the mesh to.
+
+mod angles;
+mod budget;
+
+use super::exit::no_mesh;
+use super::report::{FailureKind, FailureReport};
+use super::request::{BallShrinking, Engine, Midpoint, Request, SizeOf, SnapTo, Steiner};
+use crate::domain::{Domain, DomainCurve, Drawing, Region};
+use crate::geometry::Point;
+use crate::ids::Id;
+use crate::mesh::{Insertion, Mesh};
+use crate::plane;
+use crate::plane::gcdr;
+use crate::plane::gcdr::parameters::radius_edge_of;
+use crate::plane::gcdr::steiner::{self, Disks, SteinerStrategy};
+use crate::plane::lopping::demand::{Circles, Demand};
+use crate::plane::lopping::{self, Lopping, Refined, Shrinking};
+use crate::promise::{Promise, arc_turning};
+use crate::refine::{Stop, StopReason};
+use crate::size::{ByPlace, Given, SAMPLE_GRADE, Sizing, Source as SizeSource};
+use crate::verify::{self, Check, Verdict, verify};
+use crate::watch::{Progress, Stopped, Watch};
+use std::collections::BTreeSet;
+
+/// A request made ready for one domain: what the engine is asked, and what the judge holds it to.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    /// Largest turning of a curve before it is refined.
+    pub tau_rad: f64,
+    options: lopping::Options,
+    /// Where that engine refines.
+    gcdr: Option<Gcdr>,
+}
+
+/// What is asked of the engine for generalized constrained Delaunay refinement.
+#[derive(Clone, Debug)]
+struct Gcdr {
+    options: gcdr::Options,
+    steiner: Steiner,
+    snap: Option<SnapTo>,
+    seed: u64,
+}
+
+impl Gcdr {
+    /// `None` where the request names another engine.
+    fn asked(request: &Request, options: &lopping::Options) -> Option<Self> {
+        (request.engine == Engine::Gcdr).then(|| Self {
+            options: gcdr::Options {
+                angle_min_rad: options.angle_min_rad,
+                regions: request.regions(),
+                sizing: options.sizing.clone(),
+                max_vertices: options.max_vertices,
+                record: request.densities.is_on(),
+            },
+            steiner: request.steiner,
+            snap: request.snap.clone(),
+            seed: request.seed,
+        })
+    }
+
+    /// Holds δ₂, δ₁ and μ to (3.1)–(3.3). Corners below 60° have no interval: their segments are split on shells.
+    fn check(&self, domain: &Domain) -> Result<(), FailureReport> {
+        let rho = radius_edge_of(self.options.angle_min_rad);
+        self.options.regions.check(rho, gcdr::least_angle(domain)).map_err(|violation| {
+            let help = "give more by --delta2, --delta1 or --mu, or a smaller --min-angle";
+            FailureReport::new(FailureKind::Request, violation.to_string(), help)
+        })
+    }
+
+    fn strategy(&self) -> Box<dyn SteinerStrategy> {
+        let angle = self.options.angle_min_rad;
+        match self.steiner {
+            Steiner::Center => Box::new(steiner::Center),
+            Steiner::Offcenter => Box::new(steiner::OffCenter::new(angle, false)),
+            Steiner::Optimal => Box::new(steiner::Optimal::new(angle, false)),
+            Steiner::Extreme => Box::new(steiner::Extreme),
+            Steiner::Random => Box::new(steiner::Random::new(self.seed)),
+            Steiner::Size => Box::new(steiner::BySize),
+            Steiner::Snap => match &self.snap {
+                Some(SnapTo::Pitch(pitch)) => Box::new(steiner::Grid { pitch: *pitch }),
+                Some(SnapTo::Places(places)) => {
+                    Box::new(steiner::Places::new(places.iter().map(|&[x, y]| Point::new(x, y))))
+                }
+                // No request passes its check so.
+                None => Box::new(steiner::Center),
+            },
+            Steiner::OffcenterFree => Box::new(steiner::OffCenter::new(angle, true)),
+            Steiner::OptimalFree => Box::new(steiner::Optimal::new(angle, true)),
+        }
+    }
+
+    fn promise(&self, foreign: bool) -> Promise {
+        self.options.promise(self.steiner.is_free(), foreign)
+    }
+
+    /// As many steps as there are or are asked for, as long as the watch says to go on.
+    fn refine(&self, domain: &Domain, steps: Option<u64>, watch: &mut Watch) -> Result<Refined, FailureReport> {
+        let mut strategy = self.strategy();
+        Ok(gcdr::refine(domain, &self.options, &mut *strategy, steps, watch)?)
+    }
+}
+
+impl Plan {
+    /// The domain, its curves cut to τ, and what is asked of it: corner arcs as fine as its guarantee needs.
+    ///
+    /// # Errors
+    /// A `--size-of` whose name the domain does not know, more pieces than the vertex budget, or a watch that says stop.
+    pub fn new(
+        drawing: &Drawing,
+        domain: &Domain,
+        request: &Request,
+        watch: &mut Watch,
+    ) -> Result<(Domain, Self), FailureReport> {
+        let mut options = engine_options(request, sizing(drawing, domain, request)?);
+        let tau_rad = request.tau_rad(domain.curves().iter().map(|c| &c.curve));
+        let domain = split_to_turning(domain, tau_rad, request.max_vertices, watch)?;
+        let mut lens = 0.0f64;
+        for (id, curve) in domain.curves().enumerate() {
+            let queued = domain.curves().len() - id.index();
+            Progress { phase: "measuring", vertices: domain.points().len(), queued }.tell(watch)?;
+            lens = lens.max(curve.curve.lens_angle(0.0, 1.0));
+        }
+        let turning_rad = arc_turning(options.angle_min_rad, lens);
+        options.corner_arcs = request.corner_arcs.is_on().then_some(turning_rad);
+        let gcdr = Gcdr::asked(request, &options);
+        gcdr.iter().try_for_each(|gcdr| gcdr.check(&domain))?;
+        Ok((domain, Self { tau_rad, options, gcdr }))
+    }
+
+    /// Of a mesh whose drawing is not known: a share of its diagonal cannot be told, and any name may be of a boundary or a region.
+    pub fn without_domain(request: &Request) -> Self {
+        let mut sizing = plain_sizing(request, None);
+        for SizeOf { name, edge } in &request.size_of {
+            sizing.sources.push(SizeSource::Boundary { name: name.clone(), edge: *edge });
+            sizing.sources.push(SizeSource::Region { name: name.clone(), edge: *edge });
+        }
+        let options = engine_options(request, sizing);
+        let gcdr = Gcdr::asked(request, &options);
+        Self { tau_rad: request.tau_rad([]), options, gcdr }
+    }
+
+    pub fn sizing(&self) -> &Sizing {
+        &self.options.sizing
+    }
+
+    fn demand(&self, domain: &Domain, watch: &mut Watch) -> Result<Demand, Stopped> {
+        let circles = if self.gcdr.is_some() { Circles::Any } else { Circles::Empty };
+        Demand::of(domain, &self.options, circles, watch)
+    }
+
+    /// Refines a domain whose curves turn at most τ to the angle asked for, as far as that goes.
+    fn refine_once(&self, domain: &Domain, watch: &mut Watch) -> Result<Refined, FailureReport> {
+        if let Some(gcdr) = &self.gcdr {
+            return gcdr.refine(domain, None, watch);
+        }
+        Ok(lopping::refine(domain, &self.options, watch)?)
+    }
+
+    /// [`Plan::refine`], stopped as soon as every piece of a curve is an edge: the triangulation from which it refines.
+    pub fn conform(&self, domain: &Domain, watch: &mut Watch) -> Result<Refined, FailureReport> {
+        if let Some(gcdr) = &self.gcdr {
+            return gcdr.refine(domain, Some(0), watch);
+        }
+        let mut lopping = Lopping::start(domain, &self.options)?;
+        while lopping.progress().phase == "conforming" && watch(&lopping.progress()) && lopping.step() {}
+        lopping.cancel();
+        Ok(lopping.finish()?)
+    }
+
+    /// The first `steps` steps of [`Plan::refine`].
+    pub fn refine_steps(&self, domain: &Domain, steps: u64) -> Result<Refined, FailureReport> {
+        if let Some(gcdr) = &self.gcdr {
+            return gcdr.refine(domain, Some(steps), &mut |_| true);
+        }
+        let mut lopping = Lopping::start(domain, &self.options)?;
+        let mut left = steps;
+        while left > 0 && lopping.step() {
+            left -= 1;
+        }
+        if left == 0 {
+            lopping.cancel();
+        }
+        Ok(lopping.finish()?)
+    }
+
+    fn promise(&self, foreign: bool) -> Promise {
+        match &self.gcdr {
+            Some(gcdr) => gcdr.promise(foreign),
+            None => self.options.promise(foreign),
+        }
+    }
+
+    /// Holds the densities that a run recorded to their bounds; none where it did not.
+    pub fn densities(&self, domain: &Domain, mesh: &Mesh, insertions: &[Insertion]) -> Vec<Check> {
+        let Some(gcdr) = self.gcdr.as_ref().filter(|gcdr| gcdr.options.record) else { return Vec::new() };
+        let promise = gcdr.options.density_promise(domain).filter(|_| gcdr.strategy().disks() == Disks::Alike);
+        verify::densities(domain, mesh, insertions, promise).into()
+    }
+
+    /// Holds a mesh of ours to what was asked, by its links to the domain's curves.
+    pub fn judge(&self, domain: Option<&Domain>, mesh: &Mesh) -> Verdict {
+        verify(domain, mesh, &self.promise(false))
+    }
+
+    /// Holds a mesh from a file to what was asked. Other programs drop or renumber what ties a mesh to its curves: where that does not hold,
+    /// the mesh is judged by where its nodes lie, if it stands better so. Returns that mesh, without its ties, beside the verdict.
+    pub fn judge_file(&self, domain: Option<&Domain>, mesh: &Mesh) -> (Verdict, Option<Mesh>) {
+        let by_links = self.judge(domain, mesh);
+        if domain.is_none() || by_links.kept() {
+            return (by_links, None);
+        }
+        let untied = mesh.clone().untied();
+        let by_place = verify(domain, &untied, &self.promise(true));
+        if flaws(&by_place) < flaws(&by_links) { (by_place, Some(untied)) } else { (by_links, None) }
+    }
+}
+
+/// A domain with its curves cut to τ, where that takes no more vertices than the mesh may have.
+fn split_to_turning(
+    domain: &Domain,
+    tau_rad: f64,
+    max_vertices: usize,
+    watch: &mut Watch,
+) -> Result<Domain, FailureReport> {
+    let mut needed = 0;
+    let split = domain.split_to_turning_watched(tau_rad, &mut |progress| {
+        needed = progress.vertices;
+        needed <= max_vertices && watch(progress)
+    });
+    split.map_err(|stopped| {
+        if needed <= max_vertices {
+            return stopped.into();
+        }
+        let turning = |c: &DomainCurve| c.curve.turning(0.0, 1.0);
+        let most = domain.curves().iter().max_by(|a, b| turning(a).total_cmp(&turning(b)));
+        let places = most.map(|c| c.curve.point(0.5)).into_iter().collect();
+        let owed = needed - max_vertices;
+        let stop = Stop { reason: StopReason::VertexBudget, owed, places, angle_deg: None };
+        let failure = no_mesh(&stop, "--max-vertices");
+        FailureReport {
+            what: format!("pieces that turn at most {tau_rad:e} take {needed} vertices or more"),
+            help: "let them turn more by --max-turning, or give more by --max-vertices".into(),
+            ..failure
+        }
+    })
+}
+
+fn engine_options(request: &Request, sizing: Sizing) -> lopping::Options {
+    lopping::Options {
+        angle_min_rad: request.angle_min_rad(),
+        beta: request.beta,
+        shrinking: match request.ball_shrinking {
+            BallShrinking::Batched => Shrinking::Batched,
+            BallShrinking::Literal => Shrinking::Literal,
+        },
+        midpoint: match request.midpoint {
+            Midpoint::Bisector => plane::Midpoint::Bisector,
+            Midpoint::Angle => plane::Midpoint::Angle,
+        },
+        corner_arcs: request.corner_arcs.is_on().then_some(std::f64::consts::FRAC_PI_3),
+        sizing,
+        max_vertices: request.max_vertices,
+    }
+}
+
+/// Sizes that the request asks for everywhere. `diagonal` is that of the drawing.
+fn plain_sizing(request: &Request, diagonal: Option<f64>) -> Sizing {
+    Sizing {
+        max_area: request.max_area,
+        max_edge: request.max_edge,
+        min_edge: request.min_edge,
+        chord_error: request.chord_error.and_then(|e| e.length(diagonal)),
+        edge_turning_rad: request.edge_turning.deg().map(f64::to_radians),
+        grade: request.grade,
+        sources: Vec::new(),
+        by_place: match &request.size {
+            Some(Given::Expression(expression)) => Some(ByPlace { expression: expression.clone(), scale: 1.0 }),
+            Some(Given::Samples(_)) | None => None,
+        },
+    }
+}
+
+/// The samples of `--size`, which grow by `--grade`.
+fn samples(request: &Request) -> Vec<SizeSource> {
+    let Some(Given::Samples(samples)) = &request.size else { return Vec::new() };
+    let grade = request.grade.unwrap_or(SAMPLE_GRADE);
+    let near =
+        |&[x, y, edge]: &[f64; 3]| SizeSource::Near { from: Point::new(x, y), to: Point::new(x, y), edge, grade };
+    samples.iter().map(near).collect()
+}
+
+/// Sizes of the request and of the drawing.
+fn sizing(drawing: &Drawing, domain: &Domain, request: &Request) -> Result<Sizing, FailureReport> {
+    let diagonal = drawing.bounds().map(|b| libm::hypot(b.width(), b.height()));
+    let plain = plain_sizing(request, diagonal);
+    let mut sizing = plain.with_requests(&drawing.sizes, |name| drawing.names.text(name).to_owned());
+    sizing.sources.extend(samples(request));
+    let undefined = request.size.as_ref().and_then(|size| size.undefined_at(domain.points().iter().copied()));
+    if let Some(at) = undefined {
+        let what = format!(
+            "--size {} is no positive length",
+            request.size.as_ref().map_or(String::new(), ToString::to_string)
+        );
+        let help = "an expression must be positive all over the drawing: max(h, …) keeps it so";
+        return Err(FailureReport::new(FailureKind::Request, what, help).at(at));
+    }
+    let boundaries: BTreeSet<&str> = domain.curves().iter().map(|c| domain.name(c.name)).collect();
+    // A region that is called so after the layer of its outline only has the size of that outline, not one of its own.
+    let is_own = |region: &&Region| region.is_named || !boundaries.contains(domain.name(region.name));
+    let regions: BTreeSet<&str> = domain.regions().iter().filter(is_own).map(|r| domain.name(r.name)).collect();
+    for SizeOf { name, edge } in &request.size_of {
+        let (boundary, region) = (boundaries.contains(name.as_str()), regions.contains(name.as_str()));
+        if boundary {
+            sizing.sources.push(SizeSource::Boundary { name: name.clone(), edge: *edge });
+        }
+        if region {
+            sizing.sources.push(SizeSource::Region { name: name.clone(), edge: *edge });
+        }
+        if !boundary && !region {
+            let list = |names: &BTreeSet<&str>| names.iter().copied().collect::<Vec<_>>().join(", ");
+            let help = format!("boundaries: {}; regions: {}", list(&boundaries), list(&regions));
+            let what = format!("--size-of {name}={edge}: nothing has this name");
+            return Err(FailureReport::new(FailureKind::Request, what, help));
+        }
+    }
+    Ok(sizing)
+}
+
+/// How many things failed in all checks.
+fn flaws(verdict: &Verdict) -> usize {
+    verdict.checks.iter().map(|c| c.broken).sum()
+}

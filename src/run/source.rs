@@ -1,0 +1,183 @@
+//! Bytes → drawing, as the request wants it read, scaled and named.
+
+use super::report::{FailureKind, FailureReport};
+use super::request::{LineTypes, Request, Strokes, TrailingEdge};
+use crate::domain::{Drawing, DrawnCurve, SizeRequest, Unmatched};
+use crate::geometry::{Point, metres};
+use crate::import::{self, AirfoilOptions, DxfOptions, Format, Selection, SvgOptions};
+use kurbo::Affine;
+use std::path::Path;
+
+/// What is read: the bytes of a file, and how to read them.
+#[derive(Clone, Debug)]
+pub struct Source<'a> {
+    /// As given; its suffix tells the format where none is given, its stem is the title where the file has none.
+    pub path: &'a str,
+    pub bytes: &'a [u8],
+    pub format: Option<Format>,
+    /// The `.node` file beside a `.poly` file, where there is one.
+    pub nodes: Option<&'a [u8]>,
+    /// Whether it is one of many inputs that share a request: names of the request that it does not have are noted then, and no error.
+    pub of_many: bool,
+}
+
+/// Bytes → drawing, in the unit asked for.
+pub fn read(source: &Source, request: &Request) -> Result<Drawing, FailureReport> {
+    let path = Path::new(source.path);
+    let format = source.format.map_or_else(|| import::tell_format(path, source.bytes), Ok)?;
+    let stem = path.file_stem().map_or("", |s| s.to_str().unwrap_or(""));
+    let options = import::Options {
+        airfoil: AirfoilOptions {
+            trailing_edge: match request.trailing_edge {
+                TrailingEdge::Keep => import::TrailingEdge::Keep,
+                TrailingEdge::Sharp => import::TrailingEdge::Sharp,
+                TrailingEdge::Blunt => import::TrailingEdge::Blunt,
+                TrailingEdge::Round => import::TrailingEdge::Round,
+            },
+            far_field: request.far_field,
+            incidence_deg: request.incidence,
+            chord: request.chord,
+        },
+        nodes: source.nodes.map(<[u8]>::to_vec),
+        svg: SvgOptions {
+            strokes: match request.strokes {
+                Strokes::Auto => import::Strokes::Auto,
+                Strokes::Lines => import::Strokes::Lines,
+                Strokes::Area => import::Strokes::Area,
+                Strokes::Ignore => import::Strokes::Ignore,
+            },
+            dpi: request.dpi,
+        },
+        face: request.face.clone(),
+        dxf: DxfOptions {
+            line_types: match request.line_types {
+                LineTypes::Edges => import::LineTypes::Edges,
+                LineTypes::All => import::LineTypes::All,
+            },
+            flatten_z: request.flatten_z.is_on(),
+        },
+        selection: Selection { only: request.layers.clone(), skip: request.skip_layers.clone() },
+    };
+    let mut drawing = import::read(source.bytes, format, stem, &options)?;
+    drawing.notes.extend(unused_options(format, request));
+    drawing.notes.extend(unused_face(format, request));
+    tell_unmatched(&mut drawing, source.of_many)?;
+    let mut drawing = in_units(drawing, request)?;
+    give_names(&mut drawing, request, source.of_many)?;
+    Ok(drawing)
+}
+
+/// Names that the request gives. What is not there is an error, or a note where the request is that of many inputs.
+fn give_names(drawing: &mut Drawing, request: &Request, of_many: bool) -> Result<(), FailureReport> {
+    drawing.name_each(request.names.rule());
+    for name in &request.name {
+        match drawing.give_name(name) {
+            Ok(what) => drawing.notes.extend(what),
+            Err(why) if of_many => drawing.notes.push(format!("--name {name}: {why}")),
+            Err(why) => {
+                let help = "--name NAME=x,y names the nearest curve; squinch inspect lists what the drawing has";
+                return Err(FailureReport::new(FailureKind::Request, format!("--name {name}: {why}"), help));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Says which options a drawing of this format has no use for.
+fn unused_options(format: Format, request: &Request) -> Option<String> {
+    let default = Request::default();
+    let of_airfoils = [
+        ("--trailing-edge", request.trailing_edge != default.trailing_edge),
+        ("--far-field", request.far_field != default.far_field),
+        ("--incidence", request.incidence != default.incidence),
+        ("--chord", request.chord.is_some()),
+    ];
+    let given: Vec<&str> = of_airfoils.into_iter().filter(|(_, given)| *given).map(|(option, _)| option).collect();
+    let unused = format != Format::Airfoil && !given.is_empty();
+    unused.then(|| format!("{}: only for airfoils, and not used here", given.join(", ")))
+}
+
+/// Says that a drawing of this format has no faces to choose from.
+fn unused_face(format: Format, request: &Request) -> Option<String> {
+    (format != Format::Step && request.face.is_some()).then(|| "--face: only for solids, and not used here".into())
+}
+
+/// Names of layers that the file does not have: an error, or a note where the request is that of many inputs.
+fn tell_unmatched(drawing: &mut Drawing, of_many: bool) -> Result<(), FailureReport> {
+    let Some(Unmatched { asked, near }) = drawing.unmatched.first() else { return Ok(()) };
+    let what = |asked: &str| format!("{asked}: no layer has this name");
+    if !of_many {
+        let help = match near.is_empty() {
+            true => "the file has no layers".to_owned(),
+            false => format!("layers: {}", near.join(", ")),
+        };
+        return Err(FailureReport::new(FailureKind::Request, what(asked), help));
+    }
+    let notes: Vec<String> = drawing.unmatched.iter().map(|unmatched| what(&unmatched.asked)).collect();
+    drawing.notes.extend(notes);
+    Ok(())
+}
+
+/// The drawing in the unit and scale of the request. A drawing whose unit has no fixed length takes the name of the unit asked for.
+fn in_units(mut drawing: Drawing, request: &Request) -> Result<Drawing, FailureReport> {
+    let mut factor = request.scale.unwrap_or(1.0);
+    if let Some(unit) = &request.unit {
+        let wanted = metres(unit).ok_or_else(|| {
+            let what = format!("--unit {unit}: no unit of length that is known here");
+            FailureReport::new(
+                FailureKind::Request,
+                what,
+                "nm, um, mm, cm, dm, m, km, in, ft, yd, mi, pt, pc or px, or a number of them as in '0.5 mm'",
+            )
+        })?;
+        if let Some(own) = drawing.unit.as_ref().and_then(|(own, _)| metres(own)) {
+            factor *= own / wanted;
+        }
+        drawing.unit = Some((unit.clone(), "--unit".into()));
+    }
+    Ok(if factor == 1.0 { drawing } else { scaled(drawing, factor) })
+}
+
+/// A drawing with every length times a factor.
+fn scaled(mut drawing: Drawing, factor: f64) -> Drawing {
+    let point = |p: Point| Point::new(p.x * factor, p.y * factor);
+    if let Some(frame) = &mut drawing.frame {
+        frame.origin = frame.origin.map(|x| x * factor);
+    }
+    for face in &mut drawing.faces {
+        face.area = face.area.map(|area| area * factor * factor);
+    }
+    for DrawnCurve { curve, last_decimal, .. } in &mut drawing.curves {
+        *curve = curve.transformed(Affine::scale(factor));
+        *last_decimal *= factor;
+    }
+    for drawn in &mut drawing.points {
+        drawn.at = point(drawn.at);
+    }
+    for entity in &mut drawing.off_plane {
+        entity.ends = entity.ends.map(point);
+    }
+    for label in &mut drawing.labels {
+        label.at = point(label.at);
+    }
+    for seed in &mut drawing.seeds {
+        seed.at = point(seed.at);
+        if let crate::domain::SeedKind::Region { max_area: Some(area), .. } = &mut seed.kind {
+            *area *= factor * factor;
+        }
+    }
+    for size in &mut drawing.sizes {
+        match size {
+            SizeRequest::Boundary { edge, .. }
+            | SizeRequest::Region { edge, .. }
+            | SizeRequest::Everywhere { edge } => {
+                *edge *= factor;
+            }
+            SizeRequest::Near { from, to, edge, .. } => {
+                (*from, *to) = (point(*from), point(*to));
+                *edge *= factor;
+            }
+        }
+    }
+    drawing
+}
