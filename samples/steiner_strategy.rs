@@ -8,6 +8,7 @@ use squinch::domain::{ArrangeOptions, Drawing};
 use squinch::geometry::Point;
 use squinch::plane::gcdr::steiner::Skinny;
 use squinch::plane::gcdr::{Options, Regions, SteinerStrategy, refine};
+use squinch::refine::Until;
 use squinch::size::Sizing;
 use squinch::verify::verify;
 
@@ -40,7 +41,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     // At 20° the disk has up to 0.31 of the circumradius.
     let regions = Regions { delta2: 0.69, delta1: 1.0, mu: 1.0 };
     let options = Options { angle_min_rad: 20f64.to_radians(), regions, sizing, max_vertices: 100_000, record: false };
-    let refined = refine(&domain, &options, &mut NearSensors(sensors.clone()), None, &mut |_progress| true)?;
+    let refined = refine(&domain, &options, &mut NearSensors(sensors.clone()), Until::End, &mut |_progress| true)?;
     let mesh = refined.mesh.ok_or("a budget ended before there was a mesh")?;
     let verdict = verify(Some(&domain), &mesh, &options.promise(false, false));
     let met = sensors.iter().filter(|&s| mesh.nodes.iter().any(|n| n == s)).count();

@@ -9,6 +9,7 @@
 //! use squinch::geometry::Point;
 //! use squinch::verify::verify;
 //! use squinch::plane::lopping::{Options, refine};
+//! use squinch::refine::Until;
 //!
 //! // A disk with a smaller one that touches it from inside: an angle of zero.
 //! let mut drawing = Drawing::default();
@@ -18,7 +19,7 @@
 //! let tau_rad = 0.5;
 //! let domain = drawing.arrange(&ArrangeOptions::default())?.split_to_turning(tau_rad);
 //! let options = Options::default();
-//! let refined = refine(&domain, &options, &mut |_progress| true)?;
+//! let refined = refine(&domain, &options, Until::End, &mut |_progress| true)?;
 //! let mesh = refined.mesh.expect("the budget is large");
 //!
 //! let verdict = verify(Some(&domain), &mesh, &options.promise(false));

@@ -12,7 +12,7 @@ use squinch::plane::gcdr::steiner::{
     BySize, Center, Encroached, Extreme, Grid, OffCenter, Optimal, Places, Random, Skinny,
 };
 use squinch::plane::gcdr::{self, Options, Regions, SteinerStrategy};
-use squinch::refine::StopReason;
+use squinch::refine::{StopReason, Until};
 use squinch::size::Sizing;
 use squinch::verify::{Status, Verdict, densities, verify};
 use std::f64::consts::SQRT_2;
@@ -46,7 +46,7 @@ fn options(angle_min_deg: f64, regions: Regions) -> Options {
 /// Refines and judges; the verdict must be kept.
 fn kept(drawing: &Drawing, options: &Options, strategy: &mut dyn SteinerStrategy) -> (Mesh, Verdict) {
     let domain = domain_of(drawing, TAU_RAD);
-    let refined = gcdr::refine(&domain, options, strategy, None, &mut |_| true).expect("coordinates can hold it");
+    let refined = gcdr::refine(&domain, options, strategy, Until::End, &mut |_| true).expect("coordinates can hold it");
     assert_eq!(refined.stop.reason, StopReason::Done);
     assert_eq!(refined.stop.owed, 0);
     let mesh = refined.mesh.expect("a run that is done has a mesh");
@@ -125,7 +125,7 @@ fn insertion_radii_keep_the_point_spacing_theorem() {
             &mut Optimal::new(options.angle_min_rad, false),
         ];
         for strategy in strategies {
-            let refined = gcdr::refine(&domain, &options, strategy, None, &mut |_| true).unwrap();
+            let refined = gcdr::refine(&domain, &options, strategy, Until::End, &mut |_| true).unwrap();
             let radius_at = |p: Point| refined.insertions.iter().find(|i| i.at == p).map(|i| i.radius);
             let mut counts = [0, 0];
             for insertion in &refined.insertions {
@@ -201,7 +201,7 @@ fn densities_lie_below_the_bounds_and_the_judge_believes_no_radius() {
     for seed in 0..4 {
         let angle = (0.5 / SQRT_2).asin().to_degrees();
         let options = Options { record: true, ..options(angle, regions) };
-        let refined = gcdr::refine(&domain, &options, &mut Random::new(seed), None, &mut |_| true).unwrap();
+        let refined = gcdr::refine(&domain, &options, &mut Random::new(seed), Until::End, &mut |_| true).unwrap();
         let (mesh, mut insertions) = (refined.mesh.unwrap(), refined.insertions);
         for kind in [InsertionKind::A, InsertionKind::B, InsertionKind::C] {
             assert!(insertions.iter().any(|i| i.kind == kind), "seed {seed}: no {kind:?}");
@@ -325,7 +325,7 @@ fn random_complexes_end_and_verify() {
         let drawing = curved_complex(seed);
         let domain = domain_of(&drawing, TAU_RAD);
         let options = options(20.7, Regions::CENTERS);
-        let refined = gcdr::refine(&domain, &options, &mut Center, None, &mut |_| true)
+        let refined = gcdr::refine(&domain, &options, &mut Center, Until::End, &mut |_| true)
             .unwrap_or_else(|e| panic!("seed {seed}: {e}"));
         assert_eq!((refined.stop.reason, refined.stop.owed), (StopReason::Done, 0), "seed {seed}");
         let verdict = verify(Some(&domain), &refined.mesh.unwrap(), &options.promise(false, false));
@@ -346,23 +346,24 @@ fn the_same_seed_gives_the_same_mesh() {
 fn a_budget_and_a_watch_end_a_run_with_a_valid_mesh() {
     let domain = domain_of(&squares(), TAU_RAD);
     let few = Options { max_vertices: 300, ..options(30.0, Regions::CENTERS) };
-    let refined = gcdr::refine(&domain, &few, &mut Center, None, &mut |_| true).unwrap();
+    let refined = gcdr::refine(&domain, &few, &mut Center, Until::End, &mut |_| true).unwrap();
     assert_eq!(refined.stop.reason, StopReason::VertexBudget);
     assert!(refined.stop.owed > 0 && refined.mesh.is_some());
     let all = options(30.0, Regions::CENTERS);
-    let refined = gcdr::refine(&domain, &all, &mut Center, None, &mut |p| p.vertices < 200).unwrap();
+    let refined = gcdr::refine(&domain, &all, &mut Center, Until::End, &mut |p| p.vertices < 200).unwrap();
     assert_eq!(refined.stop.reason, StopReason::Cancelled);
     let verdict = verify(Some(&domain), &refined.mesh.unwrap(), &all.promise(false, false));
     assert_eq!(status(&verdict, "constrained_delaunay"), Status::Proven);
     assert_eq!(status(&verdict, "conforming"), Status::Proven);
-    let begun = gcdr::refine(&domain, &all, &mut Center, Some(0), &mut |_| true).unwrap();
+    let begun = gcdr::refine(&domain, &all, &mut Center, Until::Steps(0), &mut |_| true).unwrap();
     assert_eq!(begun.mesh.unwrap().nodes.len(), 20);
 }
 
 #[test]
 fn a_run_that_gets_nowhere_ends_by_itself() {
     let domain = domain_of(&squares(), TAU_RAD);
-    let refined = gcdr::refine(&domain, &options(40.0, Regions::CENTERS), &mut Center, None, &mut |_| true).unwrap();
+    let refined =
+        gcdr::refine(&domain, &options(40.0, Regions::CENTERS), &mut Center, Until::End, &mut |_| true).unwrap();
     assert_eq!(refined.stop.reason, StopReason::NoProgress);
     assert!(refined.vertices < 50_000 && refined.mesh.is_some(), "{}", refined.vertices);
 }

@@ -13,7 +13,7 @@ use squinch::plane::Midpoint;
 use squinch::plane::lopping::demand::{Circles, Demand};
 use squinch::plane::lopping::{self, Options, Refined, Shrinking};
 use squinch::promise::{arc_turning, guaranteed_angle};
-use squinch::refine::StopReason;
+use squinch::refine::{StopReason, Until};
 use squinch::run::request::{Engine, Request, SizeOf, Steiner};
 use squinch::run::{self, Exit, Extent, Outcome, Source};
 use squinch::size::Sizing;
@@ -22,7 +22,7 @@ use squinch::watch::Progress;
 use std::f64::consts::FRAC_PI_3;
 
 fn refine(domain: &Domain, options: &Options) -> Refined {
-    lopping::refine(domain, options, &mut |_| true).expect("a domain that coordinates can hold")
+    lopping::refine(domain, options, Until::End, &mut |_| true).expect("a domain that coordinates can hold")
 }
 
 /// Refines and judges; the verdict must be kept.
@@ -214,8 +214,8 @@ fn a_watcher_can_stop_the_run() {
         told += 1;
         progress.phase == "conforming"
     };
-    let refined =
-        lopping::refine(&domain_of(&wedge(10.0, [1.0, 1.0]), 0.5), &options, &mut watch).expect("no arithmetic limit");
+    let refined = lopping::refine(&domain_of(&wedge(10.0, [1.0, 1.0]), 0.5), &options, Until::End, &mut watch)
+        .expect("no arithmetic limit");
     assert_eq!(refined.stop.reason, StopReason::Cancelled);
     assert!(told == 1 && refined.mesh.is_some() && refined.stop.owed > 0);
 }
@@ -235,7 +235,7 @@ fn features_nearer_than_the_arithmetic_are_an_error_with_a_place() {
         Ok(domain) => domain.split_to_turning(0.5),
         Err(error) => return assert!(!error.help.is_empty() && (error.at.x - far).abs() < 2.0, "{error:?}"),
     };
-    let ended = lopping::refine(&domain, &Options::default(), &mut |_| true);
+    let ended = lopping::refine(&domain, &Options::default(), Until::End, &mut |_| true);
     let error = ended.expect_err("such a strip needs 1e9 triangles of less than the resolution");
     assert!(!error.help.is_empty() && (error.at.x - far).abs() < 2.0, "{error:?}");
 }

@@ -6,6 +6,7 @@ use squinch::domain::{ArrangeOptions, Drawing, FillRule};
 use squinch::geometry::Point;
 use squinch::import::{Format, ImportError, Options, Selection, Strokes, SvgOptions, format_of, read};
 use squinch::plane::lopping::{self, refine};
+use squinch::refine::Until;
 use std::f64::consts::PI;
 use std::io::Write;
 use std::path::Path;
@@ -1070,7 +1071,7 @@ fn regions_know_the_colours_of_their_shapes() {
 fn colours_reach_gltf_and_vtu() {
     let drawing = svg(r##"<rect id="a" width="5" height="5" fill="#ff8000" fill-opacity=".5"/>"##);
     let domain = drawing.arrange(&ArrangeOptions::default()).unwrap().split_to_turning(0.5);
-    let mesh = refine(&domain, &lopping::Options::default(), &mut |_| true).unwrap().mesh.unwrap();
+    let mesh = refine(&domain, &lopping::Options::default(), Until::End, &mut |_| true).unwrap().mesh.unwrap();
     let mut text = Vec::new();
     squinch::export::gltf::write_gltf(&mesh, true, &mut text).unwrap();
     let document: serde_json::Value = serde_json::from_slice(&text).unwrap();

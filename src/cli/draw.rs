@@ -10,6 +10,7 @@ use squinch::domain::{Domain, Drawing};
 use squinch::export::picture::{MeshColour, PictureOptions, picture_of_domain, picture_of_drawing, picture_of_mesh};
 use squinch::export::{Format, format_of};
 use squinch::geometry::{Point, Rect};
+use squinch::refine::Until;
 use squinch::run::report::FailureReport;
 use squinch::run::request::Request;
 use squinch::run::{self, Exit, Plan};
@@ -156,7 +157,7 @@ impl Draw {
             return Ok(picture_of_domain(&domain, picture));
         }
         let refined = match self.shown() {
-            Stage::Triangulation => plan.conform(&domain, watch)?,
+            Stage::Triangulation => plan.drive(&domain, Until::Conforming, watch)?,
             _ => plan.refine(&domain, watch)?,
         };
         let mesh = refined.mesh.ok_or_else(|| run::no_mesh(&refined.stop, "--timeout"))?;

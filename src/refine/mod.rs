@@ -1,7 +1,63 @@
-//! What refinement in any dimension shares: the worst-first queue, whether it comes to an end, the counters, and the reason to stop.
+//! What refinement in any dimension shares: the loop that drives an engine, the worst-first queue, whether it comes to an end, the counters, and
+//! the reason to stop.
 
 use crate::geometry::Point;
+use crate::watch::{Progress, Watch};
 use std::collections::{BTreeMap, VecDeque};
+
+/// A refinement, held at a step.
+pub trait Engine {
+    /// What comes of it.
+    type Outcome;
+
+    /// Takes the next step. `false`: there is none, or the run is over.
+    fn step(&mut self) -> bool;
+
+    /// Refines no more; what a valid mesh needs is still done.
+    fn cancel(&mut self);
+
+    fn progress(&self) -> Progress;
+
+    fn finish(self) -> Self::Outcome;
+}
+
+/// The phase of an engine that has no valid mesh yet.
+pub const CONFORMING: &str = "conforming";
+
+/// How far an engine is driven.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Until {
+    End,
+    /// Until there is a valid mesh: that from which it refines.
+    Conforming,
+    /// So many steps.
+    Steps(u64),
+}
+
+/// Drives an engine as long as `watch` says to go on.
+pub fn drive<E: Engine>(mut engine: E, until: Until, watch: &mut Watch) -> E::Outcome {
+    /// Steps between two questions: of microseconds on lines, of milliseconds on curves of high degree.
+    const STEPS: u64 = 64;
+    let mut steps = 0u64;
+    loop {
+        let is_there = match until {
+            Until::End => false,
+            Until::Conforming => engine.progress().phase != CONFORMING,
+            Until::Steps(most) => steps >= most,
+        };
+        if is_there {
+            engine.cancel();
+            return engine.finish();
+        }
+        if steps > 0 && steps.is_multiple_of(STEPS) && !watch(&engine.progress()) {
+            engine.cancel();
+        }
+        if !engine.step() {
+            return engine.finish();
+        }
+        steps += 1;
+    }
+}
 
 /// Buckets of a [`WorstFirst`] queue: fine enough that "worst" means within a few percent.
 const BUCKETS: usize = 256;

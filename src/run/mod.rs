@@ -19,7 +19,7 @@ use crate::mesh::Mesh;
 use crate::mesh::elevate::elevate;
 use crate::mesh::quality::Quality;
 use crate::plane::lopping::Refined;
-use crate::refine::StopReason;
+use crate::refine::{StopReason, Until};
 use crate::verify::Verdict;
 use crate::watch::{Progress, Watch};
 use exit::exit_of;
@@ -156,7 +156,7 @@ impl Outcome {
             plan.afford(&domain, healing, watch)?;
             let refined = match steps {
                 None => plan.refine(&domain, watch),
-                Some(steps) => plan.refine_steps(&domain, steps),
+                Some(steps) => plan.drive(&domain, Until::Steps(steps), watch),
             };
             self.report.seconds.mesh += clock.lap();
             let coarser = match &refined {

@@ -15,9 +15,9 @@ use crate::plane::gcdr;
 use crate::plane::gcdr::parameters::radius_edge_of;
 use crate::plane::gcdr::steiner::{self, Disks, SteinerStrategy};
 use crate::plane::lopping::demand::{Circles, Demand};
-use crate::plane::lopping::{self, Lopping, Refined, Shrinking};
+use crate::plane::lopping::{self, RefineError, Refined, Shrinking};
 use crate::promise::{Promise, arc_turning};
-use crate::refine::{Stop, StopReason};
+use crate::refine::{Stop, StopReason, Until};
 use crate::size::{ByPlace, Given, SAMPLE_GRADE, Sizing, Source as SizeSource};
 use crate::verify::{self, Check, Verdict, verify};
 use crate::watch::{Progress, Stopped, Watch};
@@ -94,10 +94,8 @@ impl Gcdr {
         self.options.promise(self.steiner.is_free(), foreign)
     }
 
-    /// As many steps as there are or are asked for, as long as the watch says to go on.
-    fn refine(&self, domain: &Domain, steps: Option<u64>, watch: &mut Watch) -> Result<Refined, FailureReport> {
-        let mut strategy = self.strategy();
-        Ok(gcdr::refine(domain, &self.options, &mut *strategy, steps, watch)?)
+    fn refine(&self, domain: &Domain, until: Until, watch: &mut Watch) -> Result<Refined, RefineError> {
+        gcdr::refine(domain, &self.options, &mut *self.strategy(), until, watch)
     }
 }
 
@@ -149,39 +147,15 @@ impl Plan {
         Demand::of(domain, &self.options, circles, watch)
     }
 
-    /// Refines a domain whose curves turn at most τ to the angle asked for, as far as that goes.
-    fn refine_once(&self, domain: &Domain, watch: &mut Watch) -> Result<Refined, FailureReport> {
-        if let Some(gcdr) = &self.gcdr {
-            return gcdr.refine(domain, None, watch);
-        }
-        Ok(lopping::refine(domain, &self.options, watch)?)
-    }
-
-    /// [`Plan::refine`], stopped as soon as every piece of a curve is an edge: the triangulation from which it refines.
-    pub fn conform(&self, domain: &Domain, watch: &mut Watch) -> Result<Refined, FailureReport> {
-        if let Some(gcdr) = &self.gcdr {
-            return gcdr.refine(domain, Some(0), watch);
-        }
-        let mut lopping = Lopping::start(domain, &self.options)?;
-        while lopping.progress().phase == "conforming" && watch(&lopping.progress()) && lopping.step() {}
-        lopping.cancel();
-        Ok(lopping.finish()?)
-    }
-
-    /// The first `steps` steps of [`Plan::refine`].
-    pub fn refine_steps(&self, domain: &Domain, steps: u64) -> Result<Refined, FailureReport> {
-        if let Some(gcdr) = &self.gcdr {
-            return gcdr.refine(domain, Some(steps), &mut |_| true);
-        }
-        let mut lopping = Lopping::start(domain, &self.options)?;
-        let mut left = steps;
-        while left > 0 && lopping.step() {
-            left -= 1;
-        }
-        if left == 0 {
-            lopping.cancel();
-        }
-        Ok(lopping.finish()?)
+    /// Drives the engine on a domain whose curves turn at most τ, to the angle asked for.
+    ///
+    /// # Errors
+    /// Where coordinates cannot tell features apart.
+    pub fn drive(&self, domain: &Domain, until: Until, watch: &mut Watch) -> Result<Refined, FailureReport> {
+        Ok(match &self.gcdr {
+            Some(gcdr) => gcdr.refine(domain, until, watch),
+            None => lopping::refine(domain, &self.options, until, watch),
+        }?)
     }
 
     fn promise(&self, foreign: bool) -> Promise {

@@ -47,7 +47,7 @@ use crate::geometry::{self, Point};
 use crate::ids::{BallId, CurveId, Id, IdVec, PieceId, PointId, TriangleId, VertexId};
 use crate::mesh::{Insertion, InsertionKind, RIM_ROUNDING};
 use crate::promise::{ConstrainedPromise, DensityPromise, EnginePromise, Promise};
-use crate::refine::{Counters, Stop, StopReason};
+use crate::refine::{Counters, Engine, Stop, StopReason, Until, drive};
 use crate::size::{SizeField, Sizing};
 use crate::watch::{Progress, Watch};
 use chords::Beginning;
@@ -143,7 +143,7 @@ pub struct Gcdr<'s> {
     insertions: Vec<Insertion>,
 }
 
-/// Meshes a domain whose curves turn at most π/3 each, as long as `watch` says to go on, in `most` steps or as many as there are.
+/// Meshes a domain whose curves turn at most π/3 each, as long as `watch` says to go on.
 ///
 /// # Errors
 /// Where coordinates cannot tell features apart.
@@ -151,24 +151,12 @@ pub fn refine(
     domain: &Domain,
     options: &Options,
     strategy: &mut dyn SteinerStrategy,
-    most: Option<u64>,
+    until: Until,
     watch: &mut Watch,
 ) -> Result<Refined, RefineError> {
-    /// Steps between two questions, of microseconds each.
-    const STEPS: u64 = 64;
-    let mut gcdr = match Gcdr::start(domain, options, strategy, watch)? {
-        Start::Ready(gcdr) => gcdr,
-        Start::Ended(refined) => return Ok(*refined),
-    };
-    let mut steps = 0u64;
-    loop {
-        if most.is_some_and(|most| steps >= most) || steps.is_multiple_of(STEPS) && !watch(&gcdr.progress()) {
-            gcdr.cancel();
-        }
-        if !gcdr.step() {
-            return gcdr.finish();
-        }
-        steps += 1;
+    match Gcdr::start(domain, options, strategy, watch)? {
+        Start::Ready(gcdr) => drive(*gcdr, until, watch),
+        Start::Ended(refined) => Ok(*refined),
     }
 }
 
@@ -275,9 +263,25 @@ impl<'s> Gcdr<'s> {
         self.insertions.push(Insertion { kind, at, radius, parent: parent.map(|p| self.mesh.point(p)) });
     }
 
+    /// Whether there are as many vertices as may be; also where most of what is inserted is deleted again.
+    fn is_spent(&self) -> bool {
+        let most = self.options.max_vertices;
+        self.alive >= most || self.origins.len() >= most.saturating_mul(4)
+    }
+
+    fn is_side(&self, id: PieceId) -> bool {
+        let [x, y] = self.subcurves.get(id).ends;
+        let topology = self.mesh.topology();
+        topology.side_between(y, x).is_some_and(|s| topology.piece(s) == Some(id))
+    }
+}
+
+impl Engine for Gcdr<'_> {
+    type Outcome = Result<Refined, RefineError>;
+
     /// Splits the first of: a piece that is too large, the worst skinny triangle, the largest triangle. `false`: there is none, or the run
     /// is over.
-    pub fn step(&mut self) -> bool {
+    fn step(&mut self) -> bool {
         if self.reason == StopReason::Done
             && let Some(piece) = self.suspects.pop()
         {
@@ -294,19 +298,13 @@ impl<'s> Gcdr<'s> {
         true
     }
 
-    /// Whether there are as many vertices as may be; also where most of what is inserted is deleted again.
-    fn is_spent(&self) -> bool {
-        let most = self.options.max_vertices;
-        self.alive >= most || self.origins.len() >= most.saturating_mul(4)
-    }
-
-    pub fn cancel(&mut self) {
+    fn cancel(&mut self) {
         if self.reason == StopReason::Done {
             self.reason = StopReason::Cancelled;
         }
     }
 
-    pub fn progress(&self) -> Progress {
+    fn progress(&self) -> Progress {
         let queued = self.suspects.len() + self.bad.len();
         Progress { phase: "refining", vertices: self.alive, queued }
     }
@@ -315,7 +313,7 @@ impl<'s> Gcdr<'s> {
     ///
     /// # Errors
     /// Where a split had to be given up half-way.
-    pub fn finish(mut self) -> Result<Refined, RefineError> {
+    fn finish(mut self) -> Self::Outcome {
         if self.subcurves.ids().any(|id| !self.subcurves.get(id).is_gone() && !self.is_side(id)) {
             let at = self.too_near.first().copied().unwrap_or_default();
             return Err(RefineError::too_near(at).scaled(1.0 / self.scale));
@@ -341,12 +339,6 @@ impl<'s> Gcdr<'s> {
         self.counters.add("cavity_triangles", kernel.cavity_triangles);
         let stop = Stop { reason: self.reason, owed, places, angle_deg: None };
         Ok(Refined { mesh, vertices: self.alive, stop, counters: self.counters, insertions })
-    }
-
-    fn is_side(&self, id: PieceId) -> bool {
-        let [x, y] = self.subcurves.get(id).ends;
-        let topology = self.mesh.topology();
-        topology.side_between(y, x).is_some_and(|s| topology.piece(s) == Some(id))
     }
 }
 

@@ -48,7 +48,7 @@ use crate::geometry::{self, Point};
 use crate::ids::{BallId, CurveId, IdVec, PieceId, PointId, TriangleId, VertexId};
 use crate::mesh::{Ball, Mesh, RIM_ROUNDING};
 use crate::promise::{EnginePromise, LoppingPromise, Promise};
-use crate::refine::{Counters, Stop, StopReason};
+use crate::refine::{CONFORMING, Counters, Engine, Stop, StopReason, Until, drive};
 use crate::size::{SizeField, Sizing};
 use crate::watch::{Progress, Watch};
 use begin::Beginning;
@@ -113,18 +113,11 @@ pub enum Shrinking {
 }
 
 /// Meshes a domain whose curves turn at most π/3 each, as long as `watch` says to go on; what a valid mesh needs is still done then.
-pub fn refine(domain: &Domain, options: &Options, watch: &mut Watch) -> Result<Refined, RefineError> {
-    /// Steps between two questions: of microseconds on lines, of milliseconds on curves of high degree.
-    const STEPS: u64 = 64;
-    let mut lopping = Lopping::start(domain, options)?;
-    let mut steps = 0u64;
-    while lopping.step() {
-        steps += 1;
-        if steps.is_multiple_of(STEPS) && !watch(&lopping.progress()) {
-            lopping.cancel();
-        }
-    }
-    lopping.finish()
+///
+/// # Errors
+/// Where coordinates cannot tell features apart.
+pub fn refine(domain: &Domain, options: &Options, until: Until, watch: &mut Watch) -> Result<Refined, RefineError> {
+    drive(Lopping::start(domain, options)?, until, watch)
 }
 
 /// Where a vertex came from.
@@ -225,19 +218,6 @@ impl Lopping {
         Ok(lopping)
     }
 
-    /// Applies the first rule that can be. `false`: none can, or the run is over.
-    pub fn step(&mut self) -> bool {
-        match self.first_rule() {
-            Rule::ShrinkBall(ball) => self.shrink_ball(ball),
-            Rule::Look(piece) => self.look_at_piece(piece),
-            Rule::Carve => self.carve(),
-            Rule::PlaceArcs(ball) => self.place_arcs(ball),
-            Rule::Split(suspect) => self.split_triangle(suspect),
-            Rule::Rest => return false,
-        }
-        true
-    }
-
     fn first_rule(&mut self) -> Rule {
         // A run that is stopped before there was a valid mesh has nothing to make valid again.
         let hopeless = self.reason == StopReason::Arithmetic || self.reason == StopReason::Cancelled && !self.carved;
@@ -275,38 +255,6 @@ impl Lopping {
         self.carved && self.intruded.is_empty() && self.suspects.is_empty() && self.fresh.is_empty()
     }
 
-    /// Splits no more triangles; what is needed for a valid mesh is still done.
-    pub fn cancel(&mut self) {
-        if self.reason == StopReason::Done {
-            self.reason = StopReason::Cancelled;
-        }
-    }
-
-    pub fn progress(&self) -> Progress {
-        let phase = if self.carved { "refining" } else { "conforming" };
-        let queued = self.suspects.len() + self.bad.len();
-        Progress { phase, vertices: self.origins.len(), queued }
-    }
-
-    /// The mesh of the kept regions, in the domain's own scale.
-    pub fn finish(mut self) -> Result<Refined, RefineError> {
-        if self.reason == StopReason::Arithmetic && !self.is_conforming() {
-            return Err(self.too_near_error());
-        }
-        let (owed, mut places) = self.owed();
-        places.extend(self.too_near.iter().copied());
-        places.iter_mut().for_each(|p| *p = geometry::scaled(*p, 1.0 / self.scale));
-        let reason = match self.reason {
-            StopReason::Done if !self.is_conforming() => StopReason::VertexBudget,
-            reason => reason,
-        };
-        let mesh = self.is_conforming().then(|| self.mesh().scaled(1.0 / self.scale));
-        self.count_kernel();
-        let stop = Stop { reason, owed, places, angle_deg: None };
-        let vertices = self.origins.len();
-        Ok(Refined { mesh, vertices, stop, counters: self.counters, insertions: Vec::new() })
-    }
-
     fn mesh(&self) -> Mesh {
         let harvest = Harvest { domain: &self.domain, delaunay: &self.delaunay, subcurves: &self.subcurves };
         let balls = self.balls.ids().map(|id| self.balls.get(id));
@@ -342,5 +290,54 @@ impl Lopping {
         self.counters.add("exact_fallbacks", kernel.exact_fallbacks);
         self.counters.add("walk_steps", kernel.walk_steps);
         self.counters.add("cavity_triangles", kernel.cavity_triangles);
+    }
+}
+
+impl Engine for Lopping {
+    type Outcome = Result<Refined, RefineError>;
+
+    /// Applies the first rule that can be. `false`: none can, or the run is over.
+    fn step(&mut self) -> bool {
+        match self.first_rule() {
+            Rule::ShrinkBall(ball) => self.shrink_ball(ball),
+            Rule::Look(piece) => self.look_at_piece(piece),
+            Rule::Carve => self.carve(),
+            Rule::PlaceArcs(ball) => self.place_arcs(ball),
+            Rule::Split(suspect) => self.split_triangle(suspect),
+            Rule::Rest => return false,
+        }
+        true
+    }
+
+    /// Splits no more triangles; what is needed for a valid mesh is still done.
+    fn cancel(&mut self) {
+        if self.reason == StopReason::Done {
+            self.reason = StopReason::Cancelled;
+        }
+    }
+
+    fn progress(&self) -> Progress {
+        let phase = if self.carved { "refining" } else { CONFORMING };
+        let queued = self.suspects.len() + self.bad.len();
+        Progress { phase, vertices: self.origins.len(), queued }
+    }
+
+    /// The mesh of the kept regions, in the domain's own scale.
+    fn finish(mut self) -> Self::Outcome {
+        if self.reason == StopReason::Arithmetic && !self.is_conforming() {
+            return Err(self.too_near_error());
+        }
+        let (owed, mut places) = self.owed();
+        places.extend(self.too_near.iter().copied());
+        places.iter_mut().for_each(|p| *p = geometry::scaled(*p, 1.0 / self.scale));
+        let reason = match self.reason {
+            StopReason::Done if !self.is_conforming() => StopReason::VertexBudget,
+            reason => reason,
+        };
+        let mesh = self.is_conforming().then(|| self.mesh().scaled(1.0 / self.scale));
+        self.count_kernel();
+        let stop = Stop { reason, owed, places, angle_deg: None };
+        let vertices = self.origins.len();
+        Ok(Refined { mesh, vertices, stop, counters: self.counters, insertions: Vec::new() })
     }
 }

@@ -14,7 +14,7 @@
 use super::Plan;
 use crate::domain::Domain;
 use crate::plane::lopping::Refined;
-use crate::refine::StopReason;
+use crate::refine::{StopReason, Until};
 use crate::run::report::FailureReport;
 use crate::watch::{Stopped, Watch};
 
@@ -36,7 +36,7 @@ impl Plan {
     pub fn refine(&self, domain: &Domain, watch: &mut Watch) -> Result<Refined, FailureReport> {
         let asked = self.angle_deg();
         if asked <= USUAL_DEG {
-            let refined = self.refine_once(domain, watch)?;
+            let refined = self.drive(domain, Until::End, watch)?;
             return match refined.stop.reason {
                 StopReason::NoProgress => self.refine_below(asked, refined, domain, watch),
                 _ => Ok(refined),
@@ -53,7 +53,7 @@ impl Plan {
     fn refine_beyond(&self, usual: Refined, domain: &Domain, watch: &mut Watch) -> Result<Refined, FailureReport> {
         let most = self.options.max_vertices;
         let bound = (MORE * usual.vertices as f64) as usize;
-        let reason = match self.with_budget(most.min(bound)).refine_once(domain, watch) {
+        let reason = match self.with_budget(most.min(bound)).drive(domain, Until::End, watch) {
             Ok(refined) if refined.stop.reason == StopReason::Done => return Ok(refined),
             Ok(refined) if refined.stop.reason == StopReason::Cancelled => StopReason::Cancelled,
             Ok(refined) if refined.stop.reason == StopReason::VertexBudget && most <= bound => StopReason::VertexBudget,
@@ -74,7 +74,7 @@ impl Plan {
     ) -> Result<Refined, FailureReport> {
         let mut angle = hopeless.ceil() - 1.0;
         while angle >= SURE_DEG {
-            match self.at_angle(angle).refine_once(domain, watch) {
+            match self.at_angle(angle).drive(domain, Until::End, watch) {
                 Ok(mut lower) if lower.stop.reason == StopReason::Done => {
                     lower.stop.reason = StopReason::NoProgress;
                     return Ok(lower.held_to(angle));

@@ -5,6 +5,7 @@ use squinch::domain::{ArrangeOptions, Domain};
 use squinch::plane::gcdr::steiner::{Extreme, Random};
 use squinch::plane::gcdr::{self, Options, Regions, SteinerStrategy};
 use squinch::promise::{Densities, DensityPromise};
+use squinch::refine::Until;
 use squinch::size::Sizing;
 use squinch::verify::densities;
 use std::f64::consts::{FRAC_PI_2, SQRT_2};
@@ -72,7 +73,7 @@ pub fn print(path: &str) -> Result<(), String> {
 fn observe(domain: &Domain, regions: Regions, strategy: &mut dyn SteinerStrategy) -> Result<Observed, String> {
     let angle_min_rad = (0.5 / SQRT_2).asin();
     let options = Options { angle_min_rad, regions, sizing: Sizing::default(), max_vertices: 100_000, record: true };
-    let refined = gcdr::refine(domain, &options, strategy, None, &mut |_| true).map_err(|e| e.to_string())?;
+    let refined = gcdr::refine(domain, &options, strategy, Until::End, &mut |_| true).map_err(|e| e.to_string())?;
     let mesh = refined.mesh.ok_or("no mesh")?;
     let none = Densities { a: f64::MAX, b: f64::MAX, c: f64::MAX };
     let checks = densities(domain, &mesh, &refined.insertions, Some(DensityPromise { bounds: none, proven: false }));

@@ -6,6 +6,7 @@ use squinch::mesh::Mesh;
 use squinch::plane::gcdr::steiner::Center;
 use squinch::plane::gcdr::{self, Regions};
 use squinch::plane::lopping;
+use squinch::refine::Until;
 use squinch::size::Sizing;
 use std::time::Instant;
 
@@ -68,7 +69,7 @@ impl Best {
 fn lopped(domain: &Domain, sizing: &Sizing) -> Result<Mesh, String> {
     let angle_min_rad = ANGLE_DEG.to_radians();
     let options = lopping::Options { angle_min_rad, sizing: sizing.clone(), ..lopping::Options::default() };
-    let refined = lopping::refine(domain, &options, &mut |_| true).map_err(|e| e.to_string())?;
+    let refined = lopping::refine(domain, &options, Until::End, &mut |_| true).map_err(|e| e.to_string())?;
     refined.mesh.ok_or_else(|| format!("{:?}", refined.stop.reason))
 }
 
@@ -80,6 +81,6 @@ fn refined(domain: &Domain, sizing: &Sizing) -> Result<Mesh, String> {
         max_vertices: 5_000_000,
         record: false,
     };
-    let refined = gcdr::refine(domain, &options, &mut Center, None, &mut |_| true).map_err(|e| e.to_string())?;
+    let refined = gcdr::refine(domain, &options, &mut Center, Until::End, &mut |_| true).map_err(|e| e.to_string())?;
     refined.mesh.ok_or_else(|| format!("{:?}", refined.stop.reason))
 }

@@ -7,7 +7,7 @@ use squinch::geometry::dice::Dice;
 use squinch::geometry::exact::{Orientation, orient};
 use squinch::plane::gcdr::steiner::{Center, Extreme, Optimal, Random};
 use squinch::plane::gcdr::{self, Options, Regions, SteinerStrategy};
-use squinch::refine::StopReason;
+use squinch::refine::{StopReason, Until};
 use squinch::size::Sizing;
 use squinch::verify::verify;
 
@@ -50,7 +50,8 @@ fn refined(drawing: &Drawing, degrees: f64, strategy: &str, seed: u64) -> Result
         _ => Box::new(Optimal::new(angle_min_rad, true)),
     };
     let options = Options { angle_min_rad, regions, sizing: Sizing::default(), max_vertices: 200_000, record: false };
-    let refined = gcdr::refine(&domain, &options, &mut *strategy, None, &mut |_| true).map_err(|e| e.to_string())?;
+    let refined =
+        gcdr::refine(&domain, &options, &mut *strategy, Until::End, &mut |_| true).map_err(|e| e.to_string())?;
     let mesh = refined.mesh.ok_or("no mesh")?;
     if refined.stop.reason != StopReason::Done || refined.stop.owed > 0 {
         return Err(format!("{:?}, {} owed", refined.stop.reason, refined.stop.owed));

@@ -4,7 +4,7 @@ use squinch::domain::{ArrangeOptions, Domain, Drawing};
 use squinch::import::{self, Format};
 use squinch::mesh::{Mesh, quality};
 use squinch::plane::lopping::{self, Options};
-use squinch::refine::{Counters, Stop};
+use squinch::refine::{Counters, Stop, Until};
 use squinch::size::Sizing;
 use squinch::verify::{self, Status, Verdict};
 use std::time::Instant;
@@ -42,7 +42,7 @@ pub fn run(drawing: &Drawing, tau_rad: f64, options: &Options) -> Result<Run, St
     let domain = drawing.arrange(&ArrangeOptions::default()).map_err(|e| e.to_string())?.split_to_turning(tau_rad);
     seconds.arrange = start.elapsed().as_secs_f64();
     let start = Instant::now();
-    let refined = lopping::refine(&domain, options, &mut |_| true).map_err(|e| e.to_string())?;
+    let refined = lopping::refine(&domain, options, Until::End, &mut |_| true).map_err(|e| e.to_string())?;
     seconds.refine = start.elapsed().as_secs_f64();
     let mesh = refined.mesh.ok_or_else(|| format!("no mesh: {:?}", refined.stop.reason))?;
     let start = Instant::now();

@@ -6,7 +6,7 @@ use squinch::mesh::quality::angle_range;
 use squinch::plane::gcdr::parameters::radius_edge_of;
 use squinch::plane::gcdr::steiner::{Center, Extreme, OffCenter, Optimal, Random};
 use squinch::plane::gcdr::{self, Options, Regions, SteinerStrategy};
-use squinch::refine::StopReason;
+use squinch::refine::{StopReason, Until};
 use squinch::size::Sizing;
 use std::time::Instant;
 
@@ -34,8 +34,8 @@ pub fn print(path: &str) -> Result<(), String> {
             let options =
                 Options { angle_min_rad, regions, sizing: Sizing::default(), max_vertices: 200_000, record: false };
             let start = Instant::now();
-            let refined =
-                gcdr::refine(&domain, &options, &mut *strategy, None, &mut |_| true).map_err(|e| e.to_string())?;
+            let refined = gcdr::refine(&domain, &options, &mut *strategy, Until::End, &mut |_| true)
+                .map_err(|e| e.to_string())?;
             let ms = start.elapsed().as_secs_f64() * 1e3;
             row += &match (refined.mesh, refined.stop.reason) {
                 (Some(mesh), StopReason::Done) => {
