@@ -56,6 +56,8 @@ ids! {
     LayerId,
     /// A protecting ball around an acute corner.
     BallId,
+    /// Curves around a sharp corner that are cut together.
+    FanId,
 }
 
 /// Red, green, blue (sRGB) and opacity.

@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 use squinch::geometry::Point;
 use squinch::ids::{Id, PieceId, RegionId, TriangleId, VertexId};
-use squinch::plane::insert::{Cavity, Degenerate, Delaunay, Location};
+use squinch::plane::insert::{Cavity, Degenerate, Kernel, Location};
 use squinch::plane::triangulation::{GHOST, Side, Triangulation};
 use std::collections::BTreeSet;
 
@@ -138,7 +138,7 @@ fn hull(points: &[Whole]) -> (i128, usize) {
 }
 
 /// Every finite triangle as sorted vertex numbers.
-fn triangles(d: &Delaunay) -> BTreeSet<[u32; 3]> {
+fn triangles(d: &Kernel) -> BTreeSet<[u32; 3]> {
     let topology = d.topology();
     let sorted = |t| {
         let mut corners = topology.corners(t).map(|v| v.0);
@@ -150,7 +150,7 @@ fn triangles(d: &Delaunay) -> BTreeSet<[u32; 3]> {
 
 /// Proves in whole numbers that `d` is a Delaunay triangulation of those `points` that are `here`: empty circles, all
 /// points used, the hull filled exactly, Euler's number of triangles.
-fn prove(name: &str, d: &Delaunay, points: &[Whole], here: impl Fn(usize) -> bool) {
+fn prove(name: &str, d: &Kernel, points: &[Whole], here: impl Fn(usize) -> bool) {
     assert_eq!(d.flaws(), Vec::<String>::new(), "{name}");
     let living: Vec<usize> = (0..points.len()).filter(|&i| here(i)).collect();
     let (mut area, mut used, mut count) = (0, BTreeSet::new(), 0);
@@ -171,12 +171,12 @@ fn prove(name: &str, d: &Delaunay, points: &[Whole], here: impl Fn(usize) -> boo
     assert_eq!(count, 2 * living.len() - 2 - on_border, "{name}: Euler's number");
 }
 
-fn prove_all(name: &str, d: &Delaunay, points: &[Whole]) {
+fn prove_all(name: &str, d: &Kernel, points: &[Whole]) {
     assert_eq!(d.points().len(), points.len());
     prove(name, d, points, |_| true);
 }
 
-fn insert(d: &mut Delaunay, p: Point, near: TriangleId, cavity: &mut Cavity) -> VertexId {
+fn insert(d: &mut Kernel, p: Point, near: TriangleId, cavity: &mut Cavity) -> VertexId {
     let at = d.locate(p, near);
     assert!(!matches!(at, Location::Vertex(_)), "{p:?} is there already");
     d.cavity(p, at, cavity);
@@ -185,11 +185,11 @@ fn insert(d: &mut Delaunay, p: Point, near: TriangleId, cavity: &mut Cavity) -> 
 
 /// Inserts the points one by one after the first three that span a triangle; vertex i is not point i, so the order is
 /// returned.
-fn one_by_one(points: &[Whole], frame: Frame) -> (Delaunay, Vec<Whole>) {
+fn one_by_one(points: &[Whole], frame: Frame) -> (Kernel, Vec<Whole>) {
     let third = (2..points.len()).find(|&i| doubled_area(points[0], points[1], points[i]) != 0).unwrap();
     let mut order = points.to_vec();
     order.swap(2, third);
-    let mut d = Delaunay::new(frame.place_all(&order[..3])).unwrap();
+    let mut d = Kernel::new(frame.place_all(&order[..3])).unwrap();
     let mut cavity = Cavity::default();
     for &p in &order[3..] {
         insert(&mut d, frame.place(p), TriangleId(0), &mut cavity);
@@ -201,7 +201,7 @@ fn one_by_one(points: &[Whole], frame: Frame) -> (Delaunay, Vec<Whole>) {
 fn bulk_construction_is_delaunay() {
     for (name, points) in all_sets() {
         for frame in FRAMES {
-            prove_all(name, &Delaunay::new(frame.place_all(&points)).unwrap(), &points);
+            prove_all(name, &Kernel::new(frame.place_all(&points)).unwrap(), &points);
         }
     }
 }
@@ -213,7 +213,7 @@ fn insertion_one_by_one_is_delaunay_and_equals_bulk_where_no_four_points_are_coc
             let (d, order) = one_by_one(&points, frame);
             prove_all(name, &d, &order);
             if name == "random" {
-                assert_eq!(triangles(&d), triangles(&Delaunay::new(frame.place_all(&order)).unwrap()));
+                assert_eq!(triangles(&d), triangles(&Kernel::new(frame.place_all(&order)).unwrap()));
             }
         }
     }
@@ -222,12 +222,12 @@ fn insertion_one_by_one_is_delaunay_and_equals_bulk_where_no_four_points_are_coc
 #[test]
 fn the_same_points_give_the_same_ids() {
     for (_, points) in all_sets() {
-        let [one, two] = [0, 1].map(|_| Delaunay::new(PLAIN.place_all(&points)).unwrap());
-        let ids = |d: &Delaunay| d.topology().triangles().map(|t| (t, d.topology().corners(t))).collect::<Vec<_>>();
+        let [one, two] = [0, 1].map(|_| Kernel::new(PLAIN.place_all(&points)).unwrap());
+        let ids = |d: &Kernel| d.topology().triangles().map(|t| (t, d.topology().corners(t))).collect::<Vec<_>>();
         assert_eq!(ids(&one), ids(&two));
         assert_eq!(one.counters(), two.counters());
         // Scaling by a power of two changes no bit of any mantissa.
-        let scaled = Delaunay::new(Frame { offset: 0, exponent: -40 }.place_all(&points)).unwrap();
+        let scaled = Kernel::new(Frame { offset: 0, exponent: -40 }.place_all(&points)).unwrap();
         assert_eq!(ids(&one), ids(&scaled));
     }
 }
@@ -236,7 +236,7 @@ fn the_same_points_give_the_same_ids() {
 fn removing_vertices_of_any_degree_equals_never_having_had_them() {
     for (name, points) in all_sets() {
         for (frame, stride) in FRAMES.into_iter().zip([1, 3, 7, 11, 13]) {
-            let mut d = Delaunay::new(frame.place_all(&points)).unwrap();
+            let mut d = Kernel::new(frame.place_all(&points)).unwrap();
             let mut here = vec![true; points.len()];
             let mut victims: Vec<usize> = (0..points.len()).collect();
             let n = victims.len();
@@ -269,7 +269,7 @@ fn removing_vertices_of_any_degree_equals_never_having_had_them() {
 #[test]
 fn removing_the_hub_of_a_wheel_leaves_its_rim() {
     let points: Vec<Whole> = on_a_circle(true);
-    let mut d = Delaunay::new(PLAIN.place_all(&points)).unwrap();
+    let mut d = Kernel::new(PLAIN.place_all(&points)).unwrap();
     let hub = VertexId(points.iter().position(|&p| p == (0, 0)).unwrap() as u32);
     assert_eq!(d.topology().sides_from(hub).count(), points.len() - 1);
     assert!(d.remove(hub));
@@ -281,7 +281,7 @@ fn removing_the_hub_of_a_wheel_leaves_its_rim() {
 #[test]
 fn a_triangle_keeps_its_corners() {
     let points = [(0, 0), (4, 0), (0, 4)];
-    let mut d = Delaunay::new(PLAIN.place_all(&points)).unwrap();
+    let mut d = Kernel::new(PLAIN.place_all(&points)).unwrap();
     assert!((0..3).all(|v| !d.remove(VertexId(v))));
     assert!(!d.remove(GHOST));
     prove_all("triangle", &d, &points);
@@ -290,7 +290,7 @@ fn a_triangle_keeps_its_corners() {
 #[test]
 fn locate_tells_vertices_sides_triangles_and_the_outside_apart() {
     let points = grid(6);
-    let d = Delaunay::new(PLAIN.place_all(&points)).unwrap();
+    let d = Kernel::new(PLAIN.place_all(&points)).unwrap();
     let topology = d.topology();
     for near in (0..topology.triangle_capacity()).map(TriangleId::from_index).step_by(7) {
         for (i, &p) in points.iter().enumerate() {
@@ -319,7 +319,7 @@ fn locate_tells_vertices_sides_triangles_and_the_outside_apart() {
 #[test]
 fn looking_changes_nothing_and_finds_just_the_triangles_in_conflict() {
     let points = random(120, 40, 9);
-    let d = Delaunay::new(PLAIN.place_all(&points)).unwrap();
+    let d = Kernel::new(PLAIN.place_all(&points)).unwrap();
     let before = triangles(&d);
     let mut cavity = Cavity::default();
     for p in random(200, 60, 10).into_iter().map(|(x, y)| (x - 10, y - 10)) {
@@ -356,8 +356,8 @@ fn pieces(t: &Triangulation) -> BTreeSet<(u32, u32, u32)> {
 fn filling_carries_pieces_and_regions() {
     // A square of two regions, parted by the line x = 4 that is a chain of pieces.
     let points: Vec<Whole> = distinct(grid(9).into_iter().filter(|p| p.0 == 4 || p.0 % 4 == 0 || p.1 % 4 == 0));
-    let mut d = Delaunay::new(PLAIN.place_all(&points)).unwrap();
-    let on_line = |d: &Delaunay, v: VertexId| d.point(v).x == 4.0;
+    let mut d = Kernel::new(PLAIN.place_all(&points)).unwrap();
+    let on_line = |d: &Kernel, v: VertexId| d.point(v).x == 4.0;
     let all: Vec<TriangleId> = d.topology().triangles().collect();
     for t in all {
         let right = d.topology().corners(t).iter().any(|&v| d.point(v).x > 4.0);
@@ -401,8 +401,8 @@ fn filling_carries_pieces_and_regions() {
 
 #[test]
 fn flips_between_cocircular_points_are_no_flaw_and_others_are_found() {
-    let mut d = Delaunay::new(PLAIN.place_all(&[(0, 0), (2, 0), (2, 2), (0, 2)])).unwrap();
-    let diagonal = |d: &Delaunay| {
+    let mut d = Kernel::new(PLAIN.place_all(&[(0, 0), (2, 0), (2, 2), (0, 2)])).unwrap();
+    let diagonal = |d: &Kernel| {
         let finite: Vec<_> = d.topology().triangles().collect();
         let twin = |s| d.topology().twin(s).triangle();
         (0..3).map(|i| finite[0].side_of(i)).find(|&s| twin(s) == finite[1]).unwrap()
@@ -416,12 +416,12 @@ fn flips_between_cocircular_points_are_no_flaw_and_others_are_found() {
     d.topology_mut().flip(s);
     assert_eq!(triangles(&d), before);
 
-    let mut d = Delaunay::new(PLAIN.place_all(&[(0, 0), (5, -1), (10, 0), (5, 1)])).unwrap();
+    let mut d = Kernel::new(PLAIN.place_all(&[(0, 0), (5, -1), (10, 0), (5, 1)])).unwrap();
     let s = diagonal(&d);
     d.topology_mut().flip(s);
     assert!(d.flaws().iter().any(|flaw| flaw.contains("in its circle")), "{:?}", d.flaws());
     // A flip that dents the hull and turns a triangle over.
-    let mut d = Delaunay::new(PLAIN.place_all(&[(0, 0), (9, 0), (0, 9)])).unwrap();
+    let mut d = Kernel::new(PLAIN.place_all(&[(0, 0), (9, 0), (0, 9)])).unwrap();
     let t = d.topology().triangles().next().unwrap();
     d.topology_mut().flip(t.side_of(0));
     assert!(!d.flaws().is_empty());
@@ -430,7 +430,7 @@ fn flips_between_cocircular_points_are_no_flaw_and_others_are_found() {
 #[test]
 fn a_walk_through_a_triangulation_spoilt_by_flips_still_ends() {
     let points = random(200, 1000, 4);
-    let mut d = Delaunay::new(PLAIN.place_all(&points)).unwrap();
+    let mut d = Kernel::new(PLAIN.place_all(&points)).unwrap();
     let mut dice = Dice(8);
     let n = d.topology().triangle_capacity() as i64;
     let mut flips = 0;
@@ -455,7 +455,7 @@ fn a_walk_through_a_triangulation_spoilt_by_flips_still_ends() {
 
 #[test]
 fn points_without_a_triangulation_are_told_why() {
-    let new = |points: &[Whole]| Delaunay::new(PLAIN.place_all(points)).err();
+    let new = |points: &[Whole]| Kernel::new(PLAIN.place_all(points)).err();
     assert_eq!(new(&[]), Some(Degenerate::TooFew));
     assert_eq!(new(&[(0, 0), (1, 1)]), Some(Degenerate::TooFew));
     assert_eq!(new(&[(0, 0), (1, 1), (2, 2), (7, 7)]), Some(Degenerate::Collinear));
@@ -466,14 +466,14 @@ fn points_without_a_triangulation_are_told_why() {
     assert_eq!(new(&points), Some(Degenerate::Duplicate { first: 17, second: 311 }));
     for bad in [f64::NAN, f64::INFINITY, 1e300, -1e-200] {
         let points = vec![Point::new(0.0, 1.0), Point::new(bad, 0.0), Point::new(1.0, 0.0)];
-        assert_eq!(Delaunay::new(points).err(), Some(Degenerate::OutOfRange { index: 1 }));
+        assert_eq!(Kernel::new(points).err(), Some(Degenerate::OutOfRange { index: 1 }));
     }
 }
 
 #[test]
 fn counters_tell_the_work_and_static_filters_settle_random_points() {
     let points = random(3000, 1 << 26, 12);
-    let d = Delaunay::new(PLAIN.place_all(&points)).unwrap();
+    let d = Kernel::new(PLAIN.place_all(&points)).unwrap();
     let work = d.counters();
     let n = points.len() as u64;
     // Peers need 9 in-circle tests a point in random order; a point lies in 4 to 6 circles; a walk along the curve is
@@ -485,7 +485,7 @@ fn counters_tell_the_work_and_static_filters_settle_random_points() {
     let before = work.orient;
     d.locate(Point::new(5.0, 5.0), TriangleId(0));
     assert!(d.counters().orient > before);
-    let grid = Delaunay::new(PLAIN.place_all(&grid(20))).unwrap();
+    let grid = Kernel::new(PLAIN.place_all(&grid(20))).unwrap();
     assert!(grid.counters().exact_fallbacks > 0, "cocircular points are beyond the filter");
 }
 
@@ -499,7 +499,7 @@ proptest! {
         victims in prop::collection::vec(any::<prop::sample::Index>(), 0..30),
     ) {
         let points = distinct(raw);
-        let Ok(mut d) = Delaunay::new(frame.place_all(&points)) else {
+        let Ok(mut d) = Kernel::new(frame.place_all(&points)) else {
             let flat = points.len() < 3 || points.iter().all(|&p| doubled_area(points[0], points[1], p) == 0);
             prop_assert!(flat);
             return Ok(());

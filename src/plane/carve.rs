@@ -6,7 +6,7 @@
 //! may need a new region; a triangle that was there before and still stands keeps its own (a piece that bulges over it would have
 //! destroyed it, since the split point lies in its circumdisk).
 
-use super::insert::Delaunay;
+use super::insert::Kernel;
 use super::subcurves::{Carrier, Subcurves};
 use super::triangulation::Side;
 use crate::domain::DomainCurve;
@@ -23,7 +23,7 @@ impl Carver {
     /// Gives regions to triangles that were made since the last time; `fresh` is left with those that are alive, each once.
     pub fn carve(
         &mut self,
-        delaunay: &mut Delaunay,
+        delaunay: &mut Kernel,
         subcurves: &Subcurves,
         curves: &IdVec<CurveId, DomainCurve>,
         fresh: &mut Vec<TriangleId>,
@@ -54,7 +54,7 @@ impl Carver {
     }
 
     /// Leaves each living triangle once, in the order of their ids, and notes its place.
-    fn note(&mut self, delaunay: &Delaunay, fresh: &mut Vec<TriangleId>) {
+    fn note(&mut self, delaunay: &Kernel, fresh: &mut Vec<TriangleId>) {
         fresh.sort_unstable();
         fresh.dedup();
         fresh.retain(|&t| delaunay.topology().is_alive(t));
@@ -71,7 +71,7 @@ impl Carver {
     /// The region that the sides of a triangle tell: from a curve on it, or from a neighbour whose region stands.
     fn region_by_sides(
         &self,
-        delaunay: &Delaunay,
+        delaunay: &Kernel,
         subcurves: &Subcurves,
         curves: &IdVec<CurveId, DomainCurve>,
         t: TriangleId,
@@ -91,14 +91,14 @@ impl Carver {
 }
 
 /// The curve on a side and whether it runs along it (`true`) or against it; `None` of a side that bounds nothing.
-fn bounded_by(delaunay: &Delaunay, subcurves: &Subcurves, s: Side) -> Option<(CurveId, bool)> {
+fn bounded_by(delaunay: &Kernel, subcurves: &Subcurves, s: Side) -> Option<(CurveId, bool)> {
     let piece = subcurves.get(delaunay.topology().piece(s)?);
     let Carrier::Curve(curve) = piece.carrier else { return None };
     Some((curve, delaunay.topology().origin(s) == piece.ends[0]))
 }
 
 /// Every triangle, ghosts included, for the first carving.
-pub fn all_triangles(delaunay: &Delaunay) -> Vec<TriangleId> {
+pub fn all_triangles(delaunay: &Kernel) -> Vec<TriangleId> {
     let topology = delaunay.topology();
     (0..topology.triangle_capacity()).map(TriangleId::from_index).filter(|&t| topology.is_alive(t)).collect()
 }

@@ -2,9 +2,9 @@
 //!
 //! A triangulation is constrained Delaunay if no vertex lies inside the circle of a triangle and is visible from its inside (Chew 1989;
 //! Lee & Lin 1986), which is so exactly when every side without a piece is locally Delaunay. Storage and exact signs are those of
-//! [`Delaunay`]; cavities end at pieces, flips leave them alone. Every operation notes the triangles it makes, for whoever judges them.
+//! [`Kernel`]; cavities end at pieces, flips leave them alone. Every operation notes the triangles it makes, for whoever judges them.
 
-use super::insert::{Cavity, Degenerate, Delaunay, Location, hull_side};
+use super::insert::{Cavity, Degenerate, Kernel, Location, hull_side};
 use super::triangulation::{GHOST, Side, Triangulation};
 use crate::geometry::Point;
 use crate::geometry::exact::{CircleSide, Orientation, in_circle, in_diametral, orient};
@@ -29,7 +29,7 @@ pub enum Obstacle {
 
 /// The constrained Delaunay triangulation of points and of the sides that carry pieces.
 pub struct Constrained {
-    delaunay: Delaunay,
+    delaunay: Kernel,
     /// Triangles made since they were last taken; some may be gone again, some stand twice.
     touched: Vec<TriangleId>,
     /// What the search that is under way has seen; kept for its memory.
@@ -64,9 +64,9 @@ impl Constrained {
     /// The triangulation of points, without pieces so far.
     ///
     /// # Errors
-    /// As [`Delaunay::new`].
+    /// As [`Kernel::new`].
     pub fn new(points: Vec<Point>) -> Result<Self, Degenerate> {
-        Ok(Self { delaunay: Delaunay::new(points)?, touched: Vec::new(), search: Search::default() })
+        Ok(Self { delaunay: Kernel::new(points)?, touched: Vec::new(), search: Search::default() })
     }
 
     pub fn topology(&self) -> &Triangulation {
@@ -74,12 +74,12 @@ impl Constrained {
     }
 
     /// Points, locating and counters. It is no Delaunay triangulation.
-    pub fn kernel(&self) -> &Delaunay {
+    pub fn kernel(&self) -> &Kernel {
         &self.delaunay
     }
 
     /// For labels of triangles; pieces are laid by [`Constrained::join`].
-    pub(super) fn kernel_mut(&mut self) -> &mut Delaunay {
+    pub(super) fn kernel_mut(&mut self) -> &mut Kernel {
         &mut self.delaunay
     }
 

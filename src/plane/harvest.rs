@@ -1,6 +1,6 @@
 //! The kept triangles as plain data.
 
-use super::insert::Delaunay;
+use super::insert::Kernel;
 use super::subcurves::{Carrier, Subcurves};
 use crate::domain::Domain;
 use crate::geometry::{Point, order};
@@ -10,7 +10,7 @@ use crate::mesh::{CurveEdge, CurveLink, Mesh};
 /// What a mesh is taken from: vertices 0, 1, … of the triangulation are the points of the domain.
 pub struct Harvest<'a> {
     pub domain: &'a Domain,
-    pub delaunay: &'a Delaunay,
+    pub delaunay: &'a Kernel,
     pub subcurves: &'a Subcurves,
 }
 

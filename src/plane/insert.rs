@@ -1,11 +1,11 @@
 //! Points joined to topology: bulk construction, locating, cavities (looking) and filling (acting).
 //!
-//! Insertion is that of Bowyer (1981) and Watson (1981), in two steps: [`Delaunay::cavity`] looks at what a point would
-//! replace and changes nothing, [`Delaunay::fill`] replaces it. All signs are exact, so a cavity is always a disk
+//! Insertion is that of Bowyer (1981) and Watson (1981), in two steps: [`Kernel::cavity`] looks at what a point would
+//! replace and changes nothing, [`Kernel::fill`] replaces it. All signs are exact, so a cavity is always a disk
 //! without inner vertices: its triangles hang together as a tree, and a walk around that tree needs no marks and meets
 //! the border in counter-clockwise order.
 //!
-//! **Serial order.** [`Delaunay::new`] inserts in rounds that grow eightfold, each along a Hilbert curve
+//! **Serial order.** [`Kernel::new`] inserts in rounds that grow eightfold, each along a Hilbert curve
 //! (`geometry::order`); afterwards the order is that of the calls. The triangulation, ids included, is a function of
 //! the points and that order alone: cocircular points keep the diagonal that was there first. Looking needs only
 //! `&self` and the caller's own [`Cavity`], so that cavities of many points can be looked at in parallel and those that
@@ -281,13 +281,13 @@ pub(super) fn hull_side([a, b, c]: [VertexId; 3]) -> [VertexId; 2] {
 }
 
 /// The Delaunay triangulation of a growing and shrinking set of points.
-pub struct Delaunay {
+pub struct Kernel {
     pub(super) points: IdVec<VertexId, Point>,
     pub(super) topology: Triangulation,
     ledger: Ledger,
 }
 
-impl Delaunay {
+impl Kernel {
     /// The Delaunay triangulation of some points, in any unit; vertex i is `points[i]`. Expected time O(n log n), most
     /// of it linear.
     pub fn new(points: Vec<Point>) -> Result<Self, Degenerate> {
@@ -358,7 +358,7 @@ impl Delaunay {
         self.cavity_within(|_| false, p, at, cavity);
     }
 
-    /// [`Delaunay::cavity`], which ends at walls.
+    /// [`Kernel::cavity`], which ends at walls.
     pub(super) fn cavity_within(&self, is_wall: impl Fn(Side) -> bool, p: Point, at: Location, cavity: &mut Cavity) {
         // Beyond that range signs contradict each other, and the walk around the cavity need not end.
         assert!(in_range(p), "{p:?} is beyond exact signs");

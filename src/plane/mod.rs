@@ -8,6 +8,7 @@ mod harvest;
 pub mod insert;
 pub mod lopping;
 mod refined;
+mod refinement;
 mod remove;
 mod subcurves;
 mod suspects;

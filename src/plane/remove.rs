@@ -4,12 +4,12 @@
 //! star lies outside the new hull); then the vertex goes, and flips (Lawson 1977) make the hole Delaunay. Every step is
 //! a plane triangulation, whatever points are cocircular.
 
-use super::insert::Delaunay;
+use super::insert::Kernel;
 use super::triangulation::{GHOST, Side};
 use crate::geometry::exact::{CircleSide, Orientation};
 use crate::ids::{TriangleId, VertexId};
 
-impl Delaunay {
+impl Kernel {
     /// Deletes a vertex of any degree, inside or on the hull; the triangulation is that of the other points, and the id
     /// is dead.
     ///

@@ -5,7 +5,7 @@
 
 use crate::curve::Curve;
 use crate::geometry::Point;
-use crate::ids::{BallId, CurveId, IdVec, PieceId, VertexId};
+use crate::ids::{BallId, CurveId, FanId, IdVec, PieceId, VertexId};
 
 /// What a piece is a part of.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -23,6 +23,8 @@ pub enum Standing {
     Ordinary,
     /// In C′, inside a ball.
     Spoke(BallId),
+    /// In C′, from a sharp corner to where its fan is cut.
+    OfFan(FanId),
     /// Split or withdrawn.
     Gone,
 }
@@ -44,7 +46,7 @@ impl Piece {
     }
 
     pub fn is_spoke(&self) -> bool {
-        matches!(self.standing, Standing::Spoke(_))
+        matches!(self.standing, Standing::Spoke(_) | Standing::OfFan(_))
     }
 }
 

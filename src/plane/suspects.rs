@@ -1,6 +1,6 @@
 //! Triangles that miss a bound, in the order in which both engines refine them: skinny ones, worst first; then those that are too large.
 
-use super::insert::Delaunay;
+use super::insert::Kernel;
 use super::triangulation::Triangulation;
 use crate::geometry::Point;
 use crate::ids::{TriangleId, VertexId};
@@ -81,7 +81,7 @@ impl Suspects {
     }
 
     /// Empties the queue: how many still stand, and the places of at most some of them.
-    pub(super) fn owed(&mut self, delaunay: &Delaunay, most: usize) -> (usize, Vec<Point>) {
+    pub(super) fn owed(&mut self, delaunay: &Kernel, most: usize) -> (usize, Vec<Point>) {
         let (mut owed, mut places) = (0, Vec::new());
         while let Some(suspect) = self.pop() {
             if is_stale(delaunay.topology(), &suspect) {

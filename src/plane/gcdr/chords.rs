@@ -12,7 +12,7 @@ use crate::curve::{Curve, End};
 use crate::domain::Domain;
 use crate::geometry::boxes::BoxHierarchy;
 use crate::geometry::{Point, Rect, bounds_of, turn_from};
-use crate::ids::{BallId, CurveId, Id, IdVec, PieceId, PointId, VertexId};
+use crate::ids::{CurveId, FanId, Id, IdVec, PieceId, PointId, VertexId};
 use crate::plane::subcurves::{Carrier, Piece, Standing, Subcurves};
 use crate::size::SizeField;
 use crate::watch::{Progress, Stopped, Watch};
@@ -25,7 +25,7 @@ pub(super) struct Beginning<'a> {
     pub(super) points: Vec<Point>,
     pub(super) origins: IdVec<VertexId, Origin>,
     pub(super) subcurves: Subcurves,
-    pub(super) fans: IdVec<BallId, Fan>,
+    pub(super) fans: IdVec<FanId, Fan>,
     /// No lengths below this are told apart.
     resolution: f64,
 }
@@ -70,7 +70,7 @@ impl<'a> Beginning<'a> {
                     End::Start => ([0.0, leave], [ends[0], x]),
                     End::Finish => ([leave, 1.0], [x, ends[1]]),
                 };
-                let spoke = self.subcurves.add(carrier, spoke_t, spoke_ends, Standing::Spoke(fan));
+                let spoke = self.subcurves.add(carrier, spoke_t, spoke_ends, Standing::OfFan(fan));
                 self.fans[fan].spokes.push(spoke);
                 (t[i], ends[i]) = (leave, x);
             }
@@ -80,10 +80,10 @@ impl<'a> Beginning<'a> {
 
     /// A fan at every sharp corner that a bent curve ends at: of a radius that is a power of two, at most a third of lfs(p), so that two
     /// never meet and nothing else comes in.
-    fn place_fans(&mut self, field: &SizeField) -> IdVec<PointId, Option<BallId>> {
+    fn place_fans(&mut self, field: &SizeField) -> IdVec<PointId, Option<FanId>> {
         let bent = |p: PointId| self.domain.star(p).iter().any(|i| !self.domain.curves()[i.curve].curve.is_straight());
         let wanted: Vec<PointId> = self.domain.points().ids().filter(|&p| self.sharp[p] && bent(p)).collect();
-        let mut fan_of: IdVec<PointId, Option<BallId>> = vec![None; self.domain.points().len()].into();
+        let mut fan_of: IdVec<PointId, Option<FanId>> = vec![None; self.domain.points().len()].into();
         if wanted.is_empty() {
             return fan_of;
         }
@@ -172,7 +172,7 @@ impl<'a> Beginning<'a> {
     /// Whether one is a spoke and the other lies on a curve of the same corner: spokes keep their order, and the others lie outside.
     fn share_a_fan(&self, first: &Piece, second: &Piece) -> bool {
         let meets = |spoke: &Piece, other: &Piece| {
-            let Standing::Spoke(fan) = spoke.standing else { return false };
+            let Standing::OfFan(fan) = spoke.standing else { return false };
             let corner = self.fans[fan].corner;
             matches!(other.carrier, Carrier::Curve(c) if self.domain.curves()[c].ends.contains(&corner))
         };

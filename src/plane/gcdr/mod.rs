@@ -35,20 +35,19 @@ mod segments;
 pub mod steiner;
 mod triangles;
 
-use super::carve::{self, Carver};
+use super::carve;
 use super::constrained::Constrained;
 use super::harvest::Harvest;
-use super::insert::Cavity;
 use super::refined::{RefineError, Refined};
-use super::subcurves::Subcurves;
-use super::suspects::{self, Suspect, Suspects};
+use super::refinement::{Refinement, UnitFrame};
+use super::suspects::{self, Suspect};
 use crate::domain::Domain;
 use crate::geometry::{self, Point};
-use crate::ids::{BallId, CurveId, Id, IdVec, PieceId, PointId, TriangleId, VertexId};
-use crate::mesh::{Insertion, InsertionKind, RIM_ROUNDING};
+use crate::ids::{CurveId, FanId, Id, IdVec, PieceId, PointId, TriangleId, VertexId};
+use crate::mesh::{Insertion, InsertionKind};
 use crate::promise::{ConstrainedPromise, DensityPromise, EnginePromise, Promise};
 use crate::refine::{Counters, Engine, Stop, StopReason, Until, drive};
-use crate::size::{SizeField, Sizing};
+use crate::size::Sizing;
 use crate::watch::{Progress, Watch};
 use chords::Beginning;
 use parameters::radius_edge_of;
@@ -109,37 +108,20 @@ struct Fan {
 
 /// The engine, held at a step.
 pub struct Gcdr<'s> {
-    domain: Domain,
-    /// What the domain was multiplied by.
-    scale: f64,
+    state: Refinement,
     options: Options,
-    field: SizeField,
     mesh: Constrained,
     origins: IdVec<VertexId, Origin>,
     /// Vertices that were not deleted.
     alive: usize,
     /// Of these, the free ones.
     free: usize,
-    subcurves: Subcurves,
-    fans: IdVec<BallId, Fan>,
+    fans: IdVec<FanId, Fan>,
     /// Whether curves meet at less than 60°.
     sharp: IdVec<PointId, bool>,
     strategy: &'s mut dyn SteinerStrategy,
-    /// Pieces whose size is to be looked at.
-    suspects: Vec<PieceId>,
-    bad: Suspects,
-    carver: Carver,
-    cavity: Cavity,
     /// Triangles to be judged; empty between steps, kept for its memory.
     touched: Vec<TriangleId>,
-    counters: Counters,
-    reason: StopReason,
-    /// Where something could not be done: below what the coordinates can tell apart.
-    too_near: Vec<Point>,
-    /// sin² of the smallest angle.
-    sin2_min: f64,
-    /// No edge shorter than this is made on purpose.
-    resolution: f64,
     insertions: Vec<Insertion>,
 }
 
@@ -193,15 +175,11 @@ impl<'s> Gcdr<'s> {
         strategy: &'s mut dyn SteinerStrategy,
         watch: &mut Watch,
     ) -> Result<Start<'s>, RefineError> {
-        let magnitude = geometry::magnitude(domain.bounds());
-        let scale = geometry::unit_scale(magnitude);
-        let domain = domain.scaled(scale);
-        let field = SizeField::new(&options.sizing.scaled(scale), &domain);
-        let resolution = RIM_ROUNDING * magnitude * scale;
-        let is_sharp = |p: PointId| domain.corner(p).is_some_and(|corner| corner.angle_rad <= SHARP_RAD);
-        let sharp: IdVec<PointId, bool> = domain.points().ids().map(is_sharp).collect();
-        let mut beginning = Beginning::new(&domain, &sharp, resolution);
-        beginning.cut_curves(&field);
+        let frame = UnitFrame::new(domain, &options.sizing);
+        let is_sharp = |p: PointId| frame.domain.corner(p).is_some_and(|corner| corner.angle_rad <= SHARP_RAD);
+        let sharp: IdVec<PointId, bool> = frame.domain.points().ids().map(is_sharp).collect();
+        let mut beginning = Beginning::new(&frame.domain, &sharp, frame.resolution);
+        beginning.cut_curves(&frame.field);
         let stopped = beginning.part_hulls(options.max_vertices, watch).is_err();
         if stopped || beginning.points.len() > options.max_vertices {
             let reason = if stopped { StopReason::Cancelled } else { StopReason::VertexBudget };
@@ -214,41 +192,31 @@ impl<'s> Gcdr<'s> {
                 insertions: Vec::new(),
             })));
         }
-        let mesh = triangulated(&beginning).map_err(|e| e.scaled(1.0 / scale))?;
+        let mesh = triangulated(&beginning).map_err(|e| e.scaled(1.0 / frame.scale))?;
         let Beginning { origins, subcurves, fans, .. } = beginning;
-        let sin_min = libm::sin(options.angle_min_rad);
+        let patience = triangles::patience(strategy.order(), options.angle_min_rad);
         let mut gcdr = Self {
-            suspects: Vec::new(),
-            bad: Suspects::new(options.angle_min_rad, triangles::patience(strategy.order(), options.angle_min_rad)),
-            carver: Carver::default(),
-            cavity: Cavity::default(),
+            state: Refinement::new(frame, subcurves, options.angle_min_rad, patience),
             touched: Vec::new(),
-            counters: Counters::default(),
-            reason: StopReason::Done,
-            too_near: Vec::new(),
-            sin2_min: sin_min * sin_min,
             alive: origins.len(),
             free: 0,
             options: options.clone(),
             insertions: Vec::new(),
-            resolution,
-            domain,
-            scale,
-            field,
             mesh,
             origins,
-            subcurves,
             fans,
             sharp,
             strategy,
         };
-        gcdr.counters.add("vertices_input", gcdr.domain.points().len() as u64);
-        gcdr.counters.add("vertices_chord", (gcdr.origins.len() - gcdr.domain.points().len()) as u64);
-        let live: Vec<PieceId> = gcdr.subcurves.ids().rev().filter(|&id| !gcdr.subcurves.get(id).is_gone()).collect();
-        live.into_iter().for_each(|id| gcdr.suspect(id));
-        gcdr.mesh.take_touched(&mut Vec::new());
-        let mut all = carve::all_triangles(gcdr.mesh.kernel());
-        gcdr.carver.carve(gcdr.mesh.kernel_mut(), &gcdr.subcurves, gcdr.domain.curves(), &mut all);
+        let Self { state, mesh, origins, .. } = &mut gcdr;
+        let input = state.domain.points().len();
+        state.counters.add("vertices_input", input as u64);
+        state.counters.add("vertices_chord", (origins.len() - input) as u64);
+        let live: Vec<PieceId> = state.subcurves.ids().rev().filter(|&id| !state.subcurves.get(id).is_gone()).collect();
+        live.into_iter().for_each(|id| state.suspect(id));
+        mesh.take_touched(&mut Vec::new());
+        let mut all = carve::all_triangles(mesh.kernel());
+        state.carver.carve(mesh.kernel_mut(), &state.subcurves, state.domain.curves(), &mut all);
         all.into_iter().for_each(|t| gcdr.judge(t));
         Ok(Start::Ready(Box::new(gcdr)))
     }
@@ -270,7 +238,7 @@ impl<'s> Gcdr<'s> {
     }
 
     fn is_side(&self, id: PieceId) -> bool {
-        let [x, y] = self.subcurves.get(id).ends;
+        let [x, y] = self.state.subcurves.get(id).ends;
         let topology = self.mesh.topology();
         topology.side_between(y, x).is_some_and(|s| topology.piece(s) == Some(id))
     }
@@ -282,16 +250,16 @@ impl Engine for Gcdr<'_> {
     /// Splits the first of: a piece that is too large, the worst skinny triangle, the largest triangle. `false`: there is none, or the run
     /// is over.
     fn step(&mut self) -> bool {
-        if self.reason == StopReason::Done
-            && let Some(piece) = self.suspects.pop()
+        if self.state.reason == StopReason::Done
+            && let Some(piece) = self.state.suspects.pop()
         {
             self.look_at_piece(piece);
             return true;
         }
-        if self.reason != StopReason::Done {
+        if self.state.reason != StopReason::Done {
             return false;
         }
-        match self.bad.next(self.alive) {
+        match self.state.bad.next(self.alive) {
             Some(suspect) => self.split_triangle(suspect),
             None => return false,
         }
@@ -299,13 +267,11 @@ impl Engine for Gcdr<'_> {
     }
 
     fn cancel(&mut self) {
-        if self.reason == StopReason::Done {
-            self.reason = StopReason::Cancelled;
-        }
+        self.state.cancel();
     }
 
     fn progress(&self) -> Progress {
-        let queued = self.suspects.len() + self.bad.len();
+        let queued = self.state.suspects.len() + self.state.bad.len();
         Progress { phase: "refining", vertices: self.alive, queued }
     }
 
@@ -314,31 +280,25 @@ impl Engine for Gcdr<'_> {
     /// # Errors
     /// Where a split had to be given up half-way.
     fn finish(mut self) -> Self::Outcome {
-        if self.subcurves.ids().any(|id| !self.subcurves.get(id).is_gone() && !self.is_side(id)) {
-            let at = self.too_near.first().copied().unwrap_or_default();
-            return Err(RefineError::too_near(at).scaled(1.0 / self.scale));
+        if self.state.subcurves.ids().any(|id| !self.state.subcurves.get(id).is_gone() && !self.is_side(id)) {
+            return Err(self.state.too_near_error());
         }
         const PLACES: usize = 16;
-        let (owed, mut places) = self.bad.owed(self.mesh.kernel(), PLACES);
-        let owed = owed + self.too_near.len();
-        places.extend(self.too_near.iter().copied());
-        places.iter_mut().for_each(|p| *p = geometry::scaled(*p, 1.0 / self.scale));
-        let harvest = Harvest { domain: &self.domain, delaunay: self.mesh.kernel(), subcurves: &self.subcurves };
-        let mesh = Some(harvest.mesh().scaled(1.0 / self.scale));
-        let down = |p: Point| geometry::scaled(p, 1.0 / self.scale);
+        let (owed, places) = self.state.bad.owed(self.mesh.kernel(), PLACES);
+        let harvest =
+            Harvest { domain: &self.state.domain, delaunay: self.mesh.kernel(), subcurves: &self.state.subcurves };
+        let mesh = Some(harvest.mesh().scaled(1.0 / self.state.scale));
+        let down = |p: Point| geometry::scaled(p, 1.0 / self.state.scale);
         let unscaled = |i: &Insertion| Insertion {
             at: down(i.at),
-            radius: i.radius / self.scale,
+            radius: i.radius / self.state.scale,
             parent: i.parent.map(down),
             ..*i
         };
         let insertions = self.insertions.iter().map(unscaled).collect();
-        let kernel = self.mesh.kernel().counters();
-        self.counters.add("predicates", kernel.orient + kernel.in_circle);
-        self.counters.add("exact_fallbacks", kernel.exact_fallbacks);
-        self.counters.add("cavity_triangles", kernel.cavity_triangles);
-        let stop = Stop { reason: self.reason, owed, places, angle_deg: None };
-        Ok(Refined { mesh, vertices: self.alive, stop, counters: self.counters, insertions })
+        self.state.count_kernel(self.mesh.kernel().counters());
+        let stop = self.state.stop(self.state.reason, owed, places);
+        Ok(Refined { mesh, vertices: self.alive, stop, counters: self.state.counters, insertions })
     }
 }
 

@@ -6,7 +6,7 @@ use super::{Gcdr, Origin};
 use crate::curve::End;
 use crate::geometry::exact::{CircleSide, in_diametral};
 use crate::geometry::{Point, Vec2, scaled};
-use crate::ids::{BallId, PieceId, TriangleId, VertexId};
+use crate::ids::{FanId, PieceId, TriangleId, VertexId};
 use crate::mesh::InsertionKind;
 use crate::plane::insert::{self, Location};
 use crate::plane::subcurves::{Piece, Standing};
@@ -31,35 +31,27 @@ impl Gcdr<'_> {
 
     /// Splits a piece that is larger than asked.
     pub(super) fn look_at_piece(&mut self, id: PieceId) {
-        self.subcurves.get_mut(id).queued = false;
-        let piece = *self.subcurves.get(id);
+        self.state.subcurves.get_mut(id).queued = false;
+        let piece = *self.state.subcurves.get(id);
         if piece.is_gone() || self.is_spent() {
             return;
         }
         let [t0, t1] = piece.t;
-        if self.field.edge_too_large(curve_of(&piece), shape_of(&self.domain, &piece), t0, t1) {
+        if self.state.field.edge_too_large(curve_of(&piece), shape_of(&self.state.domain, &piece), t0, t1) {
             self.split_segment(id, None, "vertices_size");
-        }
-    }
-
-    pub(super) fn suspect(&mut self, piece: PieceId) {
-        let entry = self.subcurves.get_mut(piece);
-        if !entry.queued {
-            entry.queued = true;
-            self.suspects.push(piece);
         }
     }
 
     /// Lines 7–14 of Algorithm 2: free vertices in the diametral circle go, and a point of type B or C comes. A spoke takes its whole fan
     /// with it. `latest` is the parent where no vertex crowds the segment. `false` where coordinates cannot hold it.
     pub(super) fn split_segment(&mut self, id: PieceId, latest: Option<VertexId>, why: &'static str) -> bool {
-        let piece = *self.subcurves.get(id);
-        if let Standing::Spoke(fan) = piece.standing {
+        let piece = *self.state.subcurves.get(id);
+        if let Standing::OfFan(fan) = piece.standing {
             return self.cut_fan(fan, why);
         }
         let Encroachers { free, others, type_c } = self.encroachers(id);
-        let t = match shell_between(&self.domain, &self.sharp, &piece, self.ends_of(&piece)) {
-            Some((end, radius)) => shape_of(&self.domain, &piece).leaves_ball(end, radius, 0.0, 1.0),
+        let t = match shell_between(&self.state.domain, &self.sharp, &piece, self.ends_of(&piece)) {
+            Some((end, radius)) => shape_of(&self.state.domain, &piece).leaves_ball(end, radius, 0.0, 1.0),
             None => self.choose(&piece, type_c),
         };
         let Some(v) = self.split_at(id, t.unwrap_or(f64::NAN), free, why) else { return false };
@@ -73,12 +65,12 @@ impl Gcdr<'_> {
 
     /// The parameter that the strategy chooses: the place on the curve above its place on the chord.
     fn choose(&mut self, piece: &Piece, type_c: bool) -> Option<f64> {
-        let shape = shape_of(&self.domain, piece);
+        let shape = shape_of(&self.state.domain, piece);
         let [t0, t1] = piece.t;
         let size = if type_c { self.options.regions.mu } else { self.options.regions.delta1 };
         let interval = [0.5 * size, 1.0 - 0.5 * size];
         let [x, y] = self.ends_of(piece);
-        let ends = [x, y].map(|p| scaled(p, 1.0 / self.scale));
+        let ends = [x, y].map(|p| scaled(p, 1.0 / self.state.scale));
         let share = self.strategy.on_segment(&Encroached { ends, interval, type_c });
         let share = if share >= interval[0] { share.min(interval[1]) } else { interval[0] };
         if share == 0.5 {
@@ -134,12 +126,12 @@ impl Gcdr<'_> {
         vertices.dedup();
         self.alive -= vertices.len();
         self.free -= vertices.len();
-        self.counters.add("vertices_deleted", vertices.len() as u64);
+        self.state.counters.add("vertices_deleted", vertices.len() as u64);
         vertices.into_iter().for_each(|v| self.mesh.remove(v));
     }
 
     fn side_of(&self, id: PieceId) -> Option<Side> {
-        let [x, y] = self.subcurves.get(id).ends;
+        let [x, y] = self.state.subcurves.get(id).ends;
         // A corner may have as many neighbours as there are curves at it; the other end has a handful.
         let topology = self.mesh.topology();
         match self.origins[x] {
@@ -150,7 +142,7 @@ impl Gcdr<'_> {
 
     /// Cuts all curves of a fan at half its radius, and where their chords between there and the old radius might come to cross, at more
     /// distances in between.
-    fn cut_fan(&mut self, id: BallId, why: &'static str) -> bool {
+    fn cut_fan(&mut self, id: FanId, why: &'static str) -> bool {
         let fan = &self.fans[id];
         let (corner, radius) = (VertexId(fan.corner.0), 0.5 * fan.radius);
         let spokes = fan.spokes.clone();
@@ -160,9 +152,9 @@ impl Gcdr<'_> {
         self.fans[id].radius = radius;
         self.fans[id].spokes.clear();
         for parts in parts {
-            let ends_there = |&&part: &&PieceId| self.subcurves.get(part).ends.contains(&corner);
+            let ends_there = |&&part: &&PieceId| self.state.subcurves.get(part).ends.contains(&corner);
             let inner = *parts.iter().find(ends_there).expect("the first or the last part");
-            self.subcurves.get_mut(inner).standing = Standing::Spoke(id);
+            self.state.subcurves.get_mut(inner).standing = Standing::OfFan(id);
             self.fans[id].spokes.push(inner);
         }
         true
@@ -174,7 +166,7 @@ impl Gcdr<'_> {
         let center = self.mesh.point(corner);
         let mut around = spokes.to_vec();
         let away = |id: &PieceId| {
-            let piece = self.subcurves.get(*id);
+            let piece = self.state.subcurves.get(*id);
             self.mesh.point(piece.ends[usize::from(piece.ends[0] == corner)]) - center
         };
         around.sort_by(|a, b| away(a).atan2().total_cmp(&away(b).atan2()).then(a.cmp(b)));
@@ -186,8 +178,9 @@ impl Gcdr<'_> {
             let hulls: Vec<Vec<Hull>> = cuts.iter().map(|(id, ts)| self.hulls_outside(*id, corner, ts)).collect();
             let neighbours =
                 hulls.iter().zip(hulls.iter().cycle().skip(1)).take(if hulls.len() > 1 { hulls.len() } else { 0 });
-            let apart =
-                |(a, b): (&Vec<Hull>, &Vec<Hull>)| a.iter().all(|h| b.iter().all(|k| h.is_apart(k, self.resolution)));
+            let apart = |(a, b): (&Vec<Hull>, &Vec<Hull>)| {
+                a.iter().all(|h| b.iter().all(|k| h.is_apart(k, self.state.resolution)))
+            };
             if shells >= SHELLS_MOST || neighbours.into_iter().all(apart) {
                 return cuts;
             }
@@ -197,9 +190,9 @@ impl Gcdr<'_> {
 
     /// Ascending parameters at which a spoke leaves the circles of ascending radii around its corner; NaN where it does not.
     fn leaves(&self, spoke: PieceId, corner: VertexId, radii: &[f64]) -> Vec<f64> {
-        let piece = self.subcurves.get(spoke);
+        let piece = self.state.subcurves.get(spoke);
         let end = if piece.ends[0] == corner { End::Start } else { End::Finish };
-        let shape = shape_of(&self.domain, piece);
+        let shape = shape_of(&self.state.domain, piece);
         let leave = |&r: &f64| shape.leaves_ball(end, r, 0.0, 1.0).unwrap_or(f64::NAN);
         let mut ts: Vec<f64> = radii.iter().map(leave).collect();
         if end == End::Finish {
@@ -210,31 +203,31 @@ impl Gcdr<'_> {
 
     /// The hulls of the parts of a spoke that do not end at its corner.
     fn hulls_outside(&self, spoke: PieceId, corner: VertexId, ts: &[f64]) -> Vec<Hull> {
-        let piece = self.subcurves.get(spoke);
+        let piece = self.state.subcurves.get(spoke);
         let bounds: Vec<f64> =
             if piece.ends[0] == corner { [ts, &piece.t[1..]].concat() } else { [&piece.t[..1], ts].concat() };
-        bounds.windows(2).map(|t| Hull::of(&self.domain, piece, [t[0], t[1]])).collect()
+        bounds.windows(2).map(|t| Hull::of(&self.state.domain, piece, [t[0], t[1]])).collect()
     }
 
     /// Splits a piece at a parameter, after the deletion of `free` vertices that encroach it. `None` where coordinates cannot hold it.
     fn split_at(&mut self, id: PieceId, t: f64, free: Vec<VertexId>, why: &'static str) -> Option<VertexId> {
-        let piece = *self.subcurves.get(id);
+        let piece = *self.state.subcurves.get(id);
         if !self.has_room(&piece, &[t]) {
-            self.too_near.push(self.mesh.point(piece.ends[0]));
+            self.state.too_near.push(self.mesh.point(piece.ends[0]));
             return None;
         }
         self.delete(free);
-        let at = shape_of(&self.domain, &piece).point(t);
+        let at = shape_of(&self.state.domain, &piece).point(t);
         let side = self.side_of(id).expect("a piece is a side");
         if !self.mesh.can_part(side, at) {
             let parts = self.split_together(&[(id, vec![t])], Vec::new(), why)?;
-            return Some(self.subcurves.get(parts[0][0]).ends[1]);
+            return Some(self.state.subcurves.get(parts[0][0]).ends[1]);
         }
         let v = self.add_on(&piece, why);
-        self.subcurves.retire(id);
+        self.state.subcurves.retire(id);
         let parts = self.add_parts(&piece, &[(t, v)]);
         self.mesh.part(side, at, [parts[0], parts[1]]);
-        parts.into_iter().for_each(|part| self.suspect(part));
+        parts.into_iter().for_each(|part| self.state.suspect(part));
         // What lies to the left and right of a piece lies there of its parts.
         self.settle(false);
         Some(v)
@@ -249,9 +242,9 @@ impl Gcdr<'_> {
         why: &'static str,
     ) -> Option<Vec<Vec<PieceId>>> {
         for (id, ts) in cuts {
-            let piece = *self.subcurves.get(*id);
+            let piece = *self.state.subcurves.get(*id);
             if !self.has_room(&piece, ts) {
-                self.too_near.push(self.mesh.point(piece.ends[0]));
+                self.state.too_near.push(self.mesh.point(piece.ends[0]));
                 return None;
             }
         }
@@ -262,8 +255,8 @@ impl Gcdr<'_> {
         }
         let mut all = Vec::with_capacity(cuts.len());
         for (id, ts) in cuts {
-            let piece = *self.subcurves.get(*id);
-            self.subcurves.retire(*id);
+            let piece = *self.state.subcurves.get(*id);
+            self.state.subcurves.retire(*id);
             let mut at = Vec::with_capacity(ts.len());
             for &t in ts {
                 at.push((t, self.insert_on(&piece, t, why)?));
@@ -271,12 +264,12 @@ impl Gcdr<'_> {
             all.push(self.add_parts(&piece, &at));
         }
         for &part in all.iter().flatten() {
-            let [a, b] = self.subcurves.get(part).ends;
+            let [a, b] = self.state.subcurves.get(part).ends;
             if self.mesh.join(a, b, part).is_err() {
                 self.stop_too_near(self.mesh.point(a));
                 return None;
             }
-            self.suspect(part);
+            self.state.suspect(part);
         }
         self.settle(true);
         Some(all)
@@ -287,7 +280,7 @@ impl Gcdr<'_> {
         let mut from = (piece.t[0], piece.ends[0]);
         let mut add = |to: (f64, VertexId)| {
             let from = std::mem::replace(&mut from, to);
-            self.subcurves.add(piece.carrier, [from.0, to.0], [from.1, to.1], Standing::Ordinary)
+            self.state.subcurves.add(piece.carrier, [from.0, to.0], [from.1, to.1], Standing::Ordinary)
         };
         at.iter().copied().chain([(piece.t[1], piece.ends[1])]).map(&mut add).collect()
     }
@@ -296,11 +289,11 @@ impl Gcdr<'_> {
     /// circle.
     fn has_room(&self, piece: &Piece, ts: &[f64]) -> bool {
         let [x, y] = self.ends_of(piece);
-        let shape = shape_of(&self.domain, piece);
+        let shape = shape_of(&self.state.domain, piece);
         let mut last = (piece.t[0], x);
         let mut follows = |t: f64, at: Point| {
             let before = std::mem::replace(&mut last, (t, at));
-            before.0 < t && before.1.distance(at) >= self.resolution
+            before.0 < t && before.1.distance(at) >= self.state.resolution
         };
         ts.iter()
             .map(|&t| (t, shape.point(t)))
@@ -310,27 +303,27 @@ impl Gcdr<'_> {
 
     /// Inserts the point of a piece at a parameter; the piece lies on no side any more.
     fn insert_on(&mut self, piece: &Piece, t: f64, why: &'static str) -> Option<VertexId> {
-        let at = shape_of(&self.domain, piece).point(t);
+        let at = shape_of(&self.state.domain, piece).point(t);
         let near = self.mesh.topology().sides_from(piece.ends[1]).next().map_or(TriangleId(0), Side::triangle);
         let location = self.mesh.kernel().locate(at, near);
         if matches!(location, Location::Vertex(_)) {
             self.stop_too_near(at);
             return None;
         }
-        self.mesh.cavity(at, location, &mut self.cavity);
-        self.mesh.fill(at, &self.cavity);
+        self.mesh.cavity(at, location, &mut self.state.cavity);
+        self.mesh.fill(at, &self.state.cavity);
         Some(self.add_on(piece, why))
     }
 
     /// Counts a vertex on a piece, the next of all.
     fn add_on(&mut self, piece: &Piece, why: &'static str) -> VertexId {
         self.alive += 1;
-        self.counters.add(why, 1);
+        self.state.counters.add(why, 1);
         self.origins.push(Origin::OnCurve(curve_of(piece)))
     }
 
     pub(super) fn stop_too_near(&mut self, at: Point) {
-        self.too_near.push(at);
-        self.reason = StopReason::Arithmetic;
+        self.state.too_near.push(at);
+        self.state.reason = StopReason::Arithmetic;
     }
 }

@@ -9,6 +9,7 @@ use crate::ids::{CurveId, PieceId, RegionId, TriangleId, VertexId};
 use crate::mesh::InsertionKind;
 use crate::plane::constrained::Look;
 use crate::plane::insert::{self, Location};
+use crate::plane::refinement::Flaw;
 use crate::plane::suspects::DETAIL_RAD;
 use crate::plane::triangulation::{GHOST, Side};
 use crate::refine::{Patience, StopReason};
@@ -35,7 +36,7 @@ impl Gcdr<'_> {
         self.mesh.take_touched(&mut touched);
         if carve {
             let kernel = self.mesh.kernel_mut();
-            self.carver.carve(kernel, &self.subcurves, self.domain.curves(), &mut touched);
+            self.state.carver.carve(kernel, &self.state.subcurves, self.state.domain.curves(), &mut touched);
         } else {
             touched.sort_unstable();
             touched.dedup();
@@ -50,13 +51,10 @@ impl Gcdr<'_> {
         let Some(region) = self.mesh.topology().region(t) else { return };
         let corners = self.corners(t);
         let suspect = (t, self.mesh.topology().corners(t));
-        let sin2 = sin2_smallest(corners);
-        if sin2 < self.sin2_min {
-            return self.push_skinny(suspect, corners, sin2);
-        }
-        let excess = self.field.excess(region, corners);
-        if excess > 1.0 {
-            self.bad.push_oversized(suspect, excess);
+        match self.state.flaw(region, corners) {
+            Some(Flaw::Skinny(sin2)) => self.push_skinny(suspect, corners, sin2),
+            Some(Flaw::Oversized(excess)) => self.state.bad.push_oversized(suspect, excess),
+            None => {}
         }
     }
 
@@ -66,11 +64,11 @@ impl Gcdr<'_> {
         let badness = match self.strategy.order() {
             _ if self.doomed(suspect.0).is_some() => 1.0,
             // By the sine: its square would crowd what is nearly good enough.
-            Order::SmallestAngle => 1.0 - (sin2 / self.sin2_min).sqrt(),
+            Order::SmallestAngle => 1.0 - (sin2 / self.state.sin2_min).sqrt(),
             Order::ShortestEdge => octaves((0..3).map(|i| edge2(corners, i)).fold(f64::INFINITY, f64::min).sqrt()),
             Order::SmallestCircle => octaves(circumcircle(corners).1),
         };
-        self.bad.push_skinny(suspect, badness);
+        self.state.bad.push_skinny(suspect, badness);
     }
 
     fn is_stale(&self, suspect: &Suspect) -> bool {
@@ -84,20 +82,20 @@ impl Gcdr<'_> {
         let (t, vertices) = suspect;
         let Some(region) = self.mesh.topology().region(t) else { return };
         let corners = self.corners(t);
-        let oversized = self.field.excess(region, corners) > 1.0;
-        let skinny = sin2_smallest(corners) < self.sin2_min;
+        let oversized = self.state.field.excess(region, corners) > 1.0;
+        let skinny = sin2_smallest(corners) < self.state.sin2_min;
         let (center, radius) = circumcircle(corners);
-        let too_small = self.field.sizing().min_edge.is_some_and(|h| radius < h);
+        let too_small = self.state.field.sizing().min_edge.is_some_and(|h| radius < h);
         if !oversized && (too_small || skinny && self.is_excused(vertices)) {
             return;
         }
         if self.is_spent() {
-            self.reason = StopReason::VertexBudget;
-            return self.bad.push_skinny(suspect, 1.0);
+            self.state.reason = StopReason::VertexBudget;
+            return self.state.bad.push_skinny(suspect, 1.0);
         }
-        if self.bad.is_stuck() {
-            self.reason = StopReason::NoProgress;
-            return self.bad.push_skinny(suspect, 1.0);
+        if self.state.bad.is_stuck() {
+            self.state.reason = StopReason::NoProgress;
+            return self.state.bad.push_skinny(suspect, 1.0);
         }
         let parent = skinny.then(|| self.latest_of_shortest(vertices));
         if skinny && let Some(piece) = self.doomed(t) {
@@ -112,7 +110,7 @@ impl Gcdr<'_> {
     /// is of type C, which needs no rejected point to be proven.
     fn doomed(&self, t: TriangleId) -> Option<PieceId> {
         let topology = self.mesh.topology();
-        let widest = 1.0 - 2.0 * self.sin2_min;
+        let widest = 1.0 - 2.0 * self.state.sin2_min;
         let stays = |s: &Side| self.origins[topology.apex(*s)] != Origin::Free;
         let is_wide = |s: &Side| {
             let [u, v] = [topology.origin(*s), topology.target(*s)]
@@ -145,12 +143,12 @@ impl Gcdr<'_> {
             return false;
         }
         let [a, b, c] = shortest.map(|v| self.curves_at(v));
-        self.domain.corner_between([&a, &b, &c], [0, 1].map(|i| self.mesh.point(shortest[i]))).is_some()
+        self.state.domain.corner_between([&a, &b, &c], [0, 1].map(|i| self.mesh.point(shortest[i]))).is_some()
     }
 
     fn curves_at(&self, v: VertexId) -> Vec<CurveId> {
         match self.origins[v] {
-            Origin::Input(p) => self.domain.star(p).iter().map(|i| i.curve).collect(),
+            Origin::Input(p) => self.state.domain.star(p).iter().map(|i| i.curve).collect(),
             Origin::OnCurve(curve) => vec![curve],
             Origin::Free => Vec::new(),
         }
@@ -165,7 +163,7 @@ impl Gcdr<'_> {
             return center;
         }
         let topology = self.mesh.topology();
-        let down = |p: Point| scaled(p, 1.0 / self.scale);
+        let down = |p: Point| scaled(p, 1.0 / self.state.scale);
         let corners = self.corners(t);
         let first = (0..3).min_by(|&i, &j| edge2(corners, i).total_cmp(&edge2(corners, j))).expect("three sides");
         let sides = [0, 1, 2].map(|i| t.side_of((first + i) % 3));
@@ -177,11 +175,11 @@ impl Gcdr<'_> {
             corners: sides.map(|s| down(self.mesh.point(topology.origin(s)))),
             across,
             center: down(center),
-            radius: radius / self.scale,
-            reach: reach / self.scale,
-            size: self.field.length_in(region, center) / self.scale,
+            radius: radius / self.state.scale,
+            reach: reach / self.state.scale,
+            size: self.state.field.length_in(region, center) / self.state.scale,
         };
-        let p = scaled(self.strategy.in_disk(&skinny), self.scale);
+        let p = scaled(self.strategy.in_disk(&skinny), self.state.scale);
         let away = p.distance(center);
         if self.strategy.is_free() && away.is_finite() || away <= reach {
             p
@@ -210,7 +208,7 @@ impl Gcdr<'_> {
         let (t, vertices) = suspect;
         let place = self.mesh.point(vertices[0]);
         if !insert::in_range(p) {
-            return self.too_near.push(place);
+            return self.state.too_near.push(place);
         }
         let location = match self.mesh.look_from(t, p) {
             Some(Look::Blocked(side)) => return self.reject(suspect, side, parent),
@@ -218,18 +216,18 @@ impl Gcdr<'_> {
                 return self.reject(suspect, side, parent);
             }
             Some(Look::Seen(location)) => location,
-            None => return self.too_near.push(place),
+            None => return self.state.too_near.push(place),
         };
-        self.mesh.cavity(p, location, &mut self.cavity);
-        if !self.cavity.triangles.contains(&t) {
+        self.mesh.cavity(p, location, &mut self.state.cavity);
+        if !self.state.cavity.triangles.contains(&t) {
             // Rounding took the point out of the triangle's circle, or onto a vertex.
-            return self.too_near.push(place);
+            return self.state.too_near.push(place);
         }
-        let v = self.mesh.fill(p, &self.cavity);
+        let v = self.mesh.fill(p, &self.state.cavity);
         self.origins.push(Origin::Free);
         self.alive += 1;
         self.free += 1;
-        self.counters.add("vertices_free", 1);
+        self.state.counters.add("vertices_free", 1);
         if self.options.record {
             self.record(v, InsertionKind::A, parent);
         }
@@ -239,7 +237,7 @@ impl Gcdr<'_> {
     /// The chosen point is rejected: Definition 2.1.
     fn reject(&mut self, suspect: Suspect, side: Side, parent: Option<VertexId>) {
         let Some(piece) = self.mesh.topology().piece(side) else { return };
-        self.counters.add("rejected", 1);
+        self.state.counters.add("rejected", 1);
         self.encroach(suspect, piece, parent);
     }
 

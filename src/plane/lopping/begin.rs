@@ -6,7 +6,7 @@ use crate::domain::Domain;
 use crate::geometry::Point;
 use crate::ids::{CurveId, Id, IdVec, PieceId, VertexId};
 use crate::plane::balls::Balls;
-use crate::plane::insert::{Degenerate, Delaunay};
+use crate::plane::insert::{Degenerate, Kernel};
 use crate::plane::subcurves::{Carrier, Midpoint, Standing, Subcurves, split_parameter};
 
 /// What stands before there is a triangulation.
@@ -77,12 +77,12 @@ impl<'a> Beginning<'a> {
     }
 
     /// D of what there is. Where all of it lies on one line (a lens, a D), bent pieces are split first.
-    pub(super) fn triangulate(&mut self, midpoint: Midpoint) -> Result<Delaunay, RefineError> {
-        match Delaunay::new(self.points.clone()) {
+    pub(super) fn triangulate(&mut self, midpoint: Midpoint) -> Result<Kernel, RefineError> {
+        match Kernel::new(self.points.clone()) {
             Err(Degenerate::TooFew | Degenerate::Collinear) => self.split_bent(midpoint),
             done => return done.map_err(|why| self.refuse(&why)),
         }
-        Delaunay::new(self.points.clone()).map_err(|why| self.refuse(&why))
+        Kernel::new(self.points.clone()).map_err(|why| self.refuse(&why))
     }
 
     fn refuse(&self, why: &Degenerate) -> RefineError {

@@ -29,7 +29,7 @@ impl Lopping {
         loop {
             let arcs = self.arcs_at(id, radius, arc_turning);
             match self.room_for(id, radius, &arcs) {
-                Room::Tight if radius > self.resolution => radius *= self.options.beta,
+                Room::Tight if radius > self.state.resolution => radius *= self.options.beta,
                 Room::Tight => {
                     let at = self.balls.get(id).center;
                     return self.stop_too_near(at);
@@ -47,9 +47,9 @@ impl Lopping {
     /// The arcs of the kept sectors of a ball at a radius: for each, the directions of its ends and the number of equal arcs.
     fn arcs_at(&self, id: BallId, radius: f64, arc_turning: f64) -> Vec<Sector> {
         let ball = self.balls.get(id);
-        let star = self.domain.star(ball.corner);
+        let star = self.state.domain.star(ball.corner);
         let leaving = |i: usize| -> (VertexId, Vec2) {
-            let piece = self.subcurves.get(ball.spokes[i]);
+            let piece = self.state.subcurves.get(ball.spokes[i]);
             let (end, rim) = if piece.ends[0].0 == ball.corner.0 {
                 (End::Start, piece.ends[1])
             } else {
@@ -65,7 +65,7 @@ impl Lopping {
         };
         let n = ball.spokes.len();
         let kept = |i: usize| {
-            let curve = &self.domain.curves()[star[i].curve];
+            let curve = &self.state.domain.curves()[star[i].curve];
             curve.sides[usize::from(star[i].end == End::Finish)].is_some()
         };
         (0..n)
@@ -94,7 +94,7 @@ impl Lopping {
             if matches!(location, Location::Vertex(_)) {
                 return Room::Tight;
             }
-            self.delaunay.cavity(at, location, &mut self.cavity);
+            self.delaunay.cavity(at, location, &mut self.state.cavity);
             if self.is_crowded(id, radius, at) {
                 return Room::Tight;
             }
@@ -115,7 +115,8 @@ impl Lopping {
         let arc_turning = self.options.corner_arcs.unwrap_or(FRAC_PI_3);
         let nearest = 0.5 * radius * (arc_turning / FRAC_PI_3);
         let topology = self.delaunay.topology();
-        let mut neighbours = self.cavity.triangles.iter().flat_map(|&t| topology.corners(t)).filter(|&v| v != GHOST);
+        let mut neighbours =
+            self.state.cavity.triangles.iter().flat_map(|&t| topology.corners(t)).filter(|&v| v != GHOST);
         neighbours.any(|v| {
             let apart = matches!(self.origins[v], Origin::OnArc(other) if other != id);
             !apart && self.delaunay.point(v).distance(at) < nearest
@@ -124,7 +125,7 @@ impl Lopping {
 
     /// Whether a pseudo midpoint leaves a piece alone.
     fn room_beside(&self, id: BallId, radius: f64, at: Point, piece: PieceId) -> Room {
-        let entry = self.subcurves.get(piece);
+        let entry = self.state.subcurves.get(piece);
         if entry.standing == Standing::Spoke(id) || !self.encroaches(at, piece) {
             return Room::Clear;
         }
@@ -160,9 +161,9 @@ impl Lopping {
                 let ball = self.balls.get_mut(id);
                 let carrier = Carrier::Arc(id, ball.arcs.len() as u32);
                 ball.arcs.push(arc);
-                let piece = self.subcurves.add(carrier, [0.0, 1.0], [from, to], Standing::Ordinary);
+                let piece = self.state.subcurves.add(carrier, [0.0, 1.0], [from, to], Standing::Ordinary);
                 self.balls.get_mut(id).arc_pieces.push(piece);
-                self.suspect(piece);
+                self.state.suspect(piece);
                 from = to;
             }
         }

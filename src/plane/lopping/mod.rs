@@ -37,19 +37,19 @@ mod splitcurve;
 pub(super) mod splittri;
 
 use super::balls::Balls;
-use super::carve::Carver;
 use super::harvest::Harvest;
-use super::insert::{Cavity, Delaunay};
+use super::insert::Kernel;
 pub use super::refined::{RefineError, Refined};
-use super::subcurves::{Midpoint, Subcurves};
-use super::suspects::{self, DETAIL_RAD, Suspect, Suspects};
+use super::refinement::{Refinement, UnitFrame};
+use super::subcurves::Midpoint;
+use super::suspects::{self, DETAIL_RAD, Suspect};
 use crate::domain::Domain;
-use crate::geometry::{self, Point};
+use crate::geometry::Point;
 use crate::ids::{BallId, CurveId, IdVec, PieceId, PointId, TriangleId, VertexId};
-use crate::mesh::{Ball, Mesh, RIM_ROUNDING};
+use crate::mesh::{Ball, Mesh};
 use crate::promise::{EnginePromise, LoppingPromise, Promise};
-use crate::refine::{CONFORMING, Counters, Engine, Stop, StopReason, Until, drive};
-use crate::size::{SizeField, Sizing};
+use crate::refine::{CONFORMING, Engine, StopReason, Until, drive};
+use crate::size::Sizing;
 use crate::watch::{Progress, Watch};
 use begin::Beginning;
 use std::collections::VecDeque;
@@ -132,36 +132,18 @@ enum Origin {
 
 /// The engine, held at a step.
 pub struct Lopping {
-    domain: Domain,
-    /// What the domain was multiplied by.
-    scale: f64,
+    state: Refinement,
     options: Options,
-    field: SizeField,
-    delaunay: Delaunay,
+    delaunay: Kernel,
     origins: IdVec<VertexId, Origin>,
-    subcurves: Subcurves,
     balls: Balls,
     /// Balls that a vertex came into.
     intruded: VecDeque<BallId>,
-    /// Pieces to be looked at, the latest first: its place is still in the cache.
-    suspects: Vec<PieceId>,
     /// Balls whose arcs are due.
     arcs_due: VecDeque<BallId>,
-    /// Triangles with an angle below κ, and triangles too large.
-    bad: Suspects,
     /// Triangles made since regions were last given.
     fresh: Vec<TriangleId>,
     carved: bool,
-    carver: Carver,
-    cavity: Cavity,
-    counters: Counters,
-    reason: StopReason,
-    /// Where something could not be done: below what the coordinates can tell apart.
-    too_near: Vec<Point>,
-    /// sin² κ.
-    sin2_min: f64,
-    /// No edge shorter than this is made on purpose: as far as rounding moves a point of a curve, twice over.
-    resolution: f64,
 }
 
 /// What a step works on; the first that applies.
@@ -177,69 +159,56 @@ enum Rule {
 impl Lopping {
     /// P, its balls, and D of both.
     pub fn start(domain: &Domain, options: &Options) -> Result<Self, RefineError> {
-        let magnitude = geometry::magnitude(domain.bounds());
-        let scale = geometry::unit_scale(magnitude);
-        let domain = domain.scaled(scale);
-        let field = SizeField::new(&options.sizing.scaled(scale), &domain);
-        let balls = Balls::at_birth(&domain, &field);
-        let mut beginning = Beginning::new(&domain, balls);
+        let frame = UnitFrame::new(domain, &options.sizing);
+        let balls = Balls::at_birth(&frame.domain, &frame.field);
+        let mut beginning = Beginning::new(&frame.domain, balls);
         beginning.cut_curves();
-        let delaunay = beginning.triangulate(options.midpoint).map_err(|e| e.scaled(1.0 / scale))?;
+        let delaunay = beginning.triangulate(options.midpoint).map_err(|e| e.scaled(1.0 / frame.scale))?;
         let Beginning { origins, subcurves, balls, .. } = beginning;
-        let sin_min = libm::sin(options.angle_min_rad);
-        let sin_detail = libm::sin(DETAIL_RAD);
+        let [sin_min, sin_detail] = [options.angle_min_rad, DETAIL_RAD].map(libm::sin);
         let patience = suspects::by_angle(1.0 - sin_detail * sin_detail / (sin_min * sin_min));
         let mut lopping = Self {
-            suspects: subcurves.ids().collect(),
+            state: Refinement::new(frame, subcurves, options.angle_min_rad, patience),
             intruded: VecDeque::new(),
             arcs_due: if options.corner_arcs.is_some() { balls.ids().collect() } else { VecDeque::new() },
-            bad: Suspects::new(options.angle_min_rad, patience),
             fresh: Vec::new(),
             carved: false,
-            carver: Carver::default(),
-            cavity: Cavity::default(),
-            counters: Counters::default(),
-            reason: StopReason::Done,
-            too_near: Vec::new(),
-            sin2_min: sin_min * sin_min,
-            resolution: RIM_ROUNDING * magnitude * scale,
             options: options.clone(),
-            domain,
-            scale,
-            field,
             delaunay,
             origins,
-            subcurves,
             balls,
         };
-        lopping.suspects.iter().for_each(|&p| lopping.subcurves.get_mut(p).queued = true);
-        lopping.counters.add("vertices_input", lopping.domain.points().len() as u64);
-        lopping.counters.add("vertices_ball", (lopping.origins.len() - lopping.domain.points().len()) as u64);
+        let state = &mut lopping.state;
+        state.subcurves.ids().collect::<Vec<_>>().into_iter().for_each(|piece| state.suspect(piece));
+        let input = state.domain.points().len();
+        state.counters.add("vertices_input", input as u64);
+        state.counters.add("vertices_ball", (lopping.origins.len() - input) as u64);
         Ok(lopping)
     }
 
     fn first_rule(&mut self) -> Rule {
         // A run that is stopped before there was a valid mesh has nothing to make valid again.
-        let hopeless = self.reason == StopReason::Arithmetic || self.reason == StopReason::Cancelled && !self.carved;
+        let hopeless =
+            self.state.reason == StopReason::Arithmetic || self.state.reason == StopReason::Cancelled && !self.carved;
         if hopeless || self.origins.len() > self.most_vertices() {
             return Rule::Rest;
         }
         if let Some(ball) = self.intruded.pop_front() {
             return Rule::ShrinkBall(ball);
         }
-        if let Some(piece) = self.suspects.pop() {
+        if let Some(piece) = self.state.suspects.pop() {
             return Rule::Look(piece);
         }
         if !self.carved || !self.fresh.is_empty() {
             return Rule::Carve;
         }
-        if self.reason != StopReason::Done {
+        if self.state.reason != StopReason::Done {
             return Rule::Rest;
         }
         if let Some(ball) = self.arcs_due.pop_front() {
             return Rule::PlaceArcs(ball);
         }
-        match self.bad.next(self.origins.len()) {
+        match self.state.bad.next(self.origins.len()) {
             Some(suspect) => Rule::Split(suspect),
             None => Rule::Rest,
         }
@@ -252,44 +221,33 @@ impl Lopping {
 
     /// Whether every piece is an edge that nothing encroaches, and every triangle has its region.
     fn is_conforming(&self) -> bool {
-        self.carved && self.intruded.is_empty() && self.suspects.is_empty() && self.fresh.is_empty()
+        self.carved && self.intruded.is_empty() && self.state.suspects.is_empty() && self.fresh.is_empty()
     }
 
     fn mesh(&self) -> Mesh {
-        let harvest = Harvest { domain: &self.domain, delaunay: &self.delaunay, subcurves: &self.subcurves };
+        let harvest =
+            Harvest { domain: &self.state.domain, delaunay: &self.delaunay, subcurves: &self.state.subcurves };
         let balls = self.balls.ids().map(|id| self.balls.get(id));
         let balls = balls.map(|b| Ball { corner: b.corner, radius: b.radius, why: b.why }).collect();
         Mesh { balls, ..harvest.mesh() }
     }
 
-    fn too_near_error(&self) -> RefineError {
-        RefineError::too_near(self.too_near.first().copied().unwrap_or_default()).scaled(1.0 / self.scale)
-    }
-
     /// Pieces and triangles that still miss a bound, and some of their places, the most crowded pieces first.
     fn owed(&mut self) -> (usize, Vec<Point>) {
         const PLACES: usize = 16;
-        let mut pieces: Vec<(f64, Point)> = self.suspects.iter().map(|&id| self.length_and_place(id)).collect();
+        let mut pieces: Vec<(f64, Point)> = self.state.suspects.iter().map(|&id| self.length_and_place(id)).collect();
         pieces.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
-        let mut owed = self.too_near.len() + pieces.len();
+        let mut owed = pieces.len();
         let mut places: Vec<Point> = pieces.into_iter().map(|(_, at)| at).take(PLACES).collect();
-        let (triangles, more) = self.bad.owed(&self.delaunay, PLACES - places.len());
+        let (triangles, more) = self.state.bad.owed(&self.delaunay, PLACES - places.len());
         owed += triangles;
         places.extend(more);
         (owed, places)
     }
 
     fn length_and_place(&self, id: PieceId) -> (f64, Point) {
-        let [x, y] = self.subcurves.get(id).ends.map(|v| self.delaunay.point(v));
+        let [x, y] = self.state.subcurves.get(id).ends.map(|v| self.delaunay.point(v));
         (x.distance(y), x.midpoint(y))
-    }
-
-    fn count_kernel(&mut self) {
-        let kernel = self.delaunay.counters();
-        self.counters.add("predicates", kernel.orient + kernel.in_circle);
-        self.counters.add("exact_fallbacks", kernel.exact_fallbacks);
-        self.counters.add("walk_steps", kernel.walk_steps);
-        self.counters.add("cavity_triangles", kernel.cavity_triangles);
     }
 }
 
@@ -311,33 +269,31 @@ impl Engine for Lopping {
 
     /// Splits no more triangles; what is needed for a valid mesh is still done.
     fn cancel(&mut self) {
-        if self.reason == StopReason::Done {
-            self.reason = StopReason::Cancelled;
-        }
+        self.state.cancel();
     }
 
     fn progress(&self) -> Progress {
         let phase = if self.carved { "refining" } else { CONFORMING };
-        let queued = self.suspects.len() + self.bad.len();
+        let queued = self.state.suspects.len() + self.state.bad.len();
         Progress { phase, vertices: self.origins.len(), queued }
     }
 
     /// The mesh of the kept regions, in the domain's own scale.
     fn finish(mut self) -> Self::Outcome {
-        if self.reason == StopReason::Arithmetic && !self.is_conforming() {
-            return Err(self.too_near_error());
+        if self.state.reason == StopReason::Arithmetic && !self.is_conforming() {
+            return Err(self.state.too_near_error());
         }
-        let (owed, mut places) = self.owed();
-        places.extend(self.too_near.iter().copied());
-        places.iter_mut().for_each(|p| *p = geometry::scaled(*p, 1.0 / self.scale));
-        let reason = match self.reason {
+        let (owed, places) = self.owed();
+        let reason = match self.state.reason {
             StopReason::Done if !self.is_conforming() => StopReason::VertexBudget,
             reason => reason,
         };
-        let mesh = self.is_conforming().then(|| self.mesh().scaled(1.0 / self.scale));
-        self.count_kernel();
-        let stop = Stop { reason, owed, places, angle_deg: None };
+        let mesh = self.is_conforming().then(|| self.mesh().scaled(1.0 / self.state.scale));
+        let kernel = self.delaunay.counters();
+        self.state.counters.add("walk_steps", kernel.walk_steps);
+        self.state.count_kernel(kernel);
+        let stop = self.state.stop(reason, owed, places);
         let vertices = self.origins.len();
-        Ok(Refined { mesh, vertices, stop, counters: self.counters, insertions: Vec::new() })
+        Ok(Refined { mesh, vertices, stop, counters: self.state.counters, insertions: Vec::new() })
     }
 }

@@ -21,7 +21,7 @@ impl Lopping {
 
     /// splitball: the radius becomes `radius`, and each spoke is cut there.
     pub(super) fn cut_ball(&mut self, id: BallId, radius: f64) {
-        if radius < self.resolution {
+        if radius < self.state.resolution {
             let at = self.balls.get(id).center;
             return self.stop_too_near(at);
         }
@@ -40,7 +40,7 @@ impl Lopping {
         ball.why = BallReason::Encroached;
         let excused = std::mem::take(&mut ball.excused);
         for suspect in excused {
-            self.bad.push_skinny(suspect, 1.0);
+            self.state.bad.push_skinny(suspect, 1.0);
         }
         if self.options.corner_arcs.is_some() {
             self.arcs_due.push_back(id);
@@ -49,14 +49,14 @@ impl Lopping {
 
     /// Cuts a spoke at a smaller radius; the shorter spoke.
     fn cut_spoke(&mut self, ball: BallId, spoke: PieceId, radius: f64) -> Option<PieceId> {
-        let piece = *self.subcurves.get(spoke);
+        let piece = *self.state.subcurves.get(spoke);
         let corner = VertexId(self.balls.get(ball).corner.0);
         let end = if piece.ends[0] == corner { End::Start } else { End::Finish };
         let shape = self.shape(piece.carrier);
         let x = shape.leaves_ball(end, radius, piece.t[0], piece.t[1]).unwrap_or(f64::NAN);
         let [head, tail] = self.split_piece_at(spoke, x, "vertices_ball")?;
         let inner = if end == End::Start { head } else { tail };
-        self.subcurves.get_mut(inner).standing = Standing::Spoke(ball);
+        self.state.subcurves.get_mut(inner).standing = Standing::Spoke(ball);
         Some(inner)
     }
 
@@ -65,13 +65,13 @@ impl Lopping {
         self.balls.get_mut(id).arcs.clear();
         for piece in std::mem::take(&mut self.balls.get_mut(id).arc_pieces) {
             let Some(side) = self.side_of(piece) else {
-                self.subcurves.retire(piece);
+                self.state.subcurves.retire(piece);
                 continue;
             };
             if self.delaunay.topology().piece(side) == Some(piece) {
                 self.delaunay.topology_mut().set_piece(side, None);
             }
-            self.subcurves.retire(piece);
+            self.state.subcurves.retire(piece);
         }
     }
 }

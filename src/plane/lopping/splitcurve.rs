@@ -13,14 +13,14 @@ use crate::refine::StopReason;
 impl Lopping {
     pub(super) fn shape(&self, carrier: Carrier) -> &Curve {
         match carrier {
-            Carrier::Curve(id) => &self.domain.curves()[id].curve,
+            Carrier::Curve(id) => &self.state.domain.curves()[id].curve,
             Carrier::Arc(ball, i) => &self.balls.get(ball).arcs[i as usize],
         }
     }
 
     pub(super) fn side_of(&self, piece: PieceId) -> Option<Side> {
         // The rim of a spoke has a handful of neighbours, its corner as many as there are curves.
-        let piece = self.subcurves.get(piece);
+        let piece = self.state.subcurves.get(piece);
         let [x, y] = piece.ends;
         if piece.is_spoke() && matches!(self.origins[x], Origin::Input(_)) {
             return self.delaunay.topology().side_between(y, x).map(|s| self.delaunay.topology().twin(s));
@@ -28,18 +28,10 @@ impl Lopping {
         self.delaunay.topology().side_between(x, y)
     }
 
-    pub(super) fn suspect(&mut self, piece: PieceId) {
-        let entry = self.subcurves.get_mut(piece);
-        if !entry.queued {
-            entry.queued = true;
-            self.suspects.push(piece);
-        }
-    }
-
     /// Marks a piece as the edge that it is, or splits it where it is encroached or too large.
     pub(super) fn look_at_piece(&mut self, id: PieceId) {
-        self.subcurves.get_mut(id).queued = false;
-        let piece = *self.subcurves.get(id);
+        self.state.subcurves.get_mut(id).queued = false;
+        let piece = *self.state.subcurves.get(id);
         if piece.is_gone() {
             return;
         }
@@ -63,11 +55,11 @@ impl Lopping {
     }
 
     fn is_too_large(&self, id: PieceId) -> bool {
-        let piece = self.subcurves.get(id);
+        let piece = self.state.subcurves.get(id);
         let Carrier::Curve(curve) = piece.carrier else { return false };
-        let within_budget = self.origins.len() < self.options.max_vertices && self.reason == StopReason::Done;
+        let within_budget = self.origins.len() < self.options.max_vertices && self.state.reason == StopReason::Done;
         let [t0, t1] = piece.t;
-        within_budget && !piece.is_spoke() && self.field.edge_too_large(curve, self.shape(piece.carrier), t0, t1)
+        within_budget && !piece.is_spoke() && self.state.field.edge_too_large(curve, self.shape(piece.carrier), t0, t1)
     }
 
     /// Whether a vertex lies in the open diametral circle of a piece.
@@ -76,7 +68,7 @@ impl Lopping {
     /// `x y` and the first edge `a b` that crosses it: y lies not inside the circle of `x a b`, so the angles at a and b sum up to at
     /// least 180°, and the larger is at least 90°; both are 90° only if all four are cocircular: then the edge is flipped.
     fn encroacher(&mut self, id: PieceId) -> Look {
-        let piece = *self.subcurves.get(id);
+        let piece = *self.state.subcurves.get(id);
         let [x, y] = piece.ends;
         let (px, py) = (self.delaunay.point(x), self.delaunay.point(y));
         // Each flip gives x one more neighbour on the same circle, so the degree bounds the flips; the rest is a guard.
@@ -164,18 +156,18 @@ impl Lopping {
 
     /// splitcurve at the point that the midpoint rule chooses.
     pub(super) fn split_piece(&mut self, id: PieceId, z: Option<Point>, why: &'static str) {
-        let piece = *self.subcurves.get(id);
+        let piece = *self.state.subcurves.get(id);
         let t = split_parameter(self.shape(piece.carrier), piece.t, z, self.options.midpoint);
         self.split_piece_at(id, t, why);
     }
 
     /// Splits a piece at a parameter: a vertex, two pieces. `None`, and the run is over, where coordinates cannot hold it.
     pub(super) fn split_piece_at(&mut self, id: PieceId, t: f64, why: &'static str) -> Option<[PieceId; 2]> {
-        let piece = *self.subcurves.get(id);
+        let piece = *self.state.subcurves.get(id);
         let at = self.shape(piece.carrier).point(t);
         let [x, y] = piece.ends.map(|v| self.delaunay.point(v));
         let room = at.distance(x).min(at.distance(y));
-        if !(piece.t[0] < t && t < piece.t[1]) || room < self.resolution {
+        if !(piece.t[0] < t && t < piece.t[1]) || room < self.state.resolution {
             self.stop_too_near(x);
             return None;
         }
@@ -189,14 +181,14 @@ impl Lopping {
         if let Some(side) = side {
             self.delaunay.topology_mut().set_piece(side, None);
         }
-        self.subcurves.retire(id);
+        self.state.subcurves.retire(id);
         self.disturb(at, Some(id));
         let v = self.act(at, origin, why);
         let standing = Standing::Ordinary;
-        let head = self.subcurves.add(piece.carrier, [piece.t[0], t], [piece.ends[0], v], standing);
-        let tail = self.subcurves.add(piece.carrier, [t, piece.t[1]], [v, piece.ends[1]], standing);
-        self.suspect(head);
-        self.suspect(tail);
+        let head = self.state.subcurves.add(piece.carrier, [piece.t[0], t], [piece.ends[0], v], standing);
+        let tail = self.state.subcurves.add(piece.carrier, [t, piece.t[1]], [v, piece.ends[1]], standing);
+        self.state.suspect(head);
+        self.state.suspect(tail);
         if let Carrier::Arc(ball, _) = piece.carrier {
             self.balls.get_mut(ball).arc_pieces.extend([head, tail]);
         }
@@ -220,7 +212,7 @@ impl Lopping {
             self.stop_too_near(place);
             return None;
         }
-        self.delaunay.cavity(at, location, &mut self.cavity);
+        self.delaunay.cavity(at, location, &mut self.state.cavity);
         Some(())
     }
 
@@ -233,14 +225,14 @@ impl Lopping {
                 self.delaunay.topology_mut().set_piece(side, None);
             }
             if Some(piece) != split && (inner || self.encroaches(at, piece)) {
-                self.suspect(piece);
+                self.state.suspect(piece);
             }
         }
     }
 
     /// The cavity's border to search in: within points on one circle it has as many sides as there are points, and as many pieces.
     pub(super) fn sorted_border(&self) -> Vec<Side> {
-        let mut border = self.cavity.border.clone();
+        let mut border = self.state.cavity.border.clone();
         border.sort_unstable();
         border
     }
@@ -249,7 +241,7 @@ impl Lopping {
     pub(super) fn cavity_pieces(&self) -> Vec<(Side, PieceId)> {
         let topology = self.delaunay.topology();
         let mut found: Vec<(PieceId, Side)> = Vec::new();
-        for &t in &self.cavity.triangles {
+        for &t in &self.state.cavity.triangles {
             found.extend((0..3).map(|i| t.side_of(i)).filter_map(|s| Some((topology.piece(s)?, s))));
         }
         found.sort_unstable();
@@ -258,15 +250,15 @@ impl Lopping {
     }
 
     pub(super) fn encroaches(&self, at: Point, piece: PieceId) -> bool {
-        let [x, y] = self.subcurves.get(piece).ends.map(|v| self.delaunay.point(v));
+        let [x, y] = self.state.subcurves.get(piece).ends.map(|v| self.delaunay.point(v));
         in_diametral(x, y, at) == CircleSide::Inside
     }
 
     /// Acts: inserts a point whose cavity has been looked at, and notes the new triangles.
     pub(super) fn act(&mut self, at: Point, origin: Origin, why: &'static str) -> VertexId {
-        let v = self.delaunay.fill(at, &self.cavity);
+        let v = self.delaunay.fill(at, &self.state.cavity);
         self.origins.push(origin);
-        self.counters.add(why, 1);
+        self.state.counters.add(why, 1);
         let topology = self.delaunay.topology();
         self.fresh.extend(topology.sides_from(v).map(Side::triangle));
         v
@@ -277,7 +269,7 @@ impl Lopping {
         let Origin::OnCurve(curve) = origin else { return };
         let Some((id, away)) = self.balls.holding(at) else { return };
         let ball = self.balls.get_mut(id);
-        if self.domain.curves()[curve].ends.contains(&ball.corner) {
+        if self.state.domain.curves()[curve].ends.contains(&ball.corner) {
             return;
         }
         ball.intruder = ball.intruder.min(away);
@@ -285,8 +277,8 @@ impl Lopping {
     }
 
     pub(super) fn stop_too_near(&mut self, at: Point) {
-        self.too_near.push(at);
-        self.reason = StopReason::Arithmetic;
+        self.state.too_near.push(at);
+        self.state.reason = StopReason::Arithmetic;
     }
 }
 

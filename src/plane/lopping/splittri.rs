@@ -2,10 +2,11 @@
 
 use super::{Lopping, Origin, Suspect, suspects};
 use crate::geometry::Point;
-use crate::geometry::triangle::{circumcircle, sin2_smallest};
+use crate::geometry::triangle::circumcircle;
 use crate::ids::{PieceId, TriangleId};
 use crate::plane::carve;
 use crate::plane::insert::{self, Location};
+use crate::plane::refinement::Flaw;
 use crate::plane::triangulation::Side;
 use crate::refine::StopReason;
 
@@ -16,7 +17,7 @@ impl Lopping {
             self.fresh = carve::all_triangles(&self.delaunay);
             self.carved = true;
         }
-        self.carver.carve(&mut self.delaunay, &self.subcurves, self.domain.curves(), &mut self.fresh);
+        self.state.carver.carve(&mut self.delaunay, &self.state.subcurves, self.state.domain.curves(), &mut self.fresh);
         for t in std::mem::take(&mut self.fresh) {
             self.judge(t);
         }
@@ -31,13 +32,10 @@ impl Lopping {
         let Some(region) = self.delaunay.topology().region(t) else { return };
         let corners = self.corners(t);
         let suspect = (t, self.delaunay.topology().corners(t));
-        let sin2 = sin2_smallest(corners);
-        if sin2 < self.sin2_min {
-            return self.bad.push_skinny(suspect, 1.0 - sin2 / self.sin2_min);
-        }
-        let excess = self.field.excess(region, corners);
-        if excess > 1.0 {
-            self.bad.push_oversized(suspect, excess);
+        match self.state.flaw(region, corners) {
+            Some(Flaw::Skinny(sin2)) => self.state.bad.push_skinny(suspect, 1.0 - sin2 / self.state.sin2_min),
+            Some(Flaw::Oversized(excess)) => self.state.bad.push_oversized(suspect, excess),
+            None => {}
         }
     }
 
@@ -55,24 +53,24 @@ impl Lopping {
         let Some(region) = self.delaunay.topology().region(t) else { return };
         let corners = self.corners(t);
         if self.origins.len() >= self.options.max_vertices {
-            self.reason = StopReason::VertexBudget;
-            return self.bad.push_skinny(suspect, 1.0);
+            self.state.reason = StopReason::VertexBudget;
+            return self.state.bad.push_skinny(suspect, 1.0);
         }
-        if self.bad.is_stuck() {
-            self.reason = StopReason::NoProgress;
-            return self.bad.push_skinny(suspect, 1.0);
+        if self.state.bad.is_stuck() {
+            self.state.reason = StopReason::NoProgress;
+            return self.state.bad.push_skinny(suspect, 1.0);
         }
-        if self.options.corner_arcs.is_some() && self.balls.holding_all(corners, self.resolution).is_some() {
+        if self.options.corner_arcs.is_some() && self.balls.holding_all(corners, self.state.resolution).is_some() {
             return;
         }
         let (center, radius) = circumcircle(corners);
-        let too_small = self.field.sizing().min_edge.is_some_and(|h| radius < h);
-        if too_small && self.field.excess(region, corners) <= 1.0 {
+        let too_small = self.state.field.sizing().min_edge.is_some_and(|h| radius < h);
+        if too_small && self.state.field.excess(region, corners) <= 1.0 {
             return;
         }
         match self.balls.holding(center) {
             // A ball excuses angles, not sizes: those it was capped for.
-            Some(_) if self.options.corner_arcs.is_none() && self.field.excess(region, corners) <= 1.0 => {
+            Some(_) if self.options.corner_arcs.is_none() && self.state.field.excess(region, corners) <= 1.0 => {
                 self.excuse(suspect, center);
             }
             _ => self.kill(suspect, center),
@@ -91,23 +89,23 @@ impl Lopping {
         let (t, corners) = suspect;
         let place = self.delaunay.point(corners[0]);
         if !insert::in_range(center) {
-            return self.too_near.push(place);
+            return self.state.too_near.push(place);
         }
         let location = self.delaunay.locate(center, t);
         let vertex = matches!(location, Location::Vertex(_));
         if !vertex {
-            self.delaunay.cavity(center, location, &mut self.cavity);
+            self.delaunay.cavity(center, location, &mut self.state.cavity);
         }
-        if vertex || !self.cavity.triangles.contains(&t) {
+        if vertex || !self.state.cavity.triangles.contains(&t) {
             // Rounding took the circumcenter out of the triangle's own circle.
-            return self.too_near.push(place);
+            return self.state.too_near.push(place);
         }
         let pieces = self.cavity_pieces();
         if let Some(piece) = self.longest_encroached(center, &pieces) {
-            self.counters.add("rejected_circumcenters", 1);
+            self.state.counters.add("rejected_circumcenters", 1);
             self.split_piece(piece, None, "vertices_rejected_circumcenter");
             if !self.is_stale(&suspect) {
-                self.bad.push_skinny(suspect, 0.0);
+                self.state.bad.push_skinny(suspect, 0.0);
             }
             return;
         }
@@ -119,11 +117,11 @@ impl Lopping {
             return self.excuse(suspect, center);
         }
         if hides_spoke || in_ball {
-            return self.too_near.push(place);
+            return self.state.too_near.push(place);
         }
-        let v = self.delaunay.fill(center, &self.cavity);
+        let v = self.delaunay.fill(center, &self.state.cavity);
         self.origins.push(Origin::Free);
-        self.counters.add("vertices_circumcenter", 1);
+        self.state.counters.add("vertices_circumcenter", 1);
         let star: Vec<TriangleId> = self.delaunay.topology().sides_from(v).map(Side::triangle).collect();
         for t in star {
             self.judge(t);
@@ -136,7 +134,7 @@ impl Lopping {
         pieces
             .iter()
             .map(|&(_, piece)| piece)
-            .filter(|&piece| !self.subcurves.get(piece).is_spoke() && self.encroaches(at, piece))
+            .filter(|&piece| !self.state.subcurves.get(piece).is_spoke() && self.encroaches(at, piece))
             .max_by(|&a, &b| length(a).total_cmp(&length(b)).then(b.cmp(&a)))
     }
 }
