@@ -1374,6 +1374,12 @@ fn lines_that_stop_short_of_lines_that_go_on_beyond_the_corner() {
         let area = domain.regions().iter().map(|region| region.area).sum::<f64>();
         assert!((area - (80.0 - PI)).abs() < 1e-9, "{area}");
     }
+    // Two ends that stop short of one line, with a strip between: parallel lines.
+    let bulged = |half: f64, y: f64| Curve::bulge(p(4.0 - half, y), p(4.0 + half, y), 0.3).unwrap();
+    let plate = polygon(&[(0.0, 0.0), (8.0, 0.0), (8.0, 6.0), (0.0, 6.0)]);
+    let domain =
+        drawing(plate.into_iter().chain([bulged(1.0, 3.0), bulged(0.9, 3.001)])).arrange(&options(None)).unwrap();
+    assert_eq!(domain.regions().len(), 1);
     // A wall within an outline that stops short of the other side, and a hook that comes near to its own middle: open lines.
     let plate = polygon(&[(0.0, 0.0), (8.0, 0.0), (8.0, 6.0), (0.0, 6.0)]);
     let wall = line((4.0, 0.0), (4.0, 5.99));

@@ -69,8 +69,9 @@ pub(super) struct Gap {
 pub(super) struct Short {
     pub end: usize,
     pub onto: CurveId,
-    /// The nearest point of the line.
+    /// The nearest point of the line, and its parameter.
     pub at: Point,
+    pub t: f64,
     pub width: f64,
 }
 
@@ -204,7 +205,8 @@ impl Network<'_> {
                 if 0.0 < t && t < 1.0 && is_apart { width } else { f64::INFINITY }
             };
             let (k, width) = boxes.nearest(p, bound(i), away)?;
-            Some(Short { end: i, onto: open[k], at: self.pieces[open[k]].curve.point(foot(k).0), width })
+            let (t, _) = foot(k);
+            Some(Short { end: i, onto: open[k], at: self.pieces[open[k]].curve.point(t), t, width })
         };
         among.iter().filter_map(short).collect()
     }

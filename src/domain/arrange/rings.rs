@@ -37,8 +37,8 @@ enum Via {
     Gap(Gap),
     /// From a free end to the inside of an open line.
     Short(Short),
-    /// From there to an end of the line.
-    Rest,
+    /// From one parameter of a line to another: between its ends and the points that ends stop short of.
+    Part(CurveId, [f64; 2]),
 }
 
 /// Chains that close up where each gap is bridged.
@@ -80,11 +80,25 @@ impl<'n, 'a> Ways<'n, 'a> {
             let ends = [0, 1].map(|end| ways.place_of(Owner::OffPlane(k, end)));
             ways.add(ends, Via::OffPlane(k));
         }
-        for (k, short) in shorts.iter().enumerate() {
-            let foot = ways.foot(k);
-            network.pieces[short.onto].ends.into_iter().for_each(|end| ways.add([foot, end.index()], Via::Rest));
-        }
+        ways.add_parts();
         ways
+    }
+
+    /// Lines that ends stop short of, in parts from one such point to the next.
+    fn add_parts(&mut self) {
+        let mut feet: Vec<(CurveId, f64, usize)> =
+            self.shorts.iter().enumerate().map(|(k, short)| (short.onto, short.t, self.foot(k))).collect();
+        feet.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
+        for feet in feet.chunk_by(|a, b| a.0 == b.0) {
+            let onto = feet[0].0;
+            let [start, end] = self.network.pieces[onto].ends.map(Id::index);
+            let stations =
+                [(0.0, start)].into_iter().chain(feet.iter().map(|&(_, t, foot)| (t, foot))).chain([(1.0, end)]);
+            let stations: Vec<(f64, usize)> = stations.collect();
+            for pair in stations.windows(2) {
+                self.add([pair[0].1, pair[1].1], Via::Part(onto, [pair[0].0, pair[1].0]));
+            }
+        }
     }
 
     fn place_of(&self, owner: Owner) -> usize {
@@ -125,7 +139,7 @@ impl<'n, 'a> Ways<'n, 'a> {
         let mut ring = Ring { gaps: Vec::new(), shorts: Vec::new(), off_plane: BTreeSet::new() };
         for (_, _, via) in via {
             match via {
-                Via::Piece(_) | Via::Rest => {}
+                Via::Piece(_) | Via::Part(..) => {}
                 Via::OffPlane(k) => _ = ring.off_plane.insert(k),
                 Via::Gap(gap) => ring.gaps.push(gap),
                 Via::Short(short) => ring.shorts.push(short),
@@ -167,7 +181,7 @@ impl<'n, 'a> Ways<'n, 'a> {
         Some(steps)
     }
 
-    /// Twice the area within a closed way over its length: the width of a long strip. Of a line in whose inside the way begins, the chord.
+    /// Twice the area within a closed way over its length: the width of a long strip.
     fn width(&self, way: &[(usize, usize, Via)]) -> f64 {
         let origin = self.at(way[0].0);
         let (mut area, mut length) = (0.0, 0.0);
@@ -180,7 +194,15 @@ impl<'n, 'a> Ways<'n, 'a> {
                     area += if piece.ends[0].index() == from { green } else { -green };
                     length += extent(piece.bounds);
                 }
-                Via::OffPlane(_) | Via::Gap(_) | Via::Short(_) | Via::Rest => {
+                Via::Part(_, [t0, t1]) if t0 == t1 => {}
+                Via::Part(id, [t0, t1]) => {
+                    let part = self.network.pieces[id].curve.part(t0, t1);
+                    let green = part.green(origin);
+                    area +=
+                        if a.distance_squared(part.start()) <= a.distance_squared(part.end()) { green } else { -green };
+                    length += extent(part.bounds());
+                }
+                Via::OffPlane(_) | Via::Gap(_) | Via::Short(_) => {
                     area += 0.5 * (a - origin).cross(b - origin);
                     length += a.distance(b);
                 }
