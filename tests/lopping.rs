@@ -10,13 +10,13 @@ use squinch::geometry::Point;
 use squinch::ids::PointId;
 use squinch::mesh::{BallReason, Mesh, quality};
 use squinch::plane::Midpoint;
-use squinch::plane::lopping::demand::{Circles, Demand};
 use squinch::plane::lopping::{self, Options, Refined, Shrinking};
 use squinch::promise::{arc_turning, guaranteed_angle};
 use squinch::refine::{StopReason, Until};
 use squinch::run::request::{Engine, Request, SizeOf, Steiner};
 use squinch::run::{self, Exit, Extent, Outcome, Source};
 use squinch::size::Sizing;
+use squinch::size::estimate::{Asked, Circles, Demand};
 use squinch::verify::{Status, Verdict, verify};
 use squinch::watch::Progress;
 use std::f64::consts::FRAC_PI_3;
@@ -247,10 +247,20 @@ fn balls_answer_to_acute_corners_only() {
     assert_eq!(corners.len(), 1, "{corners:?}");
 }
 
+fn asked(options: &Options, circles: Circles) -> Asked<'_> {
+    Asked {
+        angle_min_rad: options.angle_min_rad,
+        sizing: &options.sizing,
+        circles,
+        corner_arcs: options.corner_arcs.is_some(),
+        bisected: options.midpoint == Midpoint::Bisector,
+    }
+}
+
 /// What is told before a run, and what the run takes.
 fn told_and_taken(drawing: &Drawing, options: &Options) -> (f64, f64) {
     let domain = domain_of(drawing, 0.5);
-    let told = Demand::of(&domain, options, Circles::Empty, &mut |_| true).expect("nobody says stop").vertices();
+    let told = Demand::of(&domain, asked(options, Circles::Empty), &mut |_| true).expect("nobody says stop").vertices();
     (told, refine(&domain, options).mesh.expect("a mesh").nodes.len() as f64)
 }
 
@@ -307,7 +317,7 @@ fn strip(length: f64, width: f64) -> Drawing {
 
 /// What is told of slivers before a run that keeps diametral circles empty, or not.
 fn told(drawing: &Drawing, circles: Circles) -> f64 {
-    let demand = Demand::of(&domain_of(drawing, 0.5), &Options::default(), circles, &mut |_| true);
+    let demand = Demand::of(&domain_of(drawing, 0.5), asked(&Options::default(), circles), &mut |_| true);
     demand.expect("nobody says stop").vertices()
 }
 

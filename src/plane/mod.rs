@@ -1,6 +1,5 @@
 //! The planar kernel and its engines.
 
-mod balls;
 mod carve;
 pub mod constrained;
 pub mod gcdr;

@@ -20,7 +20,7 @@ use super::report::{FailureKind, FailureReport};
 use super::request::{Keep, Overlap, Request};
 use crate::domain::{ArrangeOptions, Domain, Drawing, Repair, RepairKind, Unarranged};
 use crate::geometry::Point;
-use crate::plane::lopping::demand::{Sliver, costly_slivers};
+use crate::size::estimate::{Sliver, costly_slivers};
 use crate::watch::{Stopped, Watch};
 use std::collections::BTreeMap;
 

@@ -14,10 +14,10 @@ use crate::plane;
 use crate::plane::gcdr;
 use crate::plane::gcdr::parameters::radius_edge_of;
 use crate::plane::gcdr::steiner::{self, Disks, SteinerStrategy};
-use crate::plane::lopping::demand::{Circles, Demand};
 use crate::plane::lopping::{self, RefineError, Refined, Shrinking};
 use crate::promise::{Promise, arc_turning};
 use crate::refine::{Stop, StopReason, Until};
+use crate::size::estimate::{Asked, Circles, Demand};
 use crate::size::{ByPlace, Given, SAMPLE_GRADE, Sizing, Source as SizeSource};
 use crate::verify::{self, Check, Verdict, verify};
 use crate::watch::{Progress, Stopped, Watch};
@@ -144,7 +144,14 @@ impl Plan {
 
     fn demand(&self, domain: &Domain, watch: &mut Watch) -> Result<Demand, Stopped> {
         let circles = if self.gcdr.is_some() { Circles::Any } else { Circles::Empty };
-        Demand::of(domain, &self.options, circles, watch)
+        let asked = Asked {
+            angle_min_rad: self.options.angle_min_rad,
+            sizing: &self.options.sizing,
+            circles,
+            corner_arcs: self.options.corner_arcs.is_some(),
+            bisected: self.options.midpoint == plane::Midpoint::Bisector,
+        };
+        Demand::of(domain, asked, watch)
     }
 
     /// Drives the engine on a domain whose curves turn at most τ, to the angle asked for.

@@ -3,6 +3,7 @@
 //! A [`Sizing`] is what is asked; [`SizeField`] is the same, resolved against a domain, and answers at a place. Engine and judge ask
 //! the same field, so that what was asked is what is checked.
 
+pub mod estimate;
 mod expression;
 mod given;
 

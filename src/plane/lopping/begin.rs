@@ -1,11 +1,11 @@
 //! The beginning: P, the points where curves leave the balls of their ends (splitball(p, 1)), and D of both.
 
+use super::balls::Balls;
 use super::{Origin, RefineError};
 use crate::curve::End;
 use crate::domain::Domain;
 use crate::geometry::Point;
 use crate::ids::{CurveId, Id, IdVec, PieceId, VertexId};
-use crate::plane::balls::Balls;
 use crate::plane::insert::{Degenerate, Kernel};
 use crate::plane::subcurves::{Carrier, Midpoint, Standing, Subcurves, split_parameter};
 

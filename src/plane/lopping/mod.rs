@@ -29,14 +29,13 @@
 //! Termination is Corollary 3's for κ below [`guaranteed_angle`]; beyond it the vertex budget ends what does not end by itself. The
 //! result says which it was. A piece that coordinates cannot split any more ends the run with its place.
 
+mod balls;
 mod begin;
 mod corner_arcs;
-pub mod demand;
 mod splitball;
 mod splitcurve;
 pub(super) mod splittri;
 
-use super::balls::Balls;
 use super::harvest::Harvest;
 use super::insert::Kernel;
 pub use super::refined::{RefineError, Refined};
@@ -51,6 +50,7 @@ use crate::promise::{EnginePromise, LoppingPromise, Promise};
 use crate::refine::{CONFORMING, Engine, StopReason, Until, drive};
 use crate::size::Sizing;
 use crate::watch::{Progress, Watch};
+use balls::Balls;
 use begin::Beginning;
 use std::collections::VecDeque;
 use std::f64::consts::FRAC_PI_3;

@@ -18,13 +18,12 @@
 //!
 //! Where no stretch is sure, runs take some ten times as many.
 
-use super::{Midpoint, Options};
+use super::{SizeField, Sizing};
 use crate::curve::{Curve, End};
 use crate::domain::{Domain, DomainCurve};
 use crate::geometry::boxes::BoxHierarchy;
 use crate::geometry::{Point, Rect, Vec2};
 use crate::ids::{CurveId, Id, IdVec, PointId};
-use crate::size::SizeField;
 use crate::watch::{Progress, Stopped, Watch};
 use std::f64::consts::SQRT_2;
 
@@ -71,6 +70,19 @@ pub enum Circles {
     Any,
 }
 
+/// What is asked of a mesh, as far as it tells how many vertices that takes.
+#[derive(Clone, Copy, Debug)]
+pub struct Asked<'a> {
+    /// κ.
+    pub angle_min_rad: f64,
+    pub sizing: &'a Sizing,
+    pub circles: Circles,
+    /// Whether arcs stand around sharp corners.
+    pub corner_arcs: bool,
+    /// Whether curves are split at the bisectors of their chords.
+    pub bisected: bool,
+}
+
 /// How many vertices a mesh takes at least, and where.
 #[derive(Clone, Debug, Default)]
 pub struct Demand {
@@ -87,12 +99,12 @@ impl Demand {
     ///
     /// # Errors
     /// [`Stopped`] where the watch says so.
-    pub fn of(domain: &Domain, options: &Options, circles: Circles, watch: &mut Watch) -> Result<Self, Stopped> {
+    pub fn of(domain: &Domain, asked: Asked, watch: &mut Watch) -> Result<Self, Stopped> {
         let mut demand = Self::default();
-        demand.add_sizes(domain, &SizeField::new(&options.sizing, domain));
-        let radii = if options.corner_arcs.is_some() { 1.0 } else { EXCUSED_RADII };
+        demand.add_sizes(domain, &SizeField::new(asked.sizing, domain));
+        let radii = if asked.corner_arcs { 1.0 } else { EXCUSED_RADII };
         let survey = Survey::until(domain, radii, watch, |_| false)?;
-        let price = Price { survey: &survey, options, circles };
+        let price = Price { survey: &survey, asked };
         let found = survey.found.iter().filter(|sliver| sliver.kept);
         let slivers: Vec<(f64, Sliver)> = found.map(|sliver| (price.vertices(sliver), *sliver)).collect();
         let mut sides: IdVec<CurveId, [f64; 2]> = vec![[0.0; 2]; domain.curves().len()].into();
@@ -187,15 +199,14 @@ impl Sliver {
 /// What slivers take at least.
 struct Price<'a> {
     survey: &'a Survey<'a>,
-    options: &'a Options,
-    circles: Circles,
+    asked: Asked<'a>,
 }
 
 impl Price<'_> {
     /// Vertices on one side of a sliver.
     fn vertices(&self, sliver: &Sliver) -> f64 {
         let rough = CAUTION * (sliver.length / self.longest(sliver.width) - 1.0).max(0.0);
-        if rough > 0.0 && self.circles == Circles::Any && self.survey.lies_in_corner(sliver) {
+        if rough > 0.0 && self.asked.circles == Circles::Any && self.survey.lies_in_corner(sliver) {
             return 0.0;
         }
         if rough < CHEAP { rough } else { self.on_stretch(sliver, 0) }
@@ -203,12 +214,12 @@ impl Price<'_> {
 
     /// The longest edge beside a place of some width.
     fn longest(&self, width: f64) -> f64 {
-        let slope = libm::tan(self.options.angle_min_rad);
-        let factor = match self.circles {
+        let slope = libm::tan(self.asked.angle_min_rad);
+        let factor = match self.asked.circles {
             Circles::Empty => 1.0 / slope + slope,
             Circles::Any => 2.0 / slope,
         };
-        (factor * width).max(2.0 * self.options.sizing.min_edge.unwrap_or(0.0))
+        (factor * width).max(2.0 * self.asked.sizing.min_edge.unwrap_or(0.0))
     }
 
     /// Vertices on a stretch, in parts where it is not sure what lies beside the whole.
@@ -224,9 +235,9 @@ impl Price<'_> {
     /// The longest piece of a curve that is no longer than `longest`, where the curve is halved, and its halves are, and so on.
     fn piece(&self, id: CurveId, longest: f64) -> f64 {
         let DomainCurve { curve, ends, .. } = &self.survey.domain.curves()[id];
-        let bisected = self.circles == Circles::Empty
-            && self.options.midpoint == Midpoint::Bisector
-            && self.options.sizing.min_edge.is_none()
+        let bisected = self.asked.circles == Circles::Empty
+            && self.asked.bisected
+            && self.asked.sizing.min_edge.is_none()
             && matches!(curve, Curve::Line(_) | Curve::Arc(_))
             && ends.iter().all(|&end| self.survey.ball(end) == 0.0);
         if !bisected {
