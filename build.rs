@@ -14,12 +14,13 @@ fn main() {
     );
 }
 
-/// Features that are on, in the order of their names.
+/// Features that are on, in the order of their names, but for those that every program has.
 fn features() -> String {
     let on = |(key, _): (String, String)| {
         key.strip_prefix("CARGO_FEATURE_").map(|name| name.to_lowercase().replace('_', "-"))
     };
-    let mut features: Vec<String> = env::vars().filter_map(on).filter(|name| name != "default").collect();
+    let mut features: Vec<String> =
+        env::vars().filter_map(on).filter(|name| !["default", "cli", "parallel"].contains(&&name[..])).collect();
     features.sort();
     if features.is_empty() { "none".into() } else { features.join(", ") }
 }

@@ -7,6 +7,7 @@ use squinch::cad::truck::drawing_of_truck_face;
 use squinch::export::{Format, WriteOptions, encode};
 use squinch::run::request::Request;
 use squinch::run::{Exit, Extent, run_drawing};
+use squinch::watch::no_clock;
 use std::error::Error;
 use truck_modeling::{Face, Point3, Rad, Vector3, Wire, builder};
 
@@ -14,7 +15,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let path = std::env::args().nth(1).unwrap_or_else(|| "truck_face.vtu".into());
     let drawing = drawing_of_truck_face(&face()?)?;
     let request = Request { max_edge: Some(0.4), ..Request::default() };
-    let outcome = run_drawing(&drawing, &request, Extent::Whole(&mut |_progress| true));
+    let outcome = run_drawing(&drawing, &request, Extent::Whole(&mut |_progress| true), &no_clock);
     let (Some(mesh), Exit::Done) = (&outcome.mesh, outcome.exit) else {
         return Err(format!("no mesh that keeps its promises: {:?}", outcome.report.failure).into());
     };

@@ -47,5 +47,6 @@ pub mod promise;
 pub mod refine;
 pub mod run;
 pub mod size;
+pub mod threads;
 pub mod verify;
 pub mod watch;

@@ -1,9 +1,17 @@
 //! What long work tells and asks between its steps: how far it has come, and whether to go on.
 //!
-//! The library has no clock. Whoever calls it may have one, or a count that must not be passed: then the watch says stop.
+//! The library has no clock. Whoever calls it may have one ([`Clock`]), or a count that must not be passed: then the watch says stop.
 
 /// Asked between the steps of long work, a few microseconds to a few milliseconds apart; `false` ends the work.
 pub type Watch<'a> = dyn FnMut(&Progress) -> bool + 'a;
+
+/// Seconds since a moment of the caller's choice, never less than before.
+pub type Clock<'a> = dyn Fn() -> f64 + 'a;
+
+/// The clock of a caller that has none: no time passes.
+pub fn no_clock() -> f64 {
+    0.0
+}
 
 /// How far the work has come.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

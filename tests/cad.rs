@@ -12,6 +12,7 @@ use squinch::import::{self, Format, Options, step};
 use squinch::mesh::Mesh;
 use squinch::run::request::Request;
 use squinch::run::{Exit, Extent, Outcome, Plan, Source, run, run_drawing};
+use squinch::watch::no_clock;
 use std::f64::consts::PI;
 use std::fmt::Write;
 
@@ -248,7 +249,7 @@ fn has_area(wanted: f64, shape: impl Fn(&mut Step)) {
 
 fn meshed(text: &str, request: &Request) -> Outcome {
     let source = Source { path: "part.step", bytes: text.as_bytes(), format: None, nodes: None, of_many: false };
-    let outcome = run(&source, request, Extent::Whole(&mut |_| true));
+    let outcome = run(&source, request, Extent::Whole(&mut |_| true), &no_clock);
     assert_eq!(outcome.exit, Exit::Done, "{:?}", outcome.report.failure);
     outcome
 }
@@ -773,7 +774,7 @@ mod truck {
     fn a_face_comes_back_as_a_mesh_in_space() {
         let face = face();
         let drawing = drawing_of_truck_face(&face).unwrap();
-        let outcome = run_drawing(&drawing, &Request::default(), Extent::Whole(&mut |_| true));
+        let outcome = run_drawing(&drawing, &Request::default(), Extent::Whole(&mut |_| true), &no_clock);
         assert_eq!(outcome.exit, Exit::Done, "{:?}", outcome.report.failure);
         let mesh = outcome.mesh.as_ref().unwrap();
         let frame = drawing.frame.unwrap();

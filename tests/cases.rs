@@ -3,6 +3,7 @@
 use squinch::import::Format;
 use squinch::run::case::Case;
 use squinch::run::{Exit, Extent, Source, run};
+use squinch::watch::no_clock;
 use std::fs;
 use std::path::PathBuf;
 
@@ -19,7 +20,7 @@ fn every_case_ends_with_a_mesh_at_a_limit_or_with_a_located_refusal() {
         let (bytes, nodes) = case.bytes().unwrap_or_else(|e| panic!("{name}: {e}"));
         let format = case.input.format.as_deref().and_then(Format::from_name);
         let source = Source { path: &case.input.name, bytes: &bytes, format, nodes: nodes.as_deref(), of_many: false };
-        let outcome = run(&source, &case.request, Extent::Whole(&mut |_| true));
+        let outcome = run(&source, &case.request, Extent::Whole(&mut |_| true), &no_clock);
         assert_ne!(outcome.exit, Exit::Bug, "{name}: {:?}", outcome.report.failure);
         match &outcome.report.failure {
             None if outcome.exit == Exit::Missed => assert!(outcome.report.stop.is_some(), "{name}"),

@@ -7,6 +7,7 @@ use squinch::mesh::{Mesh, quality};
 use squinch::run::request::{Order, Request};
 use squinch::run::{self, Exit, Extent, Outcome, Source};
 use squinch::verify::Status;
+use squinch::watch::no_clock;
 
 /// A run of an outline to order 2.
 fn meshed(outline: &str, request: Request) -> Outcome {
@@ -17,7 +18,7 @@ fn meshed(outline: &str, request: Request) -> Outcome {
         nodes: None,
         of_many: false,
     };
-    let outcome = run::run(&source, &request, Extent::Whole(&mut |_| true));
+    let outcome = run::run(&source, &request, Extent::Whole(&mut |_| true), &no_clock);
     assert_eq!(outcome.exit, Exit::Done, "{:?}", outcome.report.promise);
     outcome
 }

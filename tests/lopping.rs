@@ -18,7 +18,7 @@ use squinch::run::{self, Exit, Extent, Outcome, Source};
 use squinch::size::Sizing;
 use squinch::size::estimate::{Asked, Circles, Demand};
 use squinch::verify::{Status, Verdict, verify};
-use squinch::watch::Progress;
+use squinch::watch::{Progress, no_clock};
 use std::f64::consts::FRAC_PI_3;
 
 fn refine(domain: &Domain, options: &Options) -> Refined {
@@ -368,7 +368,7 @@ fn each_kind_of_sliver_is_told_to_within_a_few_times() {
 
 fn run(drawing: &str, request: &Request) -> Outcome {
     let source = Source { path: "a.json", bytes: drawing.as_bytes(), format: None, nodes: None, of_many: false };
-    run::run(&source, request, Extent::Whole(&mut |_| true))
+    run::run(&source, request, Extent::Whole(&mut |_| true), &no_clock)
 }
 
 #[test]

@@ -6,6 +6,7 @@ use squinch::import::mesh::{self, MeshFile};
 use squinch::import::{self, Format, ImportError, Options};
 use squinch::run::request::{LineTypes, LooseEnds, Request, Strokes, Switch};
 use squinch::run::{Exit, Extent, Outcome, Source, run};
+use squinch::watch::no_clock;
 use std::time::{Duration, Instant};
 
 /// Far more than any of these files takes, on a slow machine and without optimisation.
@@ -41,7 +42,7 @@ fn meshed(name: &str, bytes: &[u8], format: Option<Format>) -> Outcome {
 fn meshed_by(name: &str, bytes: &[u8], format: Option<Format>, request: Request) -> Outcome {
     let request = Request { max_vertices: 2000, timeout: Some(10.0), far_field: 2.0, ..request };
     let source = Source { path: name, bytes, format, nodes: None, of_many: false };
-    soon(name, || run(&source, &request, Extent::Whole(&mut |_| true)))
+    soon(name, || run(&source, &request, Extent::Whole(&mut |_| true), &no_clock))
 }
 
 /// Mesh or refusal, and every refusal says what, and offers a way out.

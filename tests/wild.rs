@@ -5,6 +5,7 @@ use squinch::generate::known::{self, Known, Near};
 use squinch::geometry::Vec2;
 use squinch::run::request::Request;
 use squinch::run::{Exit, Extent, run_drawing};
+use squinch::watch::no_clock;
 
 fn arranged(drawing: &Drawing) -> Domain {
     let domain = drawing.arrange(&ArrangeOptions::default()).unwrap_or_else(|e| panic!("{e}"));
@@ -77,7 +78,7 @@ fn lenses_between_arcs_have_their_area_far_from_the_origin() {
 fn powers_of_two_change_no_bit_of_a_mesh() {
     let request = Request { max_vertices: 20_000, ..Request::default() };
     for (name, known) in families() {
-        let run = |known: &Known| run_drawing(&known.drawing, &request, Extent::Whole(&mut |_| true));
+        let run = |known: &Known| run_drawing(&known.drawing, &request, Extent::Whole(&mut |_| true), &no_clock);
         let plain = run(&known);
         assert_eq!(plain.exit, Exit::Done, "{name}: {:?}", plain.report.failure);
         let factor = 2f64.powi(-40);

@@ -6,7 +6,7 @@ use super::files::{Input, Staged};
 use super::mesh::{encode, hold_order, mesh_format};
 use super::options::{Options, Resolved};
 use super::writing::Writing;
-use super::{Halt, Volume};
+use super::{Halt, Volume, clock};
 use clap::Args;
 pub use record::Line;
 use record::{Desk, Record};
@@ -143,7 +143,7 @@ impl Batch {
             }
         };
         std::thread::scope(|scope| {
-            for _ in 0..rayon::current_num_threads().min(jobs.len()) {
+            for _ in 0..squinch::threads::count().min(jobs.len()) {
                 let spawned = std::thread::Builder::new().stack_size(STACK).spawn_scoped(scope, work);
                 spawned.expect("the system has room for a thread");
             }
@@ -169,7 +169,8 @@ impl Batch {
 
     fn mesh(&self, job: &Job, request: &Request, format: Option<import::Format>) -> Result<Line, FailureReport> {
         let input = open(job, format)?;
-        let outcome = run::run(&Source { of_many: true, ..input.source() }, request, Extent::Whole(&mut |_| true));
+        let outcome =
+            run::run(&Source { of_many: true, ..input.source() }, request, Extent::Whole(&mut |_| true), &clock());
         if outcome.exit == Exit::Bug {
             self.keep_case(job, request, format, &run::ending(&outcome));
         }

@@ -2,7 +2,7 @@
 
 use super::files::{Input, Staged, unwritable};
 use super::options::{Options, Resolved};
-use super::{Halt, Volume, remember, say};
+use super::{Halt, Volume, clock, remember, say};
 use clap::Args;
 use squinch::domain::Domain;
 use squinch::import::mesh::{self, MeshFile};
@@ -102,7 +102,8 @@ impl Check {
 /// The domain that a mesh is to be of, and what is asked of it.
 fn against(input: &Input, request: &Request, report: &mut Report) -> Result<(Domain, Plan), Halt> {
     remember(input, request);
-    let watch = &mut run::timer(request);
+    let clock = clock();
+    let watch = &mut run::timer(request, &clock);
     let mut stages = || {
         let drawing = run::read(&input.source(), request)?;
         let arranged = run::arrange(&drawing, request, watch)?;

@@ -2,7 +2,7 @@
 
 use super::files::{self, Input, Staged, unwritable};
 use super::options::{Options, Resolved};
-use super::{Halt, Volume, check, remember};
+use super::{Halt, Volume, check, clock, remember};
 use clap::{Args, ValueEnum};
 use serde::Serialize;
 use squinch::canvas::Canvas;
@@ -125,7 +125,8 @@ impl Draw {
     }
 
     fn stage(&self, input: &Input, request: &Request) -> Result<Canvas, FailureReport> {
-        let watch: &mut Watch = &mut run::timer(request);
+        let clock = clock();
+        let watch: &mut Watch = &mut run::timer(request, &clock);
         let drawing = run::read(&input.source(), request)?;
         let arranged = run::arrange(&drawing, request, watch);
         let mut picture = self.picture(drawing.title.clone(), self.shown() != Stage::Mesh);

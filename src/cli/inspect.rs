@@ -2,7 +2,7 @@
 
 use super::files::{self, Input};
 use super::options::{Options, Resolved};
-use super::{Halt, Volume, remember, say};
+use super::{Halt, Volume, clock, remember, say};
 use clap::Args;
 use serde::Serialize;
 use squinch::domain::{ArrangeOptions, Domain, Drawing, DrawnCurve, FaceInfo, Layer, Loose, Repair, Skipped};
@@ -35,7 +35,8 @@ impl Inspect {
             Ok(drawing) => drawing,
             Err(failure) => return Err(Halt::Failure(Box::new(failure), Some(Box::new(input)))),
         };
-        let watch = &mut run::timer(&request);
+        let clock = clock();
+        let watch = &mut run::timer(&request, &clock);
         let arranged = run::arrange(&drawing, &request, watch);
         let unarranged = arranged.as_ref().err().map(|failure| failure.kind.exit());
         let mut findings = Findings::new(&input.path, &drawing, arranged);

@@ -4,7 +4,7 @@ use super::check::REQUEST_STAMP;
 use super::files::{self, Input, Staged, unwritable};
 use super::options::{Options, Resolved};
 use super::writing::Writing;
-use super::{Halt, Volume, remember, say, write_case};
+use super::{Halt, Volume, clock, remember, say, write_case};
 use clap::Args;
 use squinch::domain::RepairKind;
 use squinch::export::{self, Format, WriteOptions};
@@ -153,7 +153,7 @@ pub fn mesh_with_progress(input: &Input, request: &Request, volume: Volume) -> O
         bar.tell(progress);
         true
     };
-    run::run(&input.source(), request, Extent::Whole(&mut watch))
+    run::run(&input.source(), request, Extent::Whole(&mut watch), &clock())
 }
 
 /// A mesh as the bytes of its files, stamped with what it was asked for, and the tolerance where that had to be raised.

@@ -23,6 +23,7 @@ use squinch::run::request::Request;
 use std::path::Path;
 use std::process::ExitCode;
 use std::sync::{Mutex, PoisonError};
+use std::time::Instant;
 
 /// Provably good triangle meshes of domains with curved boundaries, verified after every run.
 #[derive(Parser)]
@@ -200,4 +201,10 @@ fn write_case(outcome: &str, kind: &str) {
         Ok(()) => say::help(&format!("please send us {name}; `squinch replay {name}` repeats the run")),
         Err(error) => say::error(&format!("the case file could not be written: {error}")),
     }
+}
+
+/// Seconds from now on.
+fn clock() -> impl Fn() -> f64 {
+    let start = Instant::now();
+    move || start.elapsed().as_secs_f64()
 }

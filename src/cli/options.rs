@@ -210,9 +210,7 @@ impl Options {
         if let Some(threads) = all.threads {
             // More threads than cores only cost their stacks: the bytes of the result are the same with any number.
             let cores = std::thread::available_parallelism().map_or(1, usize::from);
-            let pool =
-                rayon::ThreadPoolBuilder::new().num_threads(usize::try_from(threads).unwrap_or(usize::MAX).min(cores));
-            pool.build_global().map_err(usage)?;
+            squinch::threads::set_count(usize::try_from(threads).unwrap_or(usize::MAX).min(cores));
         }
         let input_format = all.input_format.as_deref().map(input_format).transpose()?;
         Ok(Resolved { request, input_format })

@@ -2,7 +2,7 @@
 
 use super::files::{self, Input};
 use super::mesh::mesh_with_progress;
-use super::{Halt, Volume, remember, say};
+use super::{Halt, Volume, clock, remember, say};
 use clap::Args;
 use squinch::import::Format;
 use squinch::run::case::Case;
@@ -51,7 +51,7 @@ impl Replay {
             tell_version(&case);
         }
         let outcome = match self.until {
-            Some(steps) => run::run(&input.source(), &case.request, Extent::Steps(steps)),
+            Some(steps) => run::run(&input.source(), &case.request, Extent::Steps(steps), &clock()),
             None => mesh_with_progress(&input, &case.request, volume),
         };
         if let Some(failure) = &outcome.report.failure {

@@ -433,7 +433,8 @@ fn stop_row(report: &Report, row: &dyn Fn(&str, &str)) {
     let reason = match stop.reason {
         StopReason::Done => return,
         StopReason::VertexBudget => "the vertex budget ran out",
-        StopReason::Cancelled => "the time ran out",
+        StopReason::Cancelled => "it was cancelled",
+        StopReason::TimedOut => "the time ran out",
         StopReason::Arithmetic => "coordinates cannot be told apart any more",
         StopReason::NoProgress => "the angles got no larger",
     };

@@ -30,8 +30,8 @@
 use crate::geometry::Frame;
 use crate::ids::{Id, NameId, RegionId};
 use crate::mesh::{BallReason, CurveEdge, Mesh};
+use crate::threads;
 use base64::Engine;
-use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::io::{self, Write};
 
@@ -254,7 +254,9 @@ impl<'a> Array<'a> {
 
 /// Header (number of blocks, block size, size of a last partial block, compressed sizes) and blocks, each as base64.
 fn write_compressed(bytes: &[u8], out: &mut impl Write) -> io::Result<()> {
-    let blocks: Vec<Vec<u8>> = bytes.par_chunks(BLOCK).map(compressed).collect::<io::Result<_>>()?;
+    let blocks: Vec<&[u8]> = bytes.chunks(BLOCK).collect();
+    let blocks: Vec<Vec<u8>> =
+        threads::map(&blocks, |block| compressed(block)).into_iter().collect::<io::Result<_>>()?;
     let mut header = vec![blocks.len() as u64, BLOCK as u64, (bytes.len() % BLOCK) as u64];
     header.extend(blocks.iter().map(|b| b.len() as u64));
     let header: Vec<u8> = header.into_iter().flat_map(u64::to_le_bytes).collect();

@@ -176,8 +176,12 @@ pub enum StopReason {
     Done,
     #[serde(rename = "vertex budget")]
     VertexBudget,
-    #[serde(rename = "timeout")]
+    /// The watch said stop.
+    #[serde(rename = "cancelled")]
     Cancelled,
+    /// It did when the time that was asked for had passed.
+    #[serde(rename = "timeout")]
+    TimedOut,
     /// Features nearer to each other than the coordinates can tell apart.
     #[serde(rename = "arithmetic")]
     Arithmetic,

@@ -89,7 +89,8 @@ pub fn ending(outcome: &Outcome) -> String {
         Some(StopReason::Done) | None if broken.is_empty() => "done".into(),
         Some(StopReason::Done) | None => format!("missed: {}", broken.join(", ")),
         Some(StopReason::VertexBudget) => "stopped: vertex budget".into(),
-        Some(StopReason::Cancelled) => "stopped: timeout".into(),
+        Some(StopReason::TimedOut) => "stopped: timeout".into(),
+        Some(StopReason::Cancelled) => "stopped: cancelled".into(),
         Some(StopReason::Arithmetic) => "stopped: arithmetic".into(),
         Some(StopReason::NoProgress) => "stopped: no progress".into(),
     }
@@ -153,7 +154,9 @@ pub fn no_mesh(stop: &Stop, more: &str) -> FailureReport {
         StopReason::VertexBudget => {
             ("the vertex budget ended before there was a valid mesh", "give more by --max-vertices".into())
         }
-        StopReason::Cancelled => ("the run was stopped before there was a valid mesh", format!("give more by {more}")),
+        StopReason::Cancelled | StopReason::TimedOut => {
+            ("the run was stopped before there was a valid mesh", format!("give more by {more}"))
+        }
         StopReason::Done | StopReason::Arithmetic | StopReason::NoProgress => (
             "features are nearer to each other than the coordinates can tell apart",
             "move the drawing nearer to the origin, or weld by a larger --tolerance".into(),

@@ -21,12 +21,11 @@ use crate::mesh::quality::Quality;
 use crate::plane::lopping::Refined;
 use crate::refine::{StopReason, Until};
 use crate::verify::Verdict;
-use crate::watch::{Progress, Watch};
+use crate::watch::{Clock, Progress, Watch};
 use exit::exit_of;
 use healing::Healing;
 use report::{FailureKind, FailureReport, MeshReport, PromiseReport, Report, StopReport};
 use request::{Order, Request};
-use std::time::{Duration, Instant};
 
 /// What came of a run: as much of it as there is.
 #[derive(Debug)]
@@ -47,24 +46,24 @@ pub enum Extent<'a> {
     Steps(u64),
 }
 
-/// Reads, arranges, refines and judges.
-pub fn run(source: &Source, request: &Request, extent: Extent) -> Outcome {
+/// Reads, arranges, refines and judges. `clock` tells the seconds of the report, and when the time asked for is over.
+pub fn run(source: &Source, request: &Request, extent: Extent, clock: &Clock) -> Outcome {
     let mut outcome = Outcome::begun(source.path, request);
-    let start = Instant::now();
+    let begun = clock();
     let drawing = read(source, request);
-    outcome.report.seconds.read = start.elapsed().as_secs_f64();
+    outcome.report.seconds.read = clock() - begun;
     match drawing {
-        Ok(drawing) => outcome.go_on(&drawing, request, extent, start),
+        Ok(drawing) => outcome.go_on(&drawing, request, extent, Timer { clock, begun, request }),
         Err(failure) => outcome.fail(failure),
     }
-    outcome.report.seconds.total = start.elapsed().as_secs_f64();
+    outcome.report.seconds.total = clock() - begun;
     outcome
 }
 
 /// The run from a drawing on.
-pub fn run_drawing(drawing: &Drawing, request: &Request, extent: Extent) -> Outcome {
+pub fn run_drawing(drawing: &Drawing, request: &Request, extent: Extent, clock: &Clock) -> Outcome {
     let mut outcome = Outcome::begun(&drawing.title, request);
-    outcome.go_on(drawing, request, extent, Instant::now());
+    outcome.go_on(drawing, request, extent, Timer { clock, begun: clock(), request });
     outcome
 }
 
@@ -79,14 +78,25 @@ impl Outcome {
         self.report.failure = Some(failure);
     }
 
-    fn go_on(&mut self, drawing: &Drawing, request: &Request, extent: Extent, begun: Instant) {
-        let mut timer = timer_from(begun, request);
+    fn go_on(&mut self, drawing: &Drawing, request: &Request, extent: Extent, timer: Timer) {
+        let mut timed_out = false;
         let ended = match extent {
-            Extent::Whole(watch) => self.stages(drawing, request, &mut |p| watch(p) && timer(p), None),
-            Extent::Steps(steps) => self.stages(drawing, request, &mut |_| true, Some(steps)),
+            Extent::Whole(watch) => {
+                let mut in_time = |progress: &Progress| {
+                    let goes_on = watch(progress);
+                    timed_out |= goes_on && timer.is_over();
+                    goes_on && !timed_out
+                };
+                self.stages(drawing, request, &mut in_time, None, timer.clock)
+            }
+            Extent::Steps(steps) => self.stages(drawing, request, &mut |_| true, Some(steps), timer.clock),
         };
         if let Err(failure) = ended {
             self.fail(failure);
+        }
+        if timed_out {
+            let of_failure = self.report.failure.as_mut().and_then(|failure| failure.stop.as_deref_mut());
+            self.report.stop.iter_mut().chain(of_failure).for_each(StopReport::time_out);
         }
     }
 
@@ -96,13 +106,14 @@ impl Outcome {
         request: &Request,
         watch: &mut Watch,
         steps: Option<u64>,
+        clock: &Clock,
     ) -> Result<(), FailureReport> {
         self.report.input.describe(drawing);
-        let mut clock = Clock::start();
+        let mut laps = Laps { clock, last: clock() };
         let mut healing = Healing::new(drawing, request);
         let arranged = healing.arrange(watch);
         self.report.input.unhealed = unhealed(drawing, request, &mut self.report.input.notes, watch);
-        let (domain, plan, refined) = self.mesh_healed(arranged?, &mut healing, &mut clock, steps, watch)?;
+        let (domain, plan, refined) = self.mesh_healed(arranged?, &mut healing, &mut laps, steps, watch)?;
         let refined = plan.leave_crowded(refined, &domain, watch)?;
         let Refined { mesh, stop, counters, insertions, .. } = refined;
         self.report.stop = Some(StopReport::new(&stop));
@@ -113,7 +124,7 @@ impl Outcome {
             Order::First => Vec::new(),
             Order::Second => elevate(&mut mesh, &domain),
         };
-        self.report.seconds.mesh += clock.lap();
+        self.report.seconds.mesh += laps.lap();
 
         // Whatever the time: a mesh that nobody judged is worth nothing, and the judge's work is bounded by its size.
         let mut verdict = plan.judge(Some(&domain), &mesh);
@@ -124,7 +135,7 @@ impl Outcome {
         self.report.mesh = Some(MeshReport::new(&mesh).with_straightened(&mesh, &straightened));
         self.report.quality = Some(Quality::of(Some(&domain), &mesh, verdict.exempt_cells()));
         self.report.promise = Some(PromiseReport::new(&verdict));
-        self.report.seconds.verify = clock.lap();
+        self.report.seconds.verify = laps.lap();
         self.exit = exit_of(&verdict, stop.reason);
         if self.exit == Exit::Bug {
             let what = format!("the mesh breaks what no request can excuse: {}", broken(&verdict).join(", "));
@@ -140,7 +151,7 @@ impl Outcome {
         &mut self,
         mut arranged: Domain,
         healing: &mut Healing,
-        clock: &mut Clock,
+        laps: &mut Laps,
         steps: Option<u64>,
         watch: &mut Watch,
     ) -> Result<(Domain, Plan, Refined), FailureReport> {
@@ -152,13 +163,13 @@ impl Outcome {
             check_named_regions(&arranged, request)?;
             let (domain, plan) = Plan::new(drawing, &arranged, request, watch)?;
             self.report.request.note_use(drawing, &arranged, plan.tau_rad, plan.sizing());
-            self.report.seconds.arrange += clock.lap();
+            self.report.seconds.arrange += laps.lap();
             plan.afford(&domain, healing, watch)?;
             let refined = match steps {
                 None => plan.refine(&domain, watch),
                 Some(steps) => plan.drive(&domain, Until::Steps(steps), watch),
             };
-            self.report.seconds.mesh += clock.lap();
+            self.report.seconds.mesh += laps.lap();
             let coarser = match &refined {
                 Err(failure) if failure.kind == FailureKind::Geometry => healing.retreat(failure, watch)?,
                 Ok(refined) if refined.stop.reason == StopReason::Arithmetic => {
@@ -188,29 +199,37 @@ fn dress(mesh: &mut Mesh, drawing: &Drawing, domain: &Domain) {
     mesh.named_nodes.sort_unstable();
 }
 
-/// Laps of a wall clock.
-struct Clock(Instant);
+/// Laps of a clock.
+struct Laps<'a> {
+    clock: &'a Clock<'a>,
+    last: f64,
+}
 
-impl Clock {
-    fn start() -> Self {
-        Self(Instant::now())
-    }
-
+impl Laps<'_> {
     /// Seconds since the start or the last lap.
     fn lap(&mut self) -> f64 {
-        let now = Instant::now();
-        std::mem::replace(&mut self.0, now).elapsed().as_secs_f64()
+        let now = (self.clock)();
+        now - std::mem::replace(&mut self.last, now)
+    }
+}
+
+/// The time that a request gives.
+struct Timer<'a> {
+    clock: &'a Clock<'a>,
+    begun: f64,
+    request: &'a Request,
+}
+
+impl Timer<'_> {
+    fn is_over(&self) -> bool {
+        self.request.timeout.is_some_and(|limit| (self.clock)() - self.begun >= limit)
     }
 }
 
 /// A watch that says stop when the request's time, which begins now, is over.
-pub fn timer(request: &Request) -> impl FnMut(&Progress) -> bool + use<> {
-    timer_from(Instant::now(), request)
-}
-
-fn timer_from(begun: Instant, request: &Request) -> impl FnMut(&Progress) -> bool + use<> {
-    let limit = request.timeout.map(|s| Duration::try_from_secs_f64(s).unwrap_or(Duration::MAX));
-    move |_| limit.is_none_or(|limit| begun.elapsed() < limit)
+pub fn timer<'a>(request: &'a Request, clock: &'a Clock) -> impl FnMut(&Progress) -> bool + 'a {
+    let timer = Timer { clock, begun: clock(), request };
+    move |_| !timer.is_over()
 }
 
 /// Drawing → domain, as long as `watch` says to go on, within the request's tolerance or the one that `Healing` takes.

@@ -5,6 +5,7 @@ use super::request::Request;
 use super::{Extent, Outcome, ending, run_drawing};
 use crate::curve::Curve;
 use crate::domain::{Drawing, DrawnCurve};
+use crate::watch::no_clock;
 
 /// A drawing from which nothing more could be taken, or not within the budget.
 #[derive(Clone, Debug)]
@@ -42,7 +43,7 @@ pub fn reduce(drawing: &Drawing, request: &Request, runs_max: usize, tell: &mut 
 
 /// How the run of a drawing ends, panics included.
 pub fn ending_of(drawing: &Drawing, request: &Request) -> String {
-    ending_or_panic(&caught(|| run_drawing(drawing, request, Extent::Whole(&mut |_| true))))
+    ending_or_panic(&caught(|| run_drawing(drawing, request, Extent::Whole(&mut |_| true), &no_clock)))
 }
 
 /// How a run ended that may have broken down.

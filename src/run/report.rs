@@ -301,6 +301,13 @@ pub struct StopReport {
 }
 
 impl StopReport {
+    /// Says that it was the time asked for that was over.
+    pub(super) fn time_out(&mut self) {
+        if self.reason == StopReason::Cancelled {
+            self.reason = StopReason::TimedOut;
+        }
+    }
+
     pub fn new(stop: &Stop) -> Self {
         let places = stop.places.iter().map(|p| [p.x, p.y]).collect();
         Self { reason: stop.reason, owed: stop.owed, places, angle_deg: stop.angle_deg }

@@ -10,7 +10,6 @@ use crate::plane::gcdr::Regions;
 use crate::plane::gcdr::parameters::radius_edge_of;
 use crate::promise::guaranteed_angle;
 use crate::size::{Given, rows_of};
-use clap::ValueEnum;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::FRAC_PI_3;
 use std::fmt;
@@ -333,7 +332,8 @@ impl FromStr for Engine {
 }
 
 /// Who chooses the points that refine triangles, with gcdr.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 #[serde(rename_all = "kebab-case")]
 pub enum Steiner {
     /// Centres: Chew's second algorithm.
@@ -438,7 +438,8 @@ impl FromStr for Order {
     }
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 #[serde(rename_all = "lowercase")]
 pub enum BallShrinking {
     /// Shrink until the ball is clear, then insert once.
@@ -447,7 +448,8 @@ pub enum BallShrinking {
     Literal,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 #[serde(rename_all = "lowercase")]
 pub enum Midpoint {
     /// Where the curve crosses the perpendicular bisector of its chord.
@@ -456,7 +458,8 @@ pub enum Midpoint {
     Angle,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 #[serde(rename_all = "lowercase")]
 pub enum Keep {
     /// The faces that the fill rule says are inside.
@@ -465,7 +468,8 @@ pub enum Keep {
     All,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 #[serde(rename_all = "lowercase")]
 pub enum Strokes {
     /// Centre lines where nothing is filled; else left out.
@@ -479,7 +483,8 @@ pub enum Strokes {
 }
 
 /// Which line types of a DXF drawing are read.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 #[serde(rename_all = "lowercase")]
 pub enum LineTypes {
     /// Not those for centre, hidden and phantom lines; where nothing else is drawn, all.
@@ -488,7 +493,8 @@ pub enum LineTypes {
 }
 
 /// What becomes of overlapping shapes of a picture.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 #[serde(rename_all = "lowercase")]
 pub enum Overlap {
     /// By paint order: the topmost shape has it all, under its name.
@@ -497,7 +503,8 @@ pub enum Overlap {
     Fragment,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 #[serde(rename_all = "lowercase")]
 pub enum Switch {
     On,
@@ -510,7 +517,8 @@ impl Switch {
     }
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 #[serde(rename_all = "lowercase")]
 pub enum TrailingEdge {
     Keep,
@@ -519,9 +527,10 @@ pub enum TrailingEdge {
     Round,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 #[serde(rename_all = "lowercase")]
-#[value(rename_all = "lower")]
+#[cfg_attr(feature = "cli", value(rename_all = "lower"))]
 pub enum FillChoice {
     /// The file's own rule.
     Auto,
@@ -545,7 +554,8 @@ impl FillChoice {
 }
 
 /// What has a name of its own.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 #[serde(rename_all = "lowercase")]
 pub enum NamesOf {
     /// Every layer, or what else the file names.
@@ -567,7 +577,8 @@ impl NamesOf {
 }
 
 /// What becomes of lines that bound nothing.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 #[serde(rename_all = "lowercase")]
 pub enum LooseEnds {
     /// Plainly open lines are kept, outlines that miss closing refused.

@@ -12,7 +12,7 @@ use crate::geometry::boxes::BoxHierarchy;
 use crate::geometry::exact::{CircleSide, Orientation, in_diametral, orient};
 use crate::geometry::{Point, Rect};
 use crate::ids::{Id, VertexId};
-use rayon::prelude::*;
+use crate::threads;
 use std::sync::atomic::{AtomicU32, Ordering};
 
 /// No such node or piece.
@@ -32,7 +32,11 @@ impl Circles {
         let balls = ball_at_nodes(ev, domain);
         let at_node = PiecesAtNodes::new(ev);
         let boxes = BoxHierarchy::new(ev.pieces.iter().map(|p| box_of_circle(ev, p)));
-        (0..ev.mesh.nodes.len()).into_par_iter().map(VertexId::from_index).filter(|&v| !ev.within[v]).for_each(|v| {
+        threads::for_each(ev.mesh.nodes.len(), |k| {
+            let v = VertexId::from_index(k);
+            if ev.within[v] {
+                return;
+            }
             let at = ev.node(v);
             boxes.meeting(Rect::from_points(at, at), |i| {
                 circles.note(ev, &balls, &at_node, i, v);

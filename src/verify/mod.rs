@@ -36,6 +36,7 @@ use crate::domain::Domain;
 use crate::ids::TriangleId;
 use crate::mesh::Mesh;
 use crate::promise::Promise;
+use crate::threads;
 use circles::Circles;
 use evidence::Evidence;
 use tally::Tally;
@@ -123,18 +124,18 @@ pub fn verify(domain: Option<&Domain>, mesh: &Mesh, promise: &Promise) -> Verdic
         |check: fn(&Evidence, &Domain) -> Check, name| domain.map_or(Check::not_asked(name), |d| check(&evidence, d));
     // Checks share nothing but the evidence: the dear ones take what cores there are.
     let (circles, delaunay) =
-        rayon::join(|| domain.map(|d| (d, Circles::look(&evidence, d))), || angles::delaunay(&evidence));
+        threads::join(|| domain.map(|d| (d, Circles::look(&evidence, d))), || angles::delaunay(&evidence));
     let constrained = promise.is_constrained();
     let (conforming, empty_diametral) = match circles {
         Some((domain, circles)) if constrained => {
             (topology::conforming(&evidence, domain, &circles), Check::not_asked("empty_diametral"))
         }
         Some((domain, circles)) => {
-            rayon::join(|| topology::conforming(&evidence, domain, &circles), || circles.empty(&evidence, domain))
+            threads::join(|| topology::conforming(&evidence, domain, &circles), || circles.empty(&evidence, domain))
         }
         None => (Check::not_asked("conforming"), Check::not_asked("empty_diametral")),
     };
-    let ((on_curve, curve_chain), (chord_error, edge_turning)) = rayon::join(
+    let ((on_curve, curve_chain), (chord_error, edge_turning)) = threads::join(
         || (known(curves::on_curve, "on_curve"), known(curves::curve_chain, "curve_chain")),
         || (known(curves::chord_error, "chord_error"), known(curves::edge_turning, "edge_turning")),
     );
@@ -142,7 +143,7 @@ pub fn verify(domain: Option<&Domain>, mesh: &Mesh, promise: &Promise) -> Verdic
         Some(domain) => balls::judge(&evidence, domain),
         None => (Check::not_asked("ball_radius"), Check::not_asked("lfs_ratio"), Vec::new()),
     };
-    let ((min_angle, excused), (max_angle, size)) = rayon::join(
+    let ((min_angle, excused), (max_angle, size)) = threads::join(
         || angles::min_angle(&evidence, &balls),
         || (angles::max_angle(&evidence), measures::size(&evidence)),
     );

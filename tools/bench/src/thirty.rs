@@ -5,6 +5,7 @@ use squinch::domain::Domain;
 use squinch::plane::gcdr::SHARP_RAD;
 use squinch::run::request::{Engine, Request, Steiner};
 use squinch::run::{Exit, Extent, run_drawing};
+use squinch::watch::no_clock;
 use std::path::PathBuf;
 
 /// Counts of one folder.
@@ -57,7 +58,7 @@ impl Counts {
             Request { engine: Engine::Gcdr, min_angle: 30.0, steiner, timeout: Some(20.0), ..Request::default() };
         let name = path.display().to_string();
         let Ok(drawing) = run::read(&name) else { return };
-        let outcome = run_drawing(&drawing, &request, Extent::Whole(&mut |_| true));
+        let outcome = run_drawing(&drawing, &request, Extent::Whole(&mut |_| true), &no_clock);
         let (Exit::Done, Some(mesh), Some(domain), Some(verdict)) =
             (outcome.exit, &outcome.mesh, &outcome.domain, &outcome.verdict)
         else {

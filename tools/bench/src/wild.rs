@@ -7,6 +7,7 @@ use squinch::refine::StopReason;
 use squinch::run::report::FailureKind;
 use squinch::run::request::Request;
 use squinch::run::{Exit, Extent, Outcome, run_drawing};
+use squinch::watch::no_clock;
 use std::collections::{BTreeMap, BTreeSet};
 use std::time::Instant;
 
@@ -100,7 +101,7 @@ pub fn print(large: bool) {
         for stress in STRESSES {
             let stressed = stress.apply(&known);
             let start = Instant::now();
-            let outcome = run_drawing(&stressed.drawing, &request, Extent::Whole(&mut |_| true));
+            let outcome = run_drawing(&stressed.drawing, &request, Extent::Whole(&mut |_| true), &no_clock);
             let seconds = start.elapsed().as_secs_f64();
             if seconds > slowest.0 {
                 slowest = (seconds, format!("{family} {detail} {stress:?}"));

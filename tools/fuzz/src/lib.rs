@@ -8,7 +8,7 @@ use squinch::geometry::{magnitude, scaled};
 use squinch::import::{Format, mesh};
 use squinch::run::{self, Exit, Extent, Outcome, Plan, Source};
 use squinch::run::request::{Keep, LineTypes, LooseEnds, NamesOf, Request, Strokes, Switch, TrailingEdge};
-use squinch::watch::Progress;
+use squinch::watch::{Progress, no_clock};
 use std::collections::BTreeMap;
 
 /// Questions to the watch before a run is told to stop: by count, so that a find does not depend on the machine.
@@ -171,7 +171,7 @@ fn check_faces(domain: &Domain) {
 /// Meshes a sketch, within a budget: the run ends without a fault of ours, and a mesh covers the area that the curves enclose.
 pub fn mesh(sketch: &Sketch) {
     let request = sketch.request(VERTICES);
-    let outcome = run::run_drawing(&sketch.drawing, &request, Extent::Whole(&mut budget()));
+    let outcome = run::run_drawing(&sketch.drawing, &request, Extent::Whole(&mut budget()), &no_clock);
     check_outcome(&outcome, &request);
 }
 
@@ -181,7 +181,7 @@ pub fn mesh_file(bytes: &[u8]) {
     let Some(format) = Format::sniff(bytes) else { return };
     let source = Source { path: "fuzz", bytes, format: Some(format), nodes: None, of_many: false };
     if run::read(&source, &request).is_ok_and(|drawing| drawing.curves.len() <= CURVES) {
-        let outcome = run::run(&source, &request, Extent::Whole(&mut budget()));
+        let outcome = run::run(&source, &request, Extent::Whole(&mut budget()), &no_clock);
         check_outcome(&outcome, &request);
     }
 }
