@@ -4,12 +4,8 @@
 //! (Pav & Walkington 2005), which ends whatever angles they meet at. An independent judge then checks the mesh against the curves.
 //!
 //! ```
-//! use squinch::curve::Curve;
-//! use squinch::domain::{ArrangeOptions, Drawing};
-//! use squinch::geometry::Point;
-//! use squinch::verify::verify;
 //! use squinch::plane::lopping::{Options, refine};
-//! use squinch::refine::Until;
+//! use squinch::prelude::*;
 //!
 //! // A disk with a smaller one that touches it from inside: an angle of zero.
 //! let mut drawing = Drawing::default();
@@ -24,6 +20,7 @@
 //!
 //! let verdict = verify(Some(&domain), &mesh, &options.promise(false));
 //! assert!(verdict.kept());
+//! assert!(mesh.edges_of("bore").count() > 0 && mesh.triangles_of("rim").count() > 0);
 //! assert_eq!(verdict.excused.len(), 1); // the corner where the circles touch excuses the sharp triangles there
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -43,6 +40,7 @@ pub mod ids;
 pub mod import;
 pub mod mesh;
 pub mod plane;
+pub mod prelude;
 pub mod promise;
 pub mod refine;
 pub mod run;
@@ -50,3 +48,7 @@ pub mod size;
 pub mod threads;
 pub mod verify;
 pub mod watch;
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

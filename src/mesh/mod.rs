@@ -117,6 +117,19 @@ impl Mesh {
         self.triangles[t].map(|v| self.nodes[v])
     }
 
+    /// The triangles of the region of this name; none where there is no such region.
+    pub fn triangles_of(&self, region: &str) -> impl Iterator<Item = TriangleId> {
+        let name = self.names.find(region);
+        let is_of = move |t: &TriangleId| name == Some(self.regions[self.triangle_regions[*t]]);
+        self.triangles.ids().filter(is_of)
+    }
+
+    /// The edges on the boundary of this name; none where there is no such boundary.
+    pub fn edges_of(&self, boundary: &str) -> impl Iterator<Item = &CurveEdge> {
+        let name = self.names.find(boundary);
+        self.edges.iter().filter(move |edge| name == Some(edge.name))
+    }
+
     /// The mesh without what ties it to a domain: links, points and balls.
     pub fn untied(mut self) -> Self {
         self.edges.iter_mut().for_each(|edge| edge.link = None);
