@@ -64,7 +64,7 @@ pub struct Options {
     /// Welding distance; 0 heals nothing, and lists what it leaves as `unhealed` [default: 1e-9 of the diagonal, or up to 1e-4 (SVG) or 1e-6 where slivers would take too many vertices; ends that meet nothing else: 1e-6]
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, help_heading = "Input")]
     tolerance: Option<f64>,
-    /// Joins free ends that are nearer to each other than this; welds nothing else
+    /// Joins free ends that are nearer than this to each other, or to an open line that goes on beyond the corner; welds nothing else
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, help_heading = "Input")]
     close: Option<f64>,
     /// What becomes of lines that bound nothing: auto keeps plainly open ones and refuses outlines that miss closing [default: auto]

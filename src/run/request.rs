@@ -52,7 +52,7 @@ pub struct Request {
     pub order: Order,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tolerance: Option<f64>,
-    /// Free ends nearer than this are joined; nothing else is welded by it.
+    /// Free ends nearer than this, to each other or to an open line, are joined; nothing else is welded by it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub close: Option<f64>,
     pub loose: LooseEnds,

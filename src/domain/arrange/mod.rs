@@ -76,7 +76,7 @@ pub struct ArrangeOptions {
     /// Where filled shapes of a picture overlap, each set of them has a region of its own, named by all of them, the topmost first:
     /// `leaf+stem`. Else the topmost shape has it all.
     pub fragments: bool,
-    /// Free ends that are each other's nearest are joined up to this far, and nothing else is welded by it.
+    /// Free ends that are each other's nearest, or that stop short of an open line, are joined up to this far, and nothing else is welded by it.
     pub close: Option<f64>,
     pub loose: Loose,
     /// Whether `tolerance` was chosen for the user: ends that meet nothing else are joined as by default then.
