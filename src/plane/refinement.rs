@@ -13,32 +13,12 @@ use crate::mesh::RIM_ROUNDING;
 use crate::refine::{Counters, Patience, Stop, StopReason};
 use crate::size::{SizeField, Sizing};
 
-/// A domain times a power of two, so that its coordinates are of unit magnitude.
-pub(super) struct UnitFrame {
+pub(super) struct Refinement {
     pub domain: Domain,
-    /// What the domain was multiplied by.
+    /// What the domain was multiplied by, so that its coordinates are of unit magnitude.
     pub scale: f64,
     pub field: SizeField,
     /// No edge shorter than this is made on purpose: as far as rounding moves a point of a curve, twice over.
-    pub resolution: f64,
-}
-
-impl UnitFrame {
-    pub fn new(domain: &Domain, sizing: &Sizing) -> Self {
-        let magnitude = geometry::magnitude(domain.bounds());
-        let scale = geometry::unit_scale(magnitude);
-        let domain = domain.scaled(scale);
-        let field = SizeField::new(&sizing.scaled(scale), &domain);
-        Self { domain, scale, field, resolution: RIM_ROUNDING * magnitude * scale }
-    }
-}
-
-pub(super) struct Refinement {
-    pub domain: Domain,
-    /// What the domain was multiplied by.
-    pub scale: f64,
-    pub field: SizeField,
-    /// No edge shorter than this is made on purpose.
     pub resolution: f64,
     pub subcurves: Subcurves,
     /// Pieces to be looked at, the latest first: its place is still in the cache.
@@ -64,15 +44,18 @@ pub(super) enum Flaw {
 }
 
 impl Refinement {
-    pub fn new(frame: UnitFrame, subcurves: Subcurves, angle_min_rad: f64, patience: Patience) -> Self {
-        let UnitFrame { domain, scale, field, resolution } = frame;
+    /// The domain in the unit frame, none of its curves cut yet.
+    pub fn new(domain: &Domain, sizing: &Sizing, angle_min_rad: f64, patience: Patience) -> Self {
+        let magnitude = geometry::magnitude(domain.bounds());
+        let scale = geometry::unit_scale(magnitude);
+        let domain = domain.scaled(scale);
         let sin_min = libm::sin(angle_min_rad);
         Self {
+            field: SizeField::new(&sizing.scaled(scale), &domain),
             domain,
             scale,
-            field,
-            resolution,
-            subcurves,
+            resolution: RIM_ROUNDING * magnitude * scale,
+            subcurves: Subcurves::default(),
             suspects: Vec::new(),
             bad: Suspects::new(angle_min_rad, patience),
             carver: Carver::default(),

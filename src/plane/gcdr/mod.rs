@@ -39,7 +39,7 @@ use super::carve;
 use super::constrained::Constrained;
 use super::harvest::Harvest;
 use super::refined::{RefineError, Refined};
-use super::refinement::{Refinement, UnitFrame};
+use super::refinement::Refinement;
 use super::suspects::{self, Suspect};
 use crate::domain::Domain;
 use crate::geometry::{self, Point};
@@ -175,11 +175,12 @@ impl<'s> Gcdr<'s> {
         strategy: &'s mut dyn SteinerStrategy,
         watch: &mut Watch,
     ) -> Result<Start<'s>, RefineError> {
-        let frame = UnitFrame::new(domain, &options.sizing);
-        let is_sharp = |p: PointId| frame.domain.corner(p).is_some_and(|corner| corner.angle_rad <= SHARP_RAD);
-        let sharp: IdVec<PointId, bool> = frame.domain.points().ids().map(is_sharp).collect();
-        let mut beginning = Beginning::new(&frame.domain, &sharp, frame.resolution);
-        beginning.cut_curves(&frame.field);
+        let patience = triangles::patience(strategy.order(), options.angle_min_rad);
+        let mut state = Refinement::new(domain, &options.sizing, options.angle_min_rad, patience);
+        let is_sharp = |p: PointId| state.domain.corner(p).is_some_and(|corner| corner.angle_rad <= SHARP_RAD);
+        let sharp: IdVec<PointId, bool> = state.domain.points().ids().map(is_sharp).collect();
+        let mut beginning = Beginning::new(&state.domain, &sharp, state.resolution);
+        beginning.cut_curves(&state.field);
         let stopped = beginning.part_hulls(options.max_vertices, watch).is_err();
         if stopped || beginning.points.len() > options.max_vertices {
             let reason = if stopped { StopReason::Cancelled } else { StopReason::VertexBudget };
@@ -192,11 +193,11 @@ impl<'s> Gcdr<'s> {
                 insertions: Vec::new(),
             })));
         }
-        let mesh = triangulated(&beginning).map_err(|e| e.scaled(1.0 / frame.scale))?;
+        let mesh = triangulated(&beginning).map_err(|e| e.scaled(1.0 / state.scale))?;
         let Beginning { origins, subcurves, fans, .. } = beginning;
-        let patience = triangles::patience(strategy.order(), options.angle_min_rad);
+        state.subcurves = subcurves;
         let mut gcdr = Self {
-            state: Refinement::new(frame, subcurves, options.angle_min_rad, patience),
+            state,
             touched: Vec::new(),
             alive: origins.len(),
             free: 0,

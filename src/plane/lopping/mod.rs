@@ -39,7 +39,7 @@ pub(super) mod splittri;
 use super::harvest::Harvest;
 use super::insert::Kernel;
 pub use super::refined::{RefineError, Refined};
-use super::refinement::{Refinement, UnitFrame};
+use super::refinement::Refinement;
 use super::subcurves::Midpoint;
 use super::suspects::{self, DETAIL_RAD, Suspect};
 use crate::domain::Domain;
@@ -159,16 +159,20 @@ enum Rule {
 impl Lopping {
     /// P, its balls, and D of both.
     pub fn start(domain: &Domain, options: &Options) -> Result<Self, RefineError> {
-        let frame = UnitFrame::new(domain, &options.sizing);
-        let balls = Balls::at_birth(&frame.domain, &frame.field);
-        let mut beginning = Beginning::new(&frame.domain, balls);
-        beginning.cut_curves();
-        let delaunay = beginning.triangulate(options.midpoint).map_err(|e| e.scaled(1.0 / frame.scale))?;
-        let Beginning { origins, subcurves, balls, .. } = beginning;
         let [sin_min, sin_detail] = [options.angle_min_rad, DETAIL_RAD].map(libm::sin);
         let patience = suspects::by_angle(1.0 - sin_detail * sin_detail / (sin_min * sin_min));
-        let mut lopping = Self {
-            state: Refinement::new(frame, subcurves, options.angle_min_rad, patience),
+        let mut state = Refinement::new(domain, &options.sizing, options.angle_min_rad, patience);
+        let mut beginning = Beginning::new(&state.domain, Balls::at_birth(&state.domain, &state.field));
+        beginning.cut_curves();
+        let delaunay = beginning.triangulate(options.midpoint).map_err(|e| e.scaled(1.0 / state.scale))?;
+        let Beginning { origins, subcurves, balls, .. } = beginning;
+        state.subcurves = subcurves;
+        state.subcurves.ids().collect::<Vec<_>>().into_iter().for_each(|piece| state.suspect(piece));
+        let input = state.domain.points().len();
+        state.counters.add("vertices_input", input as u64);
+        state.counters.add("vertices_ball", (origins.len() - input) as u64);
+        Ok(Self {
+            state,
             intruded: VecDeque::new(),
             arcs_due: if options.corner_arcs.is_some() { balls.ids().collect() } else { VecDeque::new() },
             fresh: Vec::new(),
@@ -177,13 +181,7 @@ impl Lopping {
             delaunay,
             origins,
             balls,
-        };
-        let state = &mut lopping.state;
-        state.subcurves.ids().collect::<Vec<_>>().into_iter().for_each(|piece| state.suspect(piece));
-        let input = state.domain.points().len();
-        state.counters.add("vertices_input", input as u64);
-        state.counters.add("vertices_ball", (lopping.origins.len() - input) as u64);
-        Ok(lopping)
+        })
     }
 
     fn first_rule(&mut self) -> Rule {

@@ -1,7 +1,8 @@
 //! squinch as a WebAssembly module: a drawing's bytes go in, a mesh file's come out.
 //!
 //! The caller asks for room by [`input`], writes name, formats and drawing there, calls [`mesh`], and reads what [`output`] points at. One call at
-//! a time: the module has one thread, and one buffer either way.
+//! a time: the module has one thread, and one buffer either way. `unsafe` is said of the exported names alone, which no other symbol may have;
+//! no memory is touched by pointers here.
 
 use squinch::export::{self, WriteOptions};
 use squinch::prelude::*;
