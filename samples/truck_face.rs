@@ -14,7 +14,8 @@ use truck_modeling::{Face, Point3, Rad, Vector3, Wire, builder};
 fn main() -> Result<(), Box<dyn Error>> {
     let path = std::env::args().nth(1).unwrap_or_else(|| "truck_face.vtu".into());
     let drawing = drawing_of_truck_face(&face()?)?;
-    let request = Request { max_edge: Some(0.4), ..Request::default() };
+    let mut request = Request::default();
+    request.limits.max_edge = Some(0.4);
     let outcome = run_drawing(&drawing, &request, Extent::Whole(&mut |_progress| true), &no_clock);
     let (Some(mesh), Exit::Done) = (&outcome.mesh, outcome.exit) else {
         return Err(format!("no mesh that keeps its promises: {:?}", outcome.report.failure).into());

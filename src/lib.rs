@@ -39,6 +39,7 @@ pub mod geometry;
 pub mod ids;
 pub mod import;
 pub mod mesh;
+pub mod options;
 pub mod plane;
 pub mod prelude;
 pub mod promise;

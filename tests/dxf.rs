@@ -5,6 +5,7 @@ use squinch::curve::{Curve, End};
 use squinch::domain::{ArrangeOptions, Drawing, FillRule, SeedKind};
 use squinch::geometry::{Point, Vec2};
 use squinch::import::{DxfOptions, Format, ImportError, LineTypes, Options, Selection, read};
+use squinch::options::Switch;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 // ---- files in short: `0 LINE; 8 rim; 10 0` is three pairs ----
@@ -801,7 +802,7 @@ proptest! {
 
 fn chosen(short: &str, only: &[&str], skip: &[&str]) -> Drawing {
     let globs = |texts: &[&str]| texts.iter().map(|text| text.parse().unwrap()).collect();
-    let selection = Selection { only: globs(only), skip: globs(skip) };
+    let selection = Selection { layers: globs(only), skip_layers: globs(skip) };
     read(text(short).as_bytes(), Format::Dxf, "stem", &Options { selection, ..Options::default() }).unwrap()
 }
 
@@ -1120,7 +1121,7 @@ fn what_leaves_the_plane_is_named_and_can_be_projected() {
     assert_eq!(drawing.off_plane.len(), 1);
     assert!(drawing.off_plane[0].entity.starts_with("LINE (handle A1"));
     assert_eq!(drawing.off_plane[0].ends, [Point::new(0.0, 0.0), Point::new(4.0, 0.0)]);
-    let flatten = DxfOptions { flatten_z: true, ..DxfOptions::default() };
+    let flatten = DxfOptions { flatten_z: Switch::On, ..DxfOptions::default() };
     let flat = with(flatten, &plain(stray));
     near(measure(&flat), 6.0);
     assert!(flat.off_plane.is_empty() && noted(&flat, "projected onto it: 1."));

@@ -10,13 +10,15 @@ use squinch::geometry::Point;
 use squinch::ids::PointId;
 use squinch::mesh::{BallReason, Mesh, quality};
 use squinch::plane::Midpoint;
-use squinch::plane::lopping::{self, Options, Refined, Shrinking};
+use squinch::plane::gcdr::{self, Steiner};
+use squinch::plane::lopping::{self, Options, Refined, Rules, Shrinking};
 use squinch::promise::{arc_turning, guaranteed_angle};
 use squinch::refine::{StopReason, Until};
-use squinch::run::request::{Engine, Request, SizeOf, Steiner};
+use squinch::run::request::{Engine, Request};
 use squinch::run::{self, Exit, Extent, Outcome, Source};
 use squinch::size::Sizing;
 use squinch::size::estimate::{Asked, Circles, Demand};
+use squinch::size::{Limits, SizeOf};
 use squinch::verify::{Status, Verdict, verify};
 use squinch::watch::{Progress, no_clock};
 use std::f64::consts::FRAC_PI_3;
@@ -72,10 +74,11 @@ fn random_complexes_reach_thirty_degrees() {
 #[test]
 fn every_midpoint_rule_beta_and_shrinking_keeps_the_promise() {
     for midpoint in [Midpoint::Bisector, Midpoint::Angle] {
-        for shrinking in [Shrinking::Batched, Shrinking::Literal] {
+        for ball_shrinking in [Shrinking::Batched, Shrinking::Literal] {
             for beta in [0.5, 0.8, 0.95] {
                 for corner_arcs in [None, Some(FRAC_PI_3)] {
-                    let options = Options { midpoint, shrinking, beta, corner_arcs, ..Options::default() };
+                    let options =
+                        Options { rules: Rules { midpoint, ball_shrinking, beta }, corner_arcs, ..Options::default() };
                     for seed in 200..204 {
                         kept(&curved_complex(seed), 0.5, &options);
                     }
@@ -94,7 +97,8 @@ fn crowded_corner() -> Drawing {
 
 #[test]
 fn literal_shrinking_leaves_a_shell_a_step_and_batched_one() {
-    let with = |shrinking| Options { shrinking, corner_arcs: None, ..Options::default() };
+    let rules = |ball_shrinking| Rules { ball_shrinking, ..Rules::default() };
+    let with = |shrinking| Options { rules: rules(shrinking), corner_arcs: None, ..Options::default() };
     let (literal, _) = kept(&crowded_corner(), 0.5, &with(Shrinking::Literal));
     let (batched, _) = kept(&crowded_corner(), 0.5, &with(Shrinking::Batched));
     assert!(batched.balls.iter().any(|b| b.why == BallReason::Encroached), "{:?}", batched.balls);
@@ -253,7 +257,7 @@ fn asked(options: &Options, circles: Circles) -> Asked<'_> {
         sizing: &options.sizing,
         circles,
         corner_arcs: options.corner_arcs.is_some(),
-        bisected: options.midpoint == Midpoint::Bisector,
+        bisected: options.rules.midpoint == Midpoint::Bisector,
     }
 }
 
@@ -396,7 +400,8 @@ fn an_angle_beyond_reach_ends_with_the_mesh_of_one_that_ends() {
         (Engine::Gcdr, Steiner::Offcenter),
         (Engine::Gcdr, Steiner::OptimalFree),
     ] {
-        let asked = |min_angle: f64| Request { min_angle, engine, steiner, ..Request::default() };
+        let gcdr = || gcdr::Choices { steiner, ..gcdr::Choices::default() };
+        let asked = |min_angle: f64| Request { min_angle, engine, gcdr: gcdr(), ..Request::default() };
         let usual = run(BRACKET, &asked(34.0));
         assert_eq!(usual.exit, Exit::Done, "{engine:?} {steiner:?}");
         for angle in [45.0, 59.0] {
@@ -410,7 +415,8 @@ fn an_angle_beyond_reach_ends_with_the_mesh_of_one_that_ends() {
         }
     }
     // What ends beyond the usual gives its own mesh.
-    let more = Request { min_angle: 35.0, engine: Engine::Gcdr, steiner: Steiner::OptimalFree, ..Request::default() };
+    let gcdr = gcdr::Choices { steiner: Steiner::OptimalFree, ..gcdr::Choices::default() };
+    let more = Request { min_angle: 35.0, engine: Engine::Gcdr, gcdr, ..Request::default() };
     let more = run(BRACKET, &more);
     assert_eq!((more.exit, more.report.stop.expect("it ended").angle_deg), (Exit::Done, None));
 }
@@ -435,9 +441,10 @@ fn the_size_of_a_region_is_graded_outside_of_it() {
         {"name": "seam", "polygon": [[-1, -1], [1, -1], [1, 1], [-1, 1]]}],
         "seeds": [{"region": "core", "at": [0, 0]}, {"region": "plate", "at": [3, 3]}]}"#;
     for engine in [Engine::Lop, Engine::Gcdr] {
-        let sized = Request { size_of: vec![SizeOf { name: "core".into(), edge: 0.2 }], engine, ..Request::default() };
+        let limits = Limits { size_of: vec![SizeOf { name: "core".into(), edge: 0.2 }], ..Limits::default() };
+        let sized = Request { limits, engine, ..Request::default() };
         let alone = run(drawing, &sized);
-        let graded = run(drawing, &Request { grade: Some(0.1), ..sized });
+        let graded = run(drawing, &Request { limits: Limits { grade: Some(0.1), ..sized.limits }, ..sized });
         assert_eq!((alone.exit, graded.exit), (Exit::Done, Exit::Done), "{:?}", graded.report.failure);
         let longest_at = |outcome: &Outcome, least: f64, most: f64| {
             let mesh = outcome.mesh.as_ref().expect("a mesh");

@@ -2,9 +2,11 @@
 //!
 //! What a format says of its own broken files is tested beside the rest of it (`svg.rs`, `dxf.rs`, `import.rs`, `formats.rs`, `vtu.rs`); here is what is common.
 
+use squinch::domain::Loose;
 use squinch::import::mesh::{self, MeshFile};
-use squinch::import::{self, Format, ImportError, Options};
-use squinch::run::request::{LineTypes, LooseEnds, Request, Strokes, Switch};
+use squinch::import::{self, AirfoilOptions, DxfOptions, Format, ImportError, LineTypes, Options, Strokes};
+use squinch::options::Switch;
+use squinch::run::request::Request;
 use squinch::run::{Exit, Extent, Outcome, Source, run};
 use squinch::watch::no_clock;
 use std::time::{Duration, Instant};
@@ -40,7 +42,8 @@ fn meshed(name: &str, bytes: &[u8], format: Option<Format>) -> Outcome {
 }
 
 fn meshed_by(name: &str, bytes: &[u8], format: Option<Format>, request: Request) -> Outcome {
-    let request = Request { max_vertices: 2000, timeout: Some(10.0), far_field: 2.0, ..request };
+    let airfoil = AirfoilOptions { far_field: 2.0, ..request.airfoil };
+    let request = Request { max_vertices: 2000, timeout: Some(10.0), airfoil, ..request };
     let source = Source { path: name, bytes, format, nodes: None, of_many: false };
     soon(name, || run(&source, &request, Extent::Whole(&mut |_| true), &no_clock))
 }
@@ -383,12 +386,8 @@ fn entities_that_contradict_themselves_are_meshes_or_refusals() {
     ];
     for (what, entity) in entities {
         for text in [dxf_entities(&entity), dxf_entities(&format!("{square}; {entity}"))] {
-            let all = Request {
-                line_types: LineTypes::All,
-                flatten_z: Switch::On,
-                loose: LooseEnds::Drop,
-                ..Request::default()
-            };
+            let dxf = DxfOptions { line_types: LineTypes::All, flatten_z: Switch::On };
+            let all = Request { dxf, loose: Loose::Drop, ..Request::default() };
             for request in [Request::default(), all] {
                 ends_well(&meshed_by(what, &text, Some(Format::Dxf), request), what);
             }
@@ -424,10 +423,9 @@ fn tables_of_coordinates_that_are_none_are_sections_or_refusals() {
     ];
     for (what, text) in tables {
         for chord in [None, Some(1e-300), Some(1e300)] {
-            ends_well(
-                &meshed_by(what, text.as_bytes(), Some(Format::Airfoil), Request { chord, ..Request::default() }),
-                what,
-            );
+            let airfoil = AirfoilOptions { chord, ..AirfoilOptions::default() };
+            let request = Request { airfoil, ..Request::default() };
+            ends_well(&meshed_by(what, text.as_bytes(), Some(Format::Airfoil), request), what);
         }
     }
 }
@@ -439,7 +437,7 @@ fn gaps_are_closed_by_absurd_values_or_refused() {
         "0 LINE; 10 0; 20 0; 11 9; 21 0; 0 LINE; 10 9; 20 0; 11 9; 21 9; 0 LINE; 10 9; 20 9; 11 0; 21 0.1",
     );
     for close in [f64::MIN_POSITIVE, 1e-300, 1e-9, 1.0, 1e9, 1e300, f64::MAX] {
-        for loose in [LooseEnds::Auto, LooseEnds::Keep, LooseEnds::Drop, LooseEnds::Error] {
+        for loose in [Loose::Auto, Loose::Keep, Loose::Drop, Loose::Error] {
             for (name, bytes, format) in [("plate", &plate, Format::Outline), ("open", &open, Format::Dxf)] {
                 let request = Request { close: Some(close), loose, ..Request::default() };
                 ends_well(&meshed_by(name, bytes, Some(format), request), &format!("{name} closed by {close:e}"));

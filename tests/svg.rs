@@ -788,7 +788,7 @@ proptest! {
 
 fn chosen(inside: &str, only: &[&str], skip: &[&str]) -> Drawing {
     let globs = |texts: &[&str]| texts.iter().map(|text| text.parse().unwrap()).collect();
-    let selection = Selection { only: globs(only), skip: globs(skip) };
+    let selection = Selection { layers: globs(only), skip_layers: globs(skip) };
     let text = format!("{OPEN}{inside}</svg>");
     read(text.as_bytes(), Format::Svg, "stem", &Options { selection, ..Options::default() }).unwrap()
 }

@@ -1,23 +1,35 @@
 //! The options of a run, on the command line and in a `--config` file alike; the command line wins.
+//!
+//! Both are made of the options that a [`Request`] gathers ([`squinch::options`]): what is added there is an option here.
 
 use super::Halt;
 use super::say;
-use clap::Args;
-use serde::{Deserialize, Serialize};
-use squinch::domain::NameBy;
-use squinch::import::{Format, Glob};
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser, ValueParser};
+use clap::parser::ValueSource;
+use clap::{Arg, ArgAction, ArgMatches, Args, Command, FromArgMatches};
+use serde::Deserialize;
+use squinch::import::Format;
+use squinch::options::{Described, Group, Kind};
+use squinch::plane::gcdr::SnapTo;
 use squinch::run::Exit;
-use squinch::run::request::{
-    BallShrinking, ChordError, EdgeTurning, Engine, FillChoice, Keep, LineTypes, LooseEnds, MaxTurning, Midpoint,
-    NamesOf, Order, Overlap, Request, SizeOf, SnapTo, Steiner, Strokes, Switch, TrailingEdge,
-};
+use squinch::run::request::Request;
 use squinch::size::Given;
 use std::path::{Path, PathBuf};
+use toml::de::{DeString, DeValue};
+use toml::{Spanned, Table, Value};
 
 /// What a run is asked for. An option that is not given keeps its default.
-#[derive(Args, Clone, Default, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case", default, deny_unknown_fields)]
+#[derive(Clone, Default)]
 pub struct Options {
+    manner: Manner,
+    /// The options of the request that are given, by key.
+    asked: Table,
+}
+
+/// How to run, as opposed to what to make.
+#[derive(Args, Clone, Default, Deserialize)]
+#[serde(rename_all = "kebab-case", default)]
+struct Manner {
     /// Options from a TOML file, keys as the long options here; the command line wins
     #[arg(long, value_name = "FILE.toml", help_heading = "General")]
     #[serde(skip)]
@@ -28,158 +40,97 @@ pub struct Options {
     /// Format of the input, where suffix and content do not tell: airfoil, poly, node, outline, dxf, svg, step
     #[arg(long, value_name = "FORMAT", help_heading = "Input")]
     input_format: Option<String>,
-
-    /// Smallest angle, in degrees; 0: none [default: 20.7]
-    #[arg(long, value_name = "DEG", allow_hyphen_values = true, help_heading = "Bounds")]
-    min_angle: Option<f64>,
-    /// Largest area of a triangle
-    #[arg(long, value_name = "AREA", allow_hyphen_values = true, help_heading = "Bounds")]
-    max_area: Option<f64>,
-    /// Largest length of an edge
-    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, help_heading = "Bounds")]
-    max_edge: Option<f64>,
-    /// Triangles whose circumradius is below this are not refined for their angles
-    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, help_heading = "Bounds")]
-    min_edge: Option<f64>,
-    /// Largest distance from mesh boundary to curve: a length, or a share of the drawing's diagonal as in 0.1%
-    #[arg(long, value_name = "LENGTH|E%", allow_hyphen_values = true, help_heading = "Bounds")]
-    chord_error: Option<ChordError>,
-    /// Largest turning of the curve along a mesh edge, in degrees, or off [default: 15]
-    #[arg(long, value_name = "DEG|off", allow_hyphen_values = true, help_heading = "Bounds")]
-    edge_turning: Option<EdgeTurning>,
-    /// Largest length of an edge on the boundary, or in the region, of this name; may be repeated
-    #[arg(long, value_name = "NAME=LENGTH", help_heading = "Bounds")]
-    size_of: Option<Vec<SizeOf>>,
-    /// Longest edge by place: an expression in x and y as in "0.1 + 0.05*hypot(x-2, y)", or a file with `x y size` on every line, from
-    /// which the size grows by --grade [default there: 0.3]
-    #[arg(long, value_name = "FILE|EXPR", allow_hyphen_values = true, help_heading = "Bounds")]
-    size: Option<String>,
-    /// Growth of the edge length of a sized boundary or region a unit of distance away from it
-    #[arg(long, value_name = "G", allow_hyphen_values = true, help_heading = "Bounds")]
-    grade: Option<f64>,
-    /// Order of the cells: 2 puts a node on the curve within every edge [default: 1]
-    #[arg(long, value_name = "1|2", allow_hyphen_values = true, help_heading = "Bounds")]
-    order: Option<Order>,
-
-    /// Welding distance; 0 heals nothing, and lists what it leaves as `unhealed` [default: 1e-9 of the diagonal, or up to 1e-4 (SVG) or 1e-6 where slivers would take too many vertices; ends that meet nothing else: 1e-6]
-    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, help_heading = "Input")]
-    tolerance: Option<f64>,
-    /// Joins free ends that are nearer than this to each other, or to an open line that goes on beyond the corner; welds nothing else
-    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, help_heading = "Input")]
-    close: Option<f64>,
-    /// What becomes of lines that bound nothing: auto keeps plainly open ones and refuses outlines that miss closing [default: auto]
-    #[arg(long, value_enum, value_name = "HOW", help_heading = "Input")]
-    loose: Option<LooseEnds>,
-    /// Which faces are inside [default: auto, the file's own rule]
-    #[arg(long, value_enum, value_name = "RULE", help_heading = "Input")]
-    fill_rule: Option<FillChoice>,
-    /// What becomes of strokes: auto makes centre lines where nothing is filled, area fills what they cover [default: auto]
-    #[arg(long, value_enum, value_name = "HOW", help_heading = "Input")]
-    strokes: Option<Strokes>,
-    /// Filled shapes that overlap: the topmost has it all, or each overlap is a region named by all of its shapes [default: paint]
-    #[arg(long, value_enum, value_name = "HOW", help_heading = "Input")]
-    overlap: Option<Overlap>,
-    /// all: adds a box named `box` and keeps every bounded face [default: inside]
-    #[arg(long, value_enum, value_name = "WHAT", help_heading = "Input")]
-    keep: Option<Keep>,
-    /// Only these layers (DXF) or layers and ids (SVG) are read: names or patterns as PART*, with commas or repeated
-    #[arg(long, value_name = "A,B", value_delimiter = ',', help_heading = "Input")]
-    layers: Option<Vec<Glob>>,
-    /// These layers or ids are not read: names or patterns as in --layers
-    #[arg(long, value_name = "A,B", value_delimiter = ',', help_heading = "Input")]
-    skip_layers: Option<Vec<Glob>>,
-    /// A name for the curve nearest to a place, for the region at a place (in:), or for a DXF entity (handle:); may be repeated
-    #[arg(long, value_name = "NAME=X,Y|in:X,Y|handle:H", help_heading = "Input")]
-    name: Option<Vec<NameBy>>,
-    /// What has a name of its own: each layer, each closed outline (HOLES-1, HOLES-2) or each entity [default: layer]
-    #[arg(long, value_enum, value_name = "WHAT", help_heading = "Input")]
-    names: Option<NamesOf>,
-    /// DXF: edges leaves out what is drawn in line types for centre, hidden and phantom lines, unless nothing else is drawn [default: edges]
-    #[arg(long, value_enum, value_name = "WHICH", help_heading = "Input")]
-    line_types: Option<LineTypes>,
-    /// DXF: what leaves the XY plane is projected onto it; else it is left out
-    #[arg(long, value_enum, value_name = "on|off", num_args = 0..=1, require_equals = true, default_missing_value = "on", help_heading = "Input")]
-    flatten_z: Option<Switch>,
-    /// Unit of the mesh; the drawing's coordinates are converted where their unit is known
-    #[arg(long, value_name = "UNIT", help_heading = "Input")]
-    unit: Option<String>,
-    /// Factor on every coordinate [default: 1]
-    #[arg(long, value_name = "S", allow_hyphen_values = true, help_heading = "Input")]
-    scale: Option<f64>,
-    /// Pixels to an inch, in a drawing that gives no physical size [default: 96]
-    #[arg(long, value_name = "D", help_heading = "Input")]
-    dpi: Option<f64>,
-
-    /// Trailing edge of an airfoil [default: keep]
-    #[arg(long, value_enum, value_name = "HOW", help_heading = "Airfoils")]
-    trailing_edge: Option<TrailingEdge>,
-    /// Radius of the far field in chords; 0 meshes the section itself [default: 20]
-    #[arg(long, value_name = "R", allow_hyphen_values = true, help_heading = "Airfoils")]
-    far_field: Option<f64>,
-    /// Angle of incidence in degrees, nose up [default: 0]
-    #[arg(long, value_name = "DEG", allow_hyphen_values = true, help_heading = "Airfoils")]
-    incidence: Option<f64>,
-    /// Chord that the section is scaled to, about the origin of its coordinates
-    #[arg(long, value_name = "C", allow_hyphen_values = true, help_heading = "Airfoils")]
-    chord: Option<f64>,
-
-    /// The planar face to mesh, by its entity number or name, or largest; with batch, all gives each a mesh of its own [default: largest]
-    #[arg(long, value_name = "ID|NAME|largest|all", help_heading = "Solids")]
-    face: Option<String>,
-
-    /// Vertices after which refinement stops [default: 5000000]
-    #[arg(long, value_name = "N", allow_hyphen_values = true, help_heading = "Budget")]
-    max_vertices: Option<u64>,
-    /// Seconds after which arranging, cutting and refining stop. A mesh that is valid by then is still verified and written, which takes
-    /// time in proportion to its size
-    #[arg(long, value_name = "S", allow_hyphen_values = true, help_heading = "Budget")]
-    timeout: Option<f64>,
-
-    /// Who refines: lop, corner lopping, or gcdr, generalized constrained Delaunay refinement [default: lop]
-    #[arg(long, value_name = "lop|gcdr", help_heading = "Engine")]
-    engine: Option<Engine>,
-    /// Largest turning of a curve before it is meshed, at most π/3; auto: the largest whose guarantee covers the angle [default: 0.5]
-    #[arg(long, value_name = "RAD|auto", allow_hyphen_values = true, help_heading = "Engine", hide_short_help = true)]
-    max_turning: Option<MaxTurning>,
-    /// Factor by which a protecting ball shrinks, from 0.5 to below 1 [default: 0.95]
-    #[arg(long, value_name = "B", allow_hyphen_values = true, help_heading = "Engine", hide_short_help = true)]
-    beta: Option<f64>,
-    /// Shrink until the ball is clear, or insert at every step as printed in the paper [default: batched]
-    #[arg(long, value_enum, value_name = "HOW", help_heading = "Engine", hide_short_help = true)]
-    ball_shrinking: Option<BallShrinking>,
-    /// Where a curve is split [default: bisector]
-    #[arg(long, value_enum, value_name = "RULE", help_heading = "Engine", hide_short_help = true)]
-    midpoint: Option<Midpoint>,
-    /// Arcs around sharp corners, which bound the largest angle [default: on]
-    #[arg(long, value_enum, value_name = "on|off", help_heading = "Engine", hide_short_help = true)]
-    corner_arcs: Option<Switch>,
-    /// With gcdr: points in triangles lie within r(1 - delta2) of the circumcenter, off-centres and optimal points within r - delta2 l/(2 sin
-    /// angle), where l is the shortest edge [default: 1; with --steiner extreme, random, snap and size the least that the angle allows]
-    #[arg(long, value_name = "D", allow_hyphen_values = true, help_heading = "Engine", hide_short_help = true)]
-    delta2: Option<f64>,
-    /// With gcdr: points on segments lie in the middle part of length |s|(1 - delta1) [default: 1]
-    #[arg(long, value_name = "D", allow_hyphen_values = true, help_heading = "Engine", hide_short_help = true)]
-    delta1: Option<f64>,
-    /// With gcdr: so do those with a vertex of another segment nearby, for |s|(1 - mu) [default: 1]
-    #[arg(long, value_name = "M", allow_hyphen_values = true, help_heading = "Engine", hide_short_help = true)]
-    mu: Option<f64>,
-    /// With gcdr: who chooses the points in triangles; nothing is proven of the free ones [default: center]
-    #[arg(long, value_enum, value_name = "WHO", help_heading = "Engine", hide_short_help = true)]
-    steiner: Option<Steiner>,
-    /// With --steiner snap: the pitch of a square grid through the origin, or a file of places: `x y` on every line
-    #[arg(long, value_name = "H|FILE", allow_hyphen_values = true, help_heading = "Engine", hide_short_help = true)]
-    snap: Option<String>,
-    /// With --steiner random [default: 0]
-    #[arg(long, value_name = "N", help_heading = "Engine", hide_short_help = true)]
-    seed: Option<u64>,
-    /// With gcdr: measure how much nearer to others every point was inserted than the drawing asks for, and hold it to the bounds known
-    /// [default: off]
-    #[arg(long, value_enum, value_name = "on|off", help_heading = "Engine", hide_short_help = true)]
-    densities: Option<Switch>,
 }
 
-/// Keys of [`Options`] that say how to run, not what to make.
-const OUTSIDE: &[&str] = &["threads", "input-format"];
+impl Args for Options {
+    fn augment_args(command: Command) -> Command {
+        let mut options: Vec<&Described> = Request::options().iter().collect();
+        options.sort_by_key(|option| option.group);
+        Manner::augment_args(command).args(options.into_iter().map(argument))
+    }
+
+    fn augment_args_for_update(command: Command) -> Command {
+        Self::augment_args(command)
+    }
+}
+
+impl FromArgMatches for Options {
+    fn from_arg_matches(matches: &ArgMatches) -> Result<Self, clap::Error> {
+        let given = |option: &&Described| matches.value_source(&option.key) == Some(ValueSource::CommandLine);
+        let value = |option: &Described| {
+            let mut values = matches.get_many::<Value>(&option.key).into_iter().flatten().cloned();
+            Some(if option.kind == Kind::Texts { Value::Array(values.collect()) } else { values.next()? })
+        };
+        let options = Request::options().iter().filter(given);
+        let asked = options.filter_map(|option| Some((option.key.clone(), value(option)?))).collect();
+        Ok(Self { manner: Manner::from_arg_matches(matches)?, asked })
+    }
+
+    fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), clap::Error> {
+        *self = Self::from_arg_matches(matches)?;
+        Ok(())
+    }
+}
+
+/// The argument by which an option is given.
+fn argument(option: &'static Described) -> Arg {
+    let argument = Arg::new(&*option.key)
+        .long(&*option.key)
+        .value_name(&*option.value)
+        .help(&*option.help)
+        .help_heading(heading(option.group))
+        .hide_short_help(option.rare)
+        .allow_hyphen_values(!matches!(option.kind, Kind::Word(_) | Kind::Texts))
+        .value_parser(parser(option));
+    let argument = match option.kind {
+        Kind::Texts => argument.action(ArgAction::Append),
+        Kind::Number | Kind::Integer | Kind::Word(_) | Kind::Text => argument,
+    };
+    let argument = if option.commas { argument.value_delimiter(',') } else { argument };
+    if option.switch { argument.num_args(0..=1).require_equals(true).default_missing_value("on") } else { argument }
+}
+
+fn heading(group: Group) -> &'static str {
+    match group {
+        Group::Engine | Group::Gcdr => "Engine",
+        Group::Bounds => "Bounds",
+        Group::Input => "Input",
+        Group::Budget => "Budget",
+        Group::Airfoils => "Airfoils",
+        Group::Solids => "Solids",
+    }
+}
+
+/// Text → the value that the option's own type reads.
+fn parser(option: &'static Described) -> ValueParser {
+    let checked = |value: Value| {
+        // What may stand in a file is read with that file.
+        if option.file { Ok(value) } else { check(option, value) }
+    };
+    match &option.kind {
+        Kind::Number => ValueParser::new(|text: &str| text.parse().map(Value::Float)),
+        Kind::Integer => ValueParser::new(move |text: &str| {
+            let number: u64 = text.parse().map_err(|e: std::num::ParseIntError| e.to_string())?;
+            checked(Value::Integer(i64::try_from(number).map_err(|e| e.to_string())?))
+        }),
+        Kind::Word(words) => {
+            let word = |(word, help): &'static (String, Option<String>)| match help {
+                Some(help) => PossibleValue::new(&**word).help(&**help),
+                None => PossibleValue::new(&**word),
+            };
+            PossibleValuesParser::new(words.iter().map(word)).map(Value::String).into()
+        }
+        Kind::Text | Kind::Texts => ValueParser::new(move |text: &str| checked(Value::String(text.to_owned()))),
+    }
+}
+
+/// A value of an option, if a request can hold it.
+fn check(option: &Described, value: Value) -> Result<Value, String> {
+    let whole = if option.kind == Kind::Texts { Value::Array(vec![value.clone()]) } else { value.clone() };
+    let asked: Table = [(option.key.clone(), whole)].into_iter().collect();
+    Request::deserialize(asked).map_err(|e| e.message().to_owned())?;
+    Ok(value)
+}
 
 /// Options resolved: what to make, and how to read the input.
 pub struct Resolved {
@@ -195,45 +146,45 @@ impl Options {
 
     /// As [`Options::resolve`], with a request recorded as TOML between the defaults and the config file.
     pub fn resolve_over(&self, recorded: &str) -> Result<Resolved, Halt> {
-        let mut asked: toml::Table = recorded.parse().map_err(usage)?;
-        if let Some(path) = &self.config {
-            asked.extend(table(&read_config(path)?));
+        let mut asked: Table = recorded.parse().map_err(usage)?;
+        let mut manner = self.manner.clone();
+        if let Some(path) = &self.manner.config {
+            let config = read_config(path)?;
+            manner.threads = manner.threads.or(config.manner.threads);
+            manner.input_format = manner.input_format.or(config.manner.input_format);
+            asked.extend(config.asked);
         }
-        asked.extend(table(self));
-        let (outside, mut asked): (toml::Table, toml::Table) =
-            asked.into_iter().partition(|(key, _)| OUTSIDE.contains(&key.as_str()));
-        let all: Self = toml::Value::Table(outside).try_into().map_err(usage)?;
+        asked.extend(self.asked.clone());
         read_sizes(&mut asked)?;
         read_snap(&mut asked)?;
-        let request: Request = toml::Value::Table(asked).try_into().map_err(usage)?;
+        let request: Request = Value::Table(asked).try_into().map_err(usage)?;
         request.validate().map_err(usage)?;
-        if let Some(threads) = all.threads {
+        if let Some(threads) = manner.threads {
             // More threads than cores only cost their stacks: the bytes of the result are the same with any number.
             let cores = std::thread::available_parallelism().map_or(1, usize::from);
             squinch::threads::set_count(usize::try_from(threads).unwrap_or(usize::MAX).min(cores));
         }
-        let input_format = all.input_format.as_deref().map(input_format).transpose()?;
+        let input_format = manner.input_format.as_deref().map(input_format).transpose()?;
         Ok(Resolved { request, input_format })
     }
 }
 
 /// Puts the sizes of a file in the place of its name, so that a recorded run holds them.
-fn read_sizes(asked: &mut toml::Table) -> Result<(), Halt> {
-    let Some(toml::Value::String(path)) =
-        asked.get("size").filter(|v| v.as_str().is_some_and(|s| Path::new(s).is_file()))
+fn read_sizes(asked: &mut Table) -> Result<(), Halt> {
+    let Some(Value::String(path)) = asked.get("size").filter(|v| v.as_str().is_some_and(|s| Path::new(s).is_file()))
     else {
         return Ok(());
     };
     let wrong = |e: String| Halt::Usage(format!("--size {path}: {e}"));
     let text = std::fs::read_to_string(path).map_err(|e| wrong(e.to_string()))?;
-    let sizes = toml::Value::try_from(Given::read_samples(&text).map_err(wrong)?).map_err(usage)?;
+    let sizes = Value::try_from(Given::read_samples(&text).map_err(wrong)?).map_err(usage)?;
     asked.insert("size".into(), sizes);
     Ok(())
 }
 
 /// Puts a pitch, or the places of a file, in the place of its text.
-fn read_snap(asked: &mut toml::Table) -> Result<(), Halt> {
-    let Some(toml::Value::String(given)) = asked.get("snap") else { return Ok(()) };
+fn read_snap(asked: &mut Table) -> Result<(), Halt> {
+    let Some(Value::String(given)) = asked.get("snap") else { return Ok(()) };
     let wrong = |e: String| Halt::Usage(format!("--snap {given}: {e}"));
     let snap = match given.parse() {
         Ok(pitch) => SnapTo::Pitch(pitch),
@@ -243,7 +194,7 @@ fn read_snap(asked: &mut toml::Table) -> Result<(), Halt> {
             SnapTo::read_places(&text).map_err(wrong)?
         }
     };
-    asked.insert("snap".into(), toml::Value::try_from(snap).map_err(usage)?);
+    asked.insert("snap".into(), Value::try_from(snap).map_err(usage)?);
     Ok(())
 }
 
@@ -258,27 +209,62 @@ fn input_format(name: &str) -> Result<Format, Halt> {
     })
 }
 
-/// What is given, by key.
-fn table(options: &Options) -> toml::Table {
-    toml::Table::try_from(options).expect("options are words, numbers and lists of them")
-}
-
+/// The options of a file. What is wrong is pointed at.
 fn read_config(path: &Path) -> Result<Options, Halt> {
     let shown = path.display().to_string();
     let text = std::fs::read_to_string(path).map_err(|e| Halt::Usage(format!("--config {shown}: {e}")))?;
-    toml::from_str(&text).map_err(|error| match error.span() {
-        Some(span) => {
-            say::pointing(error.message(), None, &shown, &text, span);
-            Halt::Said(Exit::Usage)
+    let pointing = |what: &str, span: std::ops::Range<usize>| {
+        say::pointing(what, None, &shown, &text, span);
+        Halt::Said(Exit::Usage)
+    };
+    let read = || -> Result<Options, (String, std::ops::Range<usize>)> {
+        let wrong = |e: toml::de::Error| (e.message().to_owned(), e.span().unwrap_or_default());
+        let mut options = Options::default();
+        for (key, value) in toml::de::DeTable::parse(&text).map_err(wrong)?.into_inner() {
+            options.take(key, value)?;
         }
-        None => Halt::Usage(format!("--config {shown}: {}", error.message())),
-    })
+        Ok(options)
+    };
+    read().map_err(|(what, span)| pointing(&what, span))
+}
+
+impl Options {
+    /// Takes an entry of a file; what is wrong with it, and where.
+    fn take(
+        &mut self,
+        key: Spanned<DeString>,
+        value: Spanned<DeValue>,
+    ) -> Result<(), (String, std::ops::Range<usize>)> {
+        let (place, key_place) = (value.span(), key.span());
+        let key = key.into_inner().into_owned();
+        let value = Value::deserialize(toml::de::ValueDeserializer::from(value)).expect("a value is one");
+        let entry: Table = [(key.clone(), value.clone())].into_iter().collect();
+        let wrong = |e: toml::de::Error| (e.message().to_owned(), place.clone());
+        match key.as_str() {
+            "threads" => self.manner.threads = Manner::deserialize(entry).map_err(wrong)?.threads,
+            "input-format" => self.manner.input_format = Manner::deserialize(entry).map_err(wrong)?.input_format,
+            _ => {
+                let option = Request::options().iter().find(|option| option.key == key);
+                let option = option.ok_or_else(|| (format!("unknown option `{key}`"), key_place))?;
+                let is_text = option.file && value.is_str();
+                if !is_text {
+                    Request::deserialize(entry).map_err(wrong)?;
+                }
+                self.asked.insert(key, value);
+            }
+        }
+        Ok(())
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use clap::{CommandFactory, Parser};
+    use squinch::options::Switch;
+    use squinch::run::request::{FillChoice, MaxTurning};
+    use squinch::size::ChordError;
+    use std::collections::BTreeSet;
 
     #[derive(Parser)]
     struct Line {
@@ -288,38 +274,23 @@ mod tests {
 
     #[test]
     fn every_option_of_a_request_can_be_given_and_nothing_else() {
-        let keys = |table: toml::Table| table.keys().cloned().collect::<std::collections::BTreeSet<_>>();
         let command = Line::command();
-        let mut given: std::collections::BTreeSet<String> =
-            command.get_arguments().filter_map(|a| a.get_long()).map(str::to_owned).collect();
-        for outside in OUTSIDE.iter().chain(&["config"]) {
-            assert!(given.remove(*outside), "{outside}");
+        let given: BTreeSet<&str> = command.get_arguments().filter_map(Arg::get_long).collect();
+        let manner = ["config", "threads", "input-format"];
+        let options = Request::options().iter().map(|option| option.key.as_str());
+        assert_eq!(given, options.chain(manner).collect());
+        // A request has no key that is no option.
+        let written = toml::Table::try_from(Request::default()).unwrap();
+        assert!(written.keys().all(|key| given.contains(key.as_str())), "{written:?}");
+    }
+
+    #[test]
+    fn the_report_tells_every_option() {
+        let report = squinch::run::report::RequestReport::new(&Request::default());
+        let told = serde_json::to_value(&report).unwrap();
+        for option in Request::options() {
+            assert!(told.get(&option.report).is_some(), "{} as {}", option.key, option.report);
         }
-        let full = Request {
-            max_area: Some(1.0),
-            size: Some("x".parse().unwrap()),
-            max_edge: Some(1.0),
-            min_edge: Some(1.0),
-            chord_error: Some(ChordError::Length(1.0)),
-            grade: Some(1.0),
-            size_of: vec!["a=1".parse().unwrap()],
-            tolerance: Some(0.0),
-            close: Some(1.0),
-            layers: vec!["a".parse().unwrap()],
-            skip_layers: vec!["a".parse().unwrap()],
-            name: vec!["a=1,2".parse().unwrap()],
-            unit: Some("mm".into()),
-            scale: Some(1.0),
-            chord: Some(1.0),
-            timeout: Some(1.0),
-            face: Some("largest".into()),
-            delta2: Some(1.0),
-            snap: Some(SnapTo::Pitch(1.0)),
-            delta1: Some(1.0),
-            mu: Some(1.0),
-            ..Request::default()
-        };
-        assert_eq!(given, keys(toml::Table::try_from(full).unwrap()));
     }
 
     #[test]
@@ -351,12 +322,12 @@ mod tests {
         assert_eq!(input_format, Some(Format::Poly));
         assert_eq!(request.min_angle, 15.0);
         assert_eq!(request.max_turning, MaxTurning::Auto);
-        assert_eq!(request.size_of.len(), 2);
-        assert_eq!(request.incidence, -3.0);
+        assert_eq!(request.limits.size_of.len(), 2);
+        assert_eq!(request.airfoil.incidence_deg, -3.0);
         assert_eq!(request.fill_rule, FillChoice::EvenOdd);
         assert_eq!(request.corner_arcs, Switch::Off);
         assert_eq!(request.max_vertices, 1000);
-        assert_eq!(request.chord_error, Some(ChordError::Percent(1.0)));
-        assert_eq!(request.beta, Request::default().beta);
+        assert_eq!(request.limits.chord_error, Some(ChordError::Percent(1.0)));
+        assert_eq!(request.rules, Request::default().rules);
     }
 }

@@ -6,7 +6,7 @@ use clap::{Args, ValueEnum};
 use serde::Serialize;
 use squinch::export::{Format, WriteOptions, XdmfGrids};
 use squinch::geometry::Rect;
-use squinch::run::request::Switch;
+use squinch::options::Switch;
 use std::path::Path;
 
 /// How meshes are written where a format, or a reader of it, leaves a choice.

@@ -4,13 +4,14 @@ use super::{Drawing, Seed, SeedKind};
 use crate::geometry::boxes::BoxHierarchy;
 use crate::geometry::{Point, Rect};
 use crate::ids::Forest;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 use std::str::FromStr;
 
 /// `NAME=x,y`, `NAME=in:x,y` or `NAME=handle:2F`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(try_from = "String", into = "String")]
 pub struct NameBy {
     pub name: String,
@@ -29,13 +30,14 @@ pub enum Target {
 }
 
 /// What has a name of its own.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
 pub enum Naming {
     /// Every layer, or what else the file names.
     Layer,
-    /// Every closed outline: `HOLES-1`, `HOLES-2`, …
+    /// Every closed outline: HOLES-1, HOLES-2.
     Outline,
-    /// Every entity, by its handle where it has one: `HOLES-2F`.
+    /// Every entity, by its handle where it has one: HOLES-2F.
     Entity,
 }
 

@@ -2,13 +2,14 @@
 
 use crate::domain::Unmatched;
 use glob::{MatchOptions, Pattern};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 use std::fmt;
 use std::str::FromStr;
 
 /// A name, or a pattern with `*`, `?` and `[…]`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(try_from = "String", into = "String")]
 pub struct Glob {
     text: String,
@@ -51,11 +52,17 @@ impl fmt::Display for Glob {
 }
 
 /// The layers that a reader is asked for.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", default)]
 pub struct Selection {
-    /// Where there are any: only layers that one of them matches.
-    pub only: Vec<Glob>,
-    pub skip: Vec<Glob>,
+    /// Only these layers (DXF) or layers and ids (SVG) are read: names or patterns as PART*, with commas or repeated.
+    #[schemars(extend("group" = "input", "value" = "A,B", "commas" = true))]
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub layers: Vec<Glob>,
+    /// These layers or ids are not read: names or patterns as in --layers.
+    #[schemars(extend("group" = "input", "value" = "A,B", "commas" = true))]
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub skip_layers: Vec<Glob>,
 }
 
 /// What the names that stand for an entity say of it.
@@ -95,26 +102,26 @@ impl<'a> Chooser<'a> {
                 self.learn(name);
             }
             let any = |globs: &[Glob]| globs.iter().any(|glob| glob.matches(name, self.case));
-            let Selection { only, skip } = self.selection;
-            Choice { asked: said.asked || any(only), skipped: said.skipped || any(skip) }
+            let Selection { layers, skip_layers } = self.selection;
+            Choice { asked: said.asked || any(layers), skipped: said.skipped || any(skip_layers) }
         })
     }
 
     /// Whether an entity is read of which this is said.
     pub fn allows(&self, choice: Choice) -> bool {
-        (self.selection.only.is_empty() || choice.asked) && !choice.skipped
+        (self.selection.layers.is_empty() || choice.asked) && !choice.skipped
     }
 
     /// Takes note of a layer, also one on which nothing is drawn.
     pub fn learn(&mut self, name: &str) {
-        let globs = self.selection.only.iter().chain(&self.selection.skip);
+        let globs = self.selection.layers.iter().chain(&self.selection.skip_layers);
         self.matched.extend(globs.filter(|glob| glob.matches(name, self.case)).map(|glob| glob.text.as_str()));
         self.names.insert(name.into());
     }
 
     /// The patterns that matched nothing.
     pub fn unmatched(self) -> Vec<Unmatched> {
-        let options = [("--layers", &self.selection.only), ("--skip-layers", &self.selection.skip)];
+        let options = [("--layers", &self.selection.layers), ("--skip-layers", &self.selection.skip_layers)];
         let globs = options.into_iter().flat_map(|(option, globs)| globs.iter().map(move |glob| (option, glob)));
         let missed = globs.filter(|(_, glob)| !self.matched.contains(glob.text.as_str()));
         let near = |glob: &Glob| {
@@ -138,7 +145,7 @@ mod tests {
 
     #[test]
     fn names_and_patterns_select() {
-        let selection = Selection { only: globs(&["PART*", "[odd"]), skip: globs(&["*-old"]) };
+        let selection = Selection { layers: globs(&["PART*", "[odd"]), skip_layers: globs(&["*-old"]) };
         let mut chooser = Chooser::new(&selection, false);
         assert!(chooser.takes(["part 1"]));
         assert!(chooser.takes(["[odd"]));
@@ -150,7 +157,7 @@ mod tests {
 
     #[test]
     fn what_matches_nothing_is_told_with_what_is_near() {
-        let selection = Selection { only: vec![], skip: globs(&["FRMAE", "CENTER"]) };
+        let selection = Selection { layers: vec![], skip_layers: globs(&["FRMAE", "CENTER"]) };
         let mut chooser = Chooser::new(&selection, true);
         ["PART", "FRAME", "CENTER"].into_iter().for_each(|name| chooser.learn(name));
         let unmatched = chooser.unmatched();

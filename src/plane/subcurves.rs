@@ -6,6 +6,8 @@
 use crate::curve::Curve;
 use crate::geometry::Point;
 use crate::ids::{BallId, CurveId, FanId, IdVec, PieceId, VertexId};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 /// What a piece is a part of.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -51,12 +53,15 @@ impl Piece {
 }
 
 /// Which point splits a curve that a vertex encroaches.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
 pub enum Midpoint {
-    /// Its crossing with the perpendicular bisector of its chord: η and μ of Corollaries 1 and 2.
+    /// Where the curve crosses the perpendicular bisector of its chord.
+    // η and μ of Corollaries 1 and 2.
     #[default]
     Bisector,
-    /// Its crossing with the bisector of the angle ∠xzy at the encroaching vertex z (section 6).
+    /// Where it crosses the bisector of the angle under which the encroaching vertex sees the chord.
+    // ∠xzy at the encroaching vertex z (section 6).
     Angle,
 }
 

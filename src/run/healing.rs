@@ -78,7 +78,7 @@ struct Candidate {
 impl<'a> Healing<'a> {
     pub fn new(drawing: &'a Drawing, request: &'a Request) -> Self {
         let diagonal = drawing.bounds().map_or(0.0, |b| libm::hypot(b.width(), b.height()));
-        let simplified = request.min_edge.map(|edge| edge / 3.0);
+        let simplified = request.limits.min_edge.map(|edge| edge / 3.0);
         let parts = if drawing.sketch { &SKETCH[..] } else { &[EXACT] };
         let mut left: Vec<f64> = parts.iter().map(|part| part * diagonal).chain(simplified).collect();
         left.retain(|&t| 0.0 < t && t < diagonal / 4.0 && request.tolerance.is_none());
@@ -87,7 +87,7 @@ impl<'a> Healing<'a> {
     }
 
     fn is_sketch(&self) -> bool {
-        self.drawing.sketch || self.request.min_edge.is_some()
+        self.drawing.sketch || self.request.limits.min_edge.is_some()
     }
 
     /// The drawing within the request's tolerance, or the finest that will do.
@@ -216,7 +216,7 @@ impl<'a> Healing<'a> {
             keep_all: self.request.keep == Keep::All,
             fragments: self.request.overlap == Overlap::Fragment,
             close: self.request.close,
-            loose: self.request.loose.rule(),
+            loose: self.request.loose,
             raised: self.request.tolerance.is_none(),
         };
         self.drawing.arrange_watched(&options, watch)

@@ -5,20 +5,18 @@ mod budget;
 
 use super::exit::no_mesh;
 use super::report::{FailureKind, FailureReport};
-use super::request::{BallShrinking, Engine, Midpoint, Request, SizeOf, SnapTo, Steiner};
+use super::request::{Engine, Request};
 use crate::domain::{Domain, DomainCurve, Drawing, Region};
-use crate::geometry::Point;
 use crate::ids::Id;
 use crate::mesh::{Insertion, Mesh};
-use crate::plane;
-use crate::plane::gcdr;
 use crate::plane::gcdr::parameters::radius_edge_of;
-use crate::plane::gcdr::steiner::{self, Disks, SteinerStrategy};
-use crate::plane::lopping::{self, RefineError, Refined, Shrinking};
+use crate::plane::gcdr::steiner::Disks;
+use crate::plane::lopping::{self, RefineError, Refined};
+use crate::plane::{Midpoint, gcdr};
 use crate::promise::{Promise, arc_turning};
 use crate::refine::{Stop, StopReason, Until};
 use crate::size::estimate::{Asked, Circles, Demand};
-use crate::size::{ByPlace, Given, SAMPLE_GRADE, Sizing, Source as SizeSource};
+use crate::size::{SizeOf, Sizing, Source as SizeSource};
 use crate::verify::{self, Check, Verdict, verify};
 use crate::watch::{Progress, Stopped, Watch};
 use std::collections::BTreeSet;
@@ -37,9 +35,7 @@ pub struct Plan {
 #[derive(Clone, Debug)]
 struct Gcdr {
     options: gcdr::Options,
-    steiner: Steiner,
-    snap: Option<SnapTo>,
-    seed: u64,
+    choices: gcdr::Choices,
 }
 
 impl Gcdr {
@@ -51,11 +47,9 @@ impl Gcdr {
                 regions: request.regions(),
                 sizing: options.sizing.clone(),
                 max_vertices: options.max_vertices,
-                record: request.densities.is_on(),
+                record: request.gcdr.densities.is_on(),
             },
-            steiner: request.steiner,
-            snap: request.snap.clone(),
-            seed: request.seed,
+            choices: request.gcdr.clone(),
         })
     }
 
@@ -68,34 +62,13 @@ impl Gcdr {
         })
     }
 
-    fn strategy(&self) -> Box<dyn SteinerStrategy> {
-        let angle = self.options.angle_min_rad;
-        match self.steiner {
-            Steiner::Center => Box::new(steiner::Center),
-            Steiner::Offcenter => Box::new(steiner::OffCenter::new(angle, false)),
-            Steiner::Optimal => Box::new(steiner::Optimal::new(angle, false)),
-            Steiner::Extreme => Box::new(steiner::Extreme),
-            Steiner::Random => Box::new(steiner::Random::new(self.seed)),
-            Steiner::Size => Box::new(steiner::BySize),
-            Steiner::Snap => match &self.snap {
-                Some(SnapTo::Pitch(pitch)) => Box::new(steiner::Grid { pitch: *pitch }),
-                Some(SnapTo::Places(places)) => {
-                    Box::new(steiner::Places::new(places.iter().map(|&[x, y]| Point::new(x, y))))
-                }
-                // No request passes its check so.
-                None => Box::new(steiner::Center),
-            },
-            Steiner::OffcenterFree => Box::new(steiner::OffCenter::new(angle, true)),
-            Steiner::OptimalFree => Box::new(steiner::Optimal::new(angle, true)),
-        }
-    }
-
     fn promise(&self, foreign: bool) -> Promise {
-        self.options.promise(self.steiner.is_free(), foreign)
+        self.options.promise(self.choices.steiner.is_free(), foreign)
     }
 
     fn refine(&self, domain: &Domain, until: Until, watch: &mut Watch) -> Result<Refined, RefineError> {
-        gcdr::refine(domain, &self.options, &mut *self.strategy(), until, watch)
+        let mut strategy = self.choices.strategy(self.options.angle_min_rad);
+        gcdr::refine(domain, &self.options, &mut *strategy, until, watch)
     }
 }
 
@@ -128,8 +101,8 @@ impl Plan {
 
     /// Of a mesh whose drawing is not known: a share of its diagonal cannot be told, and any name may be of a boundary or a region.
     pub fn without_domain(request: &Request) -> Self {
-        let mut sizing = plain_sizing(request, None);
-        for SizeOf { name, edge } in &request.size_of {
+        let mut sizing = request.limits.sizing(None);
+        for SizeOf { name, edge } in &request.limits.size_of {
             sizing.sources.push(SizeSource::Boundary { name: name.clone(), edge: *edge });
             sizing.sources.push(SizeSource::Region { name: name.clone(), edge: *edge });
         }
@@ -149,7 +122,7 @@ impl Plan {
             sizing: &self.options.sizing,
             circles,
             corner_arcs: self.options.corner_arcs.is_some(),
-            bisected: self.options.midpoint == plane::Midpoint::Bisector,
+            bisected: self.options.rules.midpoint == Midpoint::Bisector,
         };
         Demand::of(domain, asked, watch)
     }
@@ -175,7 +148,8 @@ impl Plan {
     /// Holds the densities that a run recorded to their bounds; none where it did not.
     pub fn densities(&self, domain: &Domain, mesh: &Mesh, insertions: &[Insertion]) -> Vec<Check> {
         let Some(gcdr) = self.gcdr.as_ref().filter(|gcdr| gcdr.options.record) else { return Vec::new() };
-        let promise = gcdr.options.density_promise(domain).filter(|_| gcdr.strategy().disks() == Disks::Alike);
+        let disks = gcdr.choices.strategy(gcdr.options.angle_min_rad).disks();
+        let promise = gcdr.options.density_promise(domain).filter(|_| disks == Disks::Alike);
         verify::densities(domain, mesh, insertions, promise).into()
     }
 
@@ -230,58 +204,24 @@ fn split_to_turning(
 fn engine_options(request: &Request, sizing: Sizing) -> lopping::Options {
     lopping::Options {
         angle_min_rad: request.angle_min_rad(),
-        beta: request.beta,
-        shrinking: match request.ball_shrinking {
-            BallShrinking::Batched => Shrinking::Batched,
-            BallShrinking::Literal => Shrinking::Literal,
-        },
-        midpoint: match request.midpoint {
-            Midpoint::Bisector => plane::Midpoint::Bisector,
-            Midpoint::Angle => plane::Midpoint::Angle,
-        },
+        rules: request.rules,
         corner_arcs: request.corner_arcs.is_on().then_some(std::f64::consts::FRAC_PI_3),
         sizing,
         max_vertices: request.max_vertices,
     }
 }
 
-/// Sizes that the request asks for everywhere. `diagonal` is that of the drawing.
-fn plain_sizing(request: &Request, diagonal: Option<f64>) -> Sizing {
-    Sizing {
-        max_area: request.max_area,
-        max_edge: request.max_edge,
-        min_edge: request.min_edge,
-        chord_error: request.chord_error.and_then(|e| e.length(diagonal)),
-        edge_turning_rad: request.edge_turning.deg().map(f64::to_radians),
-        grade: request.grade,
-        sources: Vec::new(),
-        by_place: match &request.size {
-            Some(Given::Expression(expression)) => Some(ByPlace { expression: expression.clone(), scale: 1.0 }),
-            Some(Given::Samples(_)) | None => None,
-        },
-    }
-}
-
-/// The samples of `--size`, which grow by `--grade`.
-fn samples(request: &Request) -> Vec<SizeSource> {
-    let Some(Given::Samples(samples)) = &request.size else { return Vec::new() };
-    let grade = request.grade.unwrap_or(SAMPLE_GRADE);
-    let near =
-        |&[x, y, edge]: &[f64; 3]| SizeSource::Near { from: Point::new(x, y), to: Point::new(x, y), edge, grade };
-    samples.iter().map(near).collect()
-}
-
 /// Sizes of the request and of the drawing.
 fn sizing(drawing: &Drawing, domain: &Domain, request: &Request) -> Result<Sizing, FailureReport> {
     let diagonal = drawing.bounds().map(|b| libm::hypot(b.width(), b.height()));
-    let plain = plain_sizing(request, diagonal);
+    let plain = request.limits.sizing(diagonal);
     let mut sizing = plain.with_requests(&drawing.sizes, |name| drawing.names.text(name).to_owned());
-    sizing.sources.extend(samples(request));
-    let undefined = request.size.as_ref().and_then(|size| size.undefined_at(domain.points().iter().copied()));
+    sizing.sources.extend(request.limits.samples());
+    let undefined = request.limits.size.as_ref().and_then(|size| size.undefined_at(domain.points().iter().copied()));
     if let Some(at) = undefined {
         let what = format!(
             "--size {} is no positive length",
-            request.size.as_ref().map_or(String::new(), ToString::to_string)
+            request.limits.size.as_ref().map_or(String::new(), ToString::to_string)
         );
         let help = "an expression must be positive all over the drawing: max(h, …) keeps it so";
         return Err(FailureReport::new(FailureKind::Request, what, help).at(at));
@@ -290,7 +230,7 @@ fn sizing(drawing: &Drawing, domain: &Domain, request: &Request) -> Result<Sizin
     // A region that is called so after the layer of its outline only has the size of that outline, not one of its own.
     let is_own = |region: &&Region| region.is_named || !boundaries.contains(domain.name(region.name));
     let regions: BTreeSet<&str> = domain.regions().iter().filter(is_own).map(|r| domain.name(r.name)).collect();
-    for SizeOf { name, edge } in &request.size_of {
+    for SizeOf { name, edge } in &request.limits.size_of {
         let (boundary, region) = (boundaries.contains(name.as_str()), regions.contains(name.as_str()));
         if boundary {
             sizing.sources.push(SizeSource::Boundary { name: name.clone(), edge: *edge });

@@ -230,10 +230,16 @@ mod tests {
         assert!(closed(&short));
     }
 
+    fn sized_of_nothing() -> Request {
+        let mut request = Request::default();
+        request.limits.size_of = vec!["nothing=1".parse().expect("a size")];
+        request
+    }
+
     #[test]
     fn a_run_is_reduced_to_the_part_that_ends_it() {
         // Two rings that hold a mesh, and a size for a name that nothing bears: any one triangle is enough to say so.
-        let request = Request { size_of: vec!["nothing=1".parse().expect("a size")], ..Request::default() };
+        let request = sized_of_nothing();
         let reduced = reduce(&rings(2, 12), &request, 500, &mut |_, _| {});
         assert!(reduced.ending.starts_with("request: "), "{}", reduced.ending);
         assert_eq!(reduced.drawing.curves.len(), 3, "{:?}", reduced.drawing.curves);
@@ -241,7 +247,7 @@ mod tests {
 
     #[test]
     fn the_budget_ends_it_with_what_still_ends_alike() {
-        let request = Request { size_of: vec!["nothing=1".parse().expect("a size")], ..Request::default() };
+        let request = sized_of_nothing();
         let reduced = reduce(&rings(2, 12), &request, 3, &mut |_, _| {});
         assert_eq!(reduced.runs, 3);
         assert_eq!(ending_of(&reduced.drawing, &request), reduced.ending);

@@ -2,13 +2,16 @@
 //!
 //! All but `seconds` and `peak_memory_bytes` is the same, byte for byte, for the same input.
 
-use super::request::{Engine, Request};
-use crate::domain::{Domain, Drawing, Repair, Skipped};
+mod asked;
+
+pub use asked::RequestReport;
+
+use super::request::Request;
+use crate::domain::{Drawing, Repair, Skipped};
 use crate::geometry::Point;
 use crate::mesh::Mesh;
 use crate::mesh::quality::{BoundaryMeasure, Quality, RegionMeasure, boundary_measures, region_measures};
 use crate::refine::{Counters, Stop, StopReason};
-use crate::size::Sizing;
 use crate::verify::{Check, Excuse, Verdict};
 use schemars::generate::SchemaSettings;
 use schemars::transform::RecursiveTransform;
@@ -87,140 +90,6 @@ pub fn kinds(drawing: &Drawing) -> BTreeMap<&'static str, usize> {
         *kinds.entry(drawn.curve.kind()).or_default() += 1;
     }
     kinds
-}
-
-/// Every option as used. Lengths in `length_unit` (`null`: the file's own, which is not known), areas in its square.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
-pub struct RequestReport {
-    pub length_unit: Option<String>,
-    pub engine: String,
-    pub angle_min_deg: f64,
-    /// As used, also where `auto` was asked for; `null` where the run did not come so far.
-    pub tau_rad: Option<f64>,
-    pub max_turning: String,
-    pub beta: f64,
-    pub ball_shrinking: String,
-    pub midpoint: String,
-    pub corner_arcs: bool,
-    pub max_area: Option<f64>,
-    pub max_edge: Option<f64>,
-    pub min_edge: Option<f64>,
-    /// As a length, also where a share of the diagonal was asked for.
-    pub chord_error: Option<f64>,
-    pub edge_turning_deg: Option<f64>,
-    /// As an expression, or how many places were given.
-    pub size: Option<String>,
-    pub grade: Option<f64>,
-    pub size_of: BTreeMap<String, f64>,
-    pub order: u64,
-    /// Welding distance as used; `null` where the run did not come so far.
-    pub tolerance: Option<f64>,
-    pub close: Option<f64>,
-    pub loose: String,
-    pub fill_rule: String,
-    pub strokes: String,
-    pub overlap: String,
-    pub keep: String,
-    pub layers: Vec<String>,
-    pub skip_layers: Vec<String>,
-    pub name: Vec<String>,
-    pub names: String,
-    pub line_types: String,
-    pub flatten_z: bool,
-    pub unit: Option<String>,
-    pub scale: f64,
-    pub dpi: f64,
-    pub max_vertices: usize,
-    pub timeout_s: Option<f64>,
-    pub trailing_edge: String,
-    pub far_field_chords: f64,
-    pub incidence_deg: f64,
-    pub chord: Option<f64>,
-    pub face: Option<String>,
-    /// δ₂, δ₁ and μ as used; `null` with another engine.
-    pub delta2: Option<f64>,
-    pub delta1: Option<f64>,
-    pub mu: Option<f64>,
-    pub steiner: Option<String>,
-    /// The pitch, or how many places.
-    pub snap: Option<String>,
-    pub seed: Option<u64>,
-    pub densities: Option<bool>,
-}
-
-impl RequestReport {
-    pub fn new(request: &Request) -> Self {
-        let gcdr = request.engine == Engine::Gcdr;
-        let regions = gcdr.then(|| request.regions());
-        Self {
-            length_unit: None,
-            engine: word(&request.engine),
-            angle_min_deg: request.min_angle,
-            tau_rad: None,
-            max_turning: request.max_turning.to_string(),
-            beta: request.beta,
-            ball_shrinking: word(&request.ball_shrinking),
-            midpoint: word(&request.midpoint),
-            corner_arcs: request.corner_arcs.is_on(),
-            max_area: request.max_area,
-            max_edge: request.max_edge,
-            min_edge: request.min_edge,
-            chord_error: None,
-            edge_turning_deg: request.edge_turning.deg(),
-            size: request.size.as_ref().map(ToString::to_string),
-            grade: request.grade,
-            size_of: request.size_of.iter().map(|s| (s.name.clone(), s.edge)).collect(),
-            order: request.order.into(),
-            tolerance: None,
-            close: request.close,
-            loose: word(&request.loose),
-            fill_rule: word(&request.fill_rule),
-            strokes: word(&request.strokes),
-            overlap: word(&request.overlap),
-            keep: word(&request.keep),
-            layers: request.layers.iter().map(ToString::to_string).collect(),
-            skip_layers: request.skip_layers.iter().map(ToString::to_string).collect(),
-            name: request.name.iter().map(ToString::to_string).collect(),
-            names: word(&request.names),
-            line_types: word(&request.line_types),
-            flatten_z: request.flatten_z.is_on(),
-            unit: request.unit.clone(),
-            scale: request.scale.unwrap_or(1.0),
-            dpi: request.dpi,
-            max_vertices: request.max_vertices,
-            timeout_s: request.timeout,
-            trailing_edge: word(&request.trailing_edge),
-            far_field_chords: request.far_field,
-            incidence_deg: request.incidence,
-            chord: request.chord,
-            face: request.face.clone(),
-            delta2: regions.map(|r| r.delta2),
-            delta1: regions.map(|r| r.delta1),
-            mu: regions.map(|r| r.mu),
-            steiner: gcdr.then(|| word(&request.steiner)),
-            snap: request.snap.as_ref().map(ToString::to_string),
-            seed: gcdr.then_some(request.seed),
-            densities: gcdr.then(|| request.densities.is_on()),
-        }
-    }
-}
-
-impl RequestReport {
-    /// What the options came to for a drawing and its domain.
-    pub fn note_use(&mut self, drawing: &Drawing, domain: &Domain, tau_rad: f64, sizing: &Sizing) {
-        self.length_unit = drawing.unit.as_ref().map(|(unit, _)| unit.clone());
-        self.tolerance = Some(domain.tolerance());
-        self.tau_rad = Some(tau_rad);
-        self.chord_error = sizing.chord_error;
-    }
-}
-
-/// The word by which a choice is asked for.
-fn word(choice: &impl Serialize) -> String {
-    match serde_json::to_value(choice) {
-        Ok(serde_json::Value::String(word)) => word,
-        other => unreachable!("a choice is written as a word, not {other:?}"),
-    }
 }
 
 #[derive(Clone, Debug, Serialize, JsonSchema)]

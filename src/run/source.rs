@@ -1,10 +1,10 @@
 //! Bytes → drawing, as the request wants it read, scaled and named.
 
 use super::report::{FailureKind, FailureReport};
-use super::request::{LineTypes, Request, Strokes, TrailingEdge};
+use super::request::Request;
 use crate::domain::{Drawing, DrawnCurve, SizeRequest, Unmatched};
 use crate::geometry::{Point, metres};
-use crate::import::{self, AirfoilOptions, DxfOptions, Format, Selection, SvgOptions};
+use crate::import::{self, AirfoilOptions, Format, SvgOptions};
 use kurbo::Affine;
 use std::path::Path;
 
@@ -27,36 +27,12 @@ pub fn read(source: &Source, request: &Request) -> Result<Drawing, FailureReport
     let format = source.format.map_or_else(|| import::tell_format(path, source.bytes), Ok)?;
     let stem = path.file_stem().map_or("", |s| s.to_str().unwrap_or(""));
     let options = import::Options {
-        airfoil: AirfoilOptions {
-            trailing_edge: match request.trailing_edge {
-                TrailingEdge::Keep => import::TrailingEdge::Keep,
-                TrailingEdge::Sharp => import::TrailingEdge::Sharp,
-                TrailingEdge::Blunt => import::TrailingEdge::Blunt,
-                TrailingEdge::Round => import::TrailingEdge::Round,
-            },
-            far_field: request.far_field,
-            incidence_deg: request.incidence,
-            chord: request.chord,
-        },
+        airfoil: request.airfoil.clone(),
         nodes: source.nodes.map(<[u8]>::to_vec),
-        svg: SvgOptions {
-            strokes: match request.strokes {
-                Strokes::Auto => import::Strokes::Auto,
-                Strokes::Lines => import::Strokes::Lines,
-                Strokes::Area => import::Strokes::Area,
-                Strokes::Ignore => import::Strokes::Ignore,
-            },
-            dpi: request.dpi,
-        },
+        svg: SvgOptions { strokes: request.strokes, dpi: request.dpi },
         face: request.face.clone(),
-        dxf: DxfOptions {
-            line_types: match request.line_types {
-                LineTypes::Edges => import::LineTypes::Edges,
-                LineTypes::All => import::LineTypes::All,
-            },
-            flatten_z: request.flatten_z.is_on(),
-        },
-        selection: Selection { only: request.layers.clone(), skip: request.skip_layers.clone() },
+        dxf: request.dxf,
+        selection: request.selection.clone(),
     };
     let mut drawing = import::read(source.bytes, format, stem, &options)?;
     drawing.notes.extend(unused_options(format, request));
@@ -69,7 +45,7 @@ pub fn read(source: &Source, request: &Request) -> Result<Drawing, FailureReport
 
 /// Names that the request gives. What is not there is an error, or a note where the request is that of many inputs.
 fn give_names(drawing: &mut Drawing, request: &Request, of_many: bool) -> Result<(), FailureReport> {
-    drawing.name_each(request.names.rule());
+    drawing.name_each(request.names);
     for name in &request.name {
         match drawing.give_name(name) {
             Ok(what) => drawing.notes.extend(what),
@@ -85,12 +61,12 @@ fn give_names(drawing: &mut Drawing, request: &Request, of_many: bool) -> Result
 
 /// Says which options a drawing of this format has no use for.
 fn unused_options(format: Format, request: &Request) -> Option<String> {
-    let default = Request::default();
+    let (asked, default) = (&request.airfoil, AirfoilOptions::default());
     let of_airfoils = [
-        ("--trailing-edge", request.trailing_edge != default.trailing_edge),
-        ("--far-field", request.far_field != default.far_field),
-        ("--incidence", request.incidence != default.incidence),
-        ("--chord", request.chord.is_some()),
+        ("--trailing-edge", asked.trailing_edge != default.trailing_edge),
+        ("--far-field", asked.far_field != default.far_field),
+        ("--incidence", asked.incidence_deg != default.incidence_deg),
+        ("--chord", asked.chord.is_some()),
     ];
     let given: Vec<&str> = of_airfoils.into_iter().filter(|(_, given)| *given).map(|(option, _)| option).collect();
     let unused = format != Format::Airfoil && !given.is_empty();

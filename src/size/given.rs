@@ -2,6 +2,7 @@
 
 use super::Expression;
 use crate::geometry::Point;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
@@ -10,7 +11,7 @@ use std::str::FromStr;
 pub const SAMPLE_GRADE: f64 = 0.3;
 
 /// How large cells are to be, by place.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(try_from = "Form", into = "Form")]
 pub enum Given {
     Expression(Expression),
@@ -19,7 +20,7 @@ pub enum Given {
 }
 
 /// How it stands in a file of options.
-#[derive(Serialize, Deserialize)]
+#[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 enum Form {
     Text(String),

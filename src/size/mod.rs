@@ -6,9 +6,11 @@
 pub mod estimate;
 mod expression;
 mod given;
+mod limits;
 
 pub use expression::Expression;
 pub use given::{Given, SAMPLE_GRADE, rows_of};
+pub use limits::{ChordError, EdgeTurning, Limits, SizeOf};
 
 use crate::curve::{Curve, End};
 use crate::domain::{Domain, Incident, SizeRequest};

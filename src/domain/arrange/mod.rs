@@ -56,6 +56,8 @@ use crate::watch::{Stopped, Watch};
 use cut::{Network, extent};
 use repair::{Cells, Places};
 pub use repair::{Repair, RepairKind};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// A drawn point this many times as far from the origin as the curves reach is a mistake, and would take 20 of the 53 bits of every
@@ -84,12 +86,13 @@ pub struct ArrangeOptions {
 }
 
 /// What becomes of lines that bound nothing.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
 pub enum Loose {
-    /// Plainly open lines are kept; outlines that miss closing are refused.
+    /// Plainly open lines are kept, outlines that miss closing refused.
     #[default]
     Auto,
-    /// All are kept.
+    /// All are mesh edges where they lie in a region.
     Keep,
     /// All are left out.
     Drop,

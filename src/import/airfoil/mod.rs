@@ -32,10 +32,13 @@ use super::ImportError;
 use crate::curve::Curve;
 use crate::domain::{Drawing, FillRule, Seed, SeedKind, SizeRequest};
 use crate::geometry::{Point, Vec2, bounds_of};
+use crate::options::OutOfBounds;
 use contour::Contour;
 use far_field::add_far_field;
 use rows::{Sample, Table};
+use schemars::JsonSchema;
 use section::{Section, inside};
+use serde::{Deserialize, Serialize};
 
 /// Part of the chord below which two points are one: files carry five or six decimals, so nearer is rounding.
 const SAME: f64 = 1e-6;
@@ -45,7 +48,8 @@ const HELP: &str = "expected lines of two numbers, x and y, around the section (
                     three, x with the ordinates of both surfaces";
 
 /// What becomes of the trailing edge.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
 pub enum TrailingEdge {
     /// As in the file; gaps below 1e-5 chords are rounding and closed.
     #[default]
@@ -59,14 +63,23 @@ pub enum TrailingEdge {
 }
 
 /// How an airfoil is set up.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", default)]
 pub struct AirfoilOptions {
+    /// Trailing edge of an airfoil.
+    #[schemars(extend("group" = "airfoils", "value" = "HOW"))]
     pub trailing_edge: TrailingEdge,
-    /// Radius of the far field in chords; 0: the section itself is the domain.
+    /// Radius of the far field in chords; 0 meshes the section itself.
+    #[schemars(extend("group" = "airfoils", "value" = "R", "report" = "far_field_chords"))]
     pub far_field: f64,
-    /// Turns the section nose up about its quarter chord, in degrees; the flow stays along +x.
+    /// Angle of incidence in degrees, nose up.
+    // About the quarter chord; the flow stays along +x.
+    #[schemars(extend("group" = "airfoils", "value" = "DEG", "report" = "incidence_deg"))]
+    #[serde(rename = "incidence")]
     pub incidence_deg: f64,
-    /// The chord that the section is scaled to, about the origin of its coordinates; `None`: as in the file.
+    /// Chord that the section is scaled to, about the origin of its coordinates.
+    #[schemars(extend("group" = "airfoils", "value" = "C"))]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub chord: Option<f64>,
 }
 
@@ -74,6 +87,21 @@ impl Default for AirfoilOptions {
     fn default() -> Self {
         // 20 chords is the text-book floor for the far field of a section.
         Self { trailing_edge: TrailingEdge::Keep, far_field: 20.0, incidence_deg: 0.0, chord: None }
+    }
+}
+
+impl AirfoilOptions {
+    /// The first option that is out of its bounds.
+    ///
+    /// # Errors
+    /// With the option and its value.
+    pub fn check(&self) -> Result<(), OutOfBounds> {
+        OutOfBounds::unless_positive(&[("chord", self.chord)])?;
+        let is_radius = self.far_field == 0.0 || self.far_field.is_finite() && self.far_field >= 1.0;
+        let why = "1 chord or more, or 0 to mesh the section itself";
+        OutOfBounds::unless(is_radius, "far-field", &self.far_field, why)?;
+        let is_angle = (-180.0..=180.0).contains(&self.incidence_deg);
+        OutOfBounds::unless(is_angle, "incidence", &self.incidence_deg, "degrees from -180 to 180 are needed")
     }
 }
 
@@ -87,7 +115,7 @@ pub(super) fn sniff(bytes: &[u8]) -> bool {
 /// # Errors
 /// With the line where a number is missing or the contour stops or crosses itself; without one where there are no coordinates.
 pub fn read(bytes: &[u8], stem: &str, options: &AirfoilOptions) -> Result<Drawing, ImportError> {
-    check(options)?;
+    options.check().map_err(|e| ImportError::new(e.to_string(), "give what is within the bounds"))?;
     let mut notes = Vec::new();
     let mut table = Table::scan(bytes, &mut notes)?;
     let mut traced = trace(&table)?;
@@ -130,20 +158,6 @@ fn mirror(elements: &mut [Vec<Sample>]) {
     for sample in elements.iter_mut().flatten() {
         sample.at.x = bounds.x0 + bounds.x1 - sample.at.x;
     }
-}
-
-fn check(options: &AirfoilOptions) -> Result<(), ImportError> {
-    if !(options.far_field >= 0.0 && options.far_field.is_finite()) {
-        let help = "give a radius in chords, or 0 for the section itself";
-        return Err(ImportError::new(format!("the far field of {} chords is no size", options.far_field), help));
-    }
-    if !options.incidence_deg.is_finite() {
-        return Err(ImportError::new("the incidence is not a number", "give degrees, nose up"));
-    }
-    if let Some(chord) = options.chord.filter(|c| !(*c > 0.0 && c.is_finite())) {
-        return Err(ImportError::new(format!("a chord of {chord} is no size"), "give a length above 0"));
-    }
-    Ok(())
 }
 
 fn draw(mut contours: Vec<Contour>, options: &AirfoilOptions, drawing: &mut Drawing) -> Result<(), ImportError> {

@@ -223,7 +223,7 @@ impl<'f, 'a> Sketch<'f, 'a> {
                 let placed = placed?;
                 match level {
                     Level::At(z) => self.rise(setting, *z),
-                    Level::Leaves if self.options.flatten_z => self.flattened += 1,
+                    Level::Leaves if self.options.flatten_z.is_on() => self.flattened += 1,
                     Level::Leaves => {
                         self.leave_out(label, &placed);
                         self.skip(&entity.kind, TILTED);

@@ -27,9 +27,12 @@ mod text;
 
 use super::{ImportError, Selection};
 use crate::domain::Drawing;
+use crate::options::Switch;
 use blocks::Sketch;
 use header::Header;
+use schemars::JsonSchema;
 use sections::Sections;
+use serde::{Deserialize, Serialize};
 
 /// Whether the bytes start as a DXF file does.
 pub(super) fn sniff(bytes: &[u8]) -> bool {
@@ -37,20 +40,32 @@ pub(super) fn sniff(bytes: &[u8]) -> bool {
 }
 
 /// Which line types are read.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
 pub enum LineTypes {
     /// Not those that drafting standards use for what is no edge, as centre lines; where nothing else is drawn, all.
     #[default]
     Edges,
+    /// All that are drawn.
     All,
 }
 
 /// How a drawing is read.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", default)]
 pub struct DxfOptions {
+    /// DXF: edges leaves out what is drawn in line types for centre, hidden and phantom lines, unless nothing else is drawn.
+    #[schemars(extend("group" = "input", "value" = "WHICH"))]
     pub line_types: LineTypes,
-    /// What leaves the XY plane is projected onto it; else it is left out.
-    pub flatten_z: bool,
+    /// DXF: what leaves the XY plane is projected onto it; else it is left out.
+    #[schemars(extend("group" = "input", "value" = "on|off", "switch" = true))]
+    pub flatten_z: Switch,
+}
+
+impl Default for DxfOptions {
+    fn default() -> Self {
+        Self { line_types: LineTypes::Edges, flatten_z: Switch::Off }
+    }
 }
 
 /// Reads a drawing, of the layers that `selection` asks for; `stem` is its title.

@@ -33,6 +33,8 @@ use css::Sheet;
 use kurbo::Affine;
 use path::Subpath;
 use roxmltree::Node;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::rc::Rc;
 use units::Page;
@@ -51,7 +53,8 @@ const BACKGROUND: &str = "background";
 const BACKGROUND_SLACK: f64 = 1e-3;
 
 /// What becomes of strokes.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
 pub enum Strokes {
     /// Centre lines where nothing is filled; else what is only stroked is left out.
     #[default]

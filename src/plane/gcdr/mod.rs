@@ -29,6 +29,7 @@
 //! the mesh tells. Corner lopping proves its angle on more input, bounds the largest angle, and makes a whole Delaunay triangulation with empty
 //! diametral circles; this engine makes fewer triangles, and larger angles.
 
+mod choices;
 mod chords;
 pub mod parameters;
 mod segments;
@@ -49,6 +50,7 @@ use crate::promise::{ConstrainedPromise, DensityPromise, EnginePromise, Promise}
 use crate::refine::{Counters, Engine, Stop, StopReason, Until, drive};
 use crate::size::Sizing;
 use crate::watch::{Progress, Watch};
+pub use choices::{Choices, SnapTo, Steiner};
 use chords::Beginning;
 use parameters::radius_edge_of;
 pub use parameters::{Regions, Violation};

@@ -29,7 +29,7 @@ impl Lopping {
         loop {
             let arcs = self.arcs_at(id, radius, arc_turning);
             match self.room_for(id, radius, &arcs) {
-                Room::Tight if radius > self.state.resolution => radius *= self.options.beta,
+                Room::Tight if radius > self.state.resolution => radius *= self.options.rules.beta,
                 Room::Tight => {
                     let at = self.balls.get(id).center;
                     return self.stop_too_near(at);

@@ -46,12 +46,15 @@ use crate::domain::Domain;
 use crate::geometry::Point;
 use crate::ids::{BallId, CurveId, IdVec, PieceId, PointId, TriangleId, VertexId};
 use crate::mesh::{Ball, Mesh};
+use crate::options::OutOfBounds;
 use crate::promise::{EnginePromise, LoppingPromise, Promise};
 use crate::refine::{CONFORMING, Engine, StopReason, Until, drive};
 use crate::size::Sizing;
 use crate::watch::{Progress, Watch};
 use balls::Balls;
 use begin::Beginning;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
 use std::f64::consts::FRAC_PI_3;
 
@@ -60,10 +63,7 @@ use std::f64::consts::FRAC_PI_3;
 pub struct Options {
     /// κ.
     pub angle_min_rad: f64,
-    /// β, ½ ≤ β < 1.
-    pub beta: f64,
-    pub shrinking: Shrinking,
-    pub midpoint: Midpoint,
+    pub rules: Rules,
     /// Largest turning of a corner arc; `None`: no corner arcs.
     pub corner_arcs: Option<f64>,
     pub sizing: Sizing,
@@ -75,9 +75,7 @@ impl Default for Options {
     fn default() -> Self {
         Self {
             angle_min_rad: 20.7f64.to_radians(),
-            beta: 0.95,
-            shrinking: Shrinking::Batched,
-            midpoint: Midpoint::Bisector,
+            rules: Rules::default(),
             corner_arcs: Some(FRAC_PI_3),
             sizing: Sizing::default(),
             max_vertices: 5_000_000,
@@ -89,9 +87,9 @@ impl Options {
     /// What the judge holds a mesh to that was made by these options; `foreign`: it comes from elsewhere, without links to curves.
     pub fn promise(&self, foreign: bool) -> Promise {
         let lopping = LoppingPromise {
-            beta: self.beta,
+            beta: self.rules.beta,
             arc_turning_rad: self.corner_arcs,
-            midpoint_bisector: self.midpoint == Midpoint::Bisector,
+            midpoint_bisector: self.rules.midpoint == Midpoint::Bisector,
         };
         Promise {
             angle_min_rad: (self.angle_min_rad > 0.0).then_some(self.angle_min_rad),
@@ -102,13 +100,47 @@ impl Options {
     }
 }
 
+/// What the paper leaves to choose.
+#[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", default)]
+pub struct Rules {
+    /// Factor by which a protecting ball shrinks, from 0.5 to below 1.
+    #[schemars(extend("group" = "engine", "value" = "B", "rare" = true))]
+    pub beta: f64,
+    /// Shrink until the ball is clear, or insert at every step as printed in the paper.
+    #[schemars(extend("group" = "engine", "value" = "HOW", "rare" = true))]
+    pub ball_shrinking: Shrinking,
+    /// Where a curve is split.
+    #[schemars(extend("group" = "engine", "value" = "RULE", "rare" = true))]
+    pub midpoint: Midpoint,
+}
+
+impl Default for Rules {
+    fn default() -> Self {
+        // The paper's own β: balls stay large.
+        Self { beta: 0.95, ball_shrinking: Shrinking::Batched, midpoint: Midpoint::Bisector }
+    }
+}
+
+impl Rules {
+    /// The first rule that is out of its bounds.
+    ///
+    /// # Errors
+    /// With the option and its value.
+    pub fn check(&self) -> Result<(), OutOfBounds> {
+        let holds = (0.5..1.0).contains(&self.beta);
+        OutOfBounds::unless(holds, "beta", &self.beta, "a factor from 0.5 to below 1 is needed")
+    }
+}
+
 /// How a ball shrinks when a vertex comes in.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
 pub enum Shrinking {
-    /// By β until it is clear; then the curves are cut.
+    /// Shrink until the ball is clear, then insert once.
     #[default]
     Batched,
-    /// By β, cutting the curves at every step, as printed.
+    /// Insert a shell for every step, as printed in the paper.
     Literal,
 }
 
@@ -164,7 +196,7 @@ impl Lopping {
         let mut state = Refinement::new(domain, &options.sizing, options.angle_min_rad, patience);
         let mut beginning = Beginning::new(&state.domain, Balls::at_birth(&state.domain, &state.field));
         beginning.cut_curves();
-        let delaunay = beginning.triangulate(options.midpoint).map_err(|e| e.scaled(1.0 / state.scale))?;
+        let delaunay = beginning.triangulate(options.rules.midpoint).map_err(|e| e.scaled(1.0 / state.scale))?;
         let Beginning { origins, subcurves, balls, .. } = beginning;
         state.subcurves = subcurves;
         state.subcurves.ids().collect::<Vec<_>>().into_iter().for_each(|piece| state.suspect(piece));

@@ -12,7 +12,10 @@ impl Lopping {
         if ball.intruder >= ball.radius {
             return;
         }
-        let radius = ball.shrunk(self.options.beta, self.options.shrinking == Shrinking::Batched);
+        let radius = {
+            let rules = &self.options.rules;
+            ball.shrunk(rules.beta, rules.ball_shrinking == Shrinking::Batched)
+        };
         self.cut_ball(id, radius);
         if self.balls.get(id).intruder < radius {
             self.intruded.push_back(id);

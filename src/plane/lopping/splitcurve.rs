@@ -157,7 +157,7 @@ impl Lopping {
     /// splitcurve at the point that the midpoint rule chooses.
     pub(super) fn split_piece(&mut self, id: PieceId, z: Option<Point>, why: &'static str) {
         let piece = *self.state.subcurves.get(id);
-        let t = split_parameter(self.shape(piece.carrier), piece.t, z, self.options.midpoint);
+        let t = split_parameter(self.shape(piece.carrier), piece.t, z, self.options.rules.midpoint);
         self.split_piece_at(id, t, why);
     }
 

@@ -2,7 +2,7 @@
 
 use crate::run;
 use squinch::plane::Midpoint;
-use squinch::plane::lopping::{Options, Shrinking};
+use squinch::plane::lopping::{Options, Rules, Shrinking};
 
 pub fn print() {
     let drawing = run::read("samples/tangent_curves.json").expect("the sample is there");
@@ -15,8 +15,11 @@ pub fn print() {
         for arcs in [None, Some(std::f64::consts::FRAC_PI_3)] {
             for midpoint in [Midpoint::Bisector, Midpoint::Angle] {
                 for beta in [0.95, 0.5] {
-                    let options =
-                        Options { beta, shrinking, midpoint, corner_arcs: arcs, ..run::unsized_options(kappa) };
+                    let options = Options {
+                        rules: Rules { beta, ball_shrinking: shrinking, midpoint },
+                        corner_arcs: arcs,
+                        ..run::unsized_options(kappa)
+                    };
                     match run::run(&drawing, 0.5, &options) {
                         Ok(r) => {
                             let n = r.mesh.nodes.len();

@@ -3,7 +3,8 @@
 use crate::run;
 use squinch::domain::Domain;
 use squinch::plane::gcdr::SHARP_RAD;
-use squinch::run::request::{Engine, Request, Steiner};
+use squinch::plane::gcdr::{Choices, Steiner};
+use squinch::run::request::{Engine, Request};
 use squinch::run::{Exit, Extent, run_drawing};
 use squinch::watch::no_clock;
 use std::path::PathBuf;
@@ -54,8 +55,9 @@ fn files(folder: &str) -> Result<Vec<PathBuf>, String> {
 
 impl Counts {
     fn add(&mut self, path: &std::path::Path, steiner: Steiner) {
+        let gcdr = Choices { steiner, ..Choices::default() };
         let request =
-            Request { engine: Engine::Gcdr, min_angle: 30.0, steiner, timeout: Some(20.0), ..Request::default() };
+            Request { engine: Engine::Gcdr, min_angle: 30.0, gcdr, timeout: Some(20.0), ..Request::default() };
         let name = path.display().to_string();
         let Ok(drawing) = run::read(&name) else { return };
         let outcome = run_drawing(&drawing, &request, Extent::Whole(&mut |_| true), &no_clock);

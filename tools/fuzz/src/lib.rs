@@ -3,11 +3,12 @@
 pub mod sketch;
 
 use sketch::Sketch;
-use squinch::domain::{ArrangeOptions, Domain, Drawing, FillRule, Unarranged};
+use squinch::domain::{ArrangeOptions, Domain, Drawing, FillRule, Loose, Naming, Unarranged};
 use squinch::geometry::{magnitude, scaled};
-use squinch::import::{Format, mesh};
+use squinch::import::{AirfoilOptions, DxfOptions, Format, LineTypes, Strokes, TrailingEdge, mesh};
+use squinch::options::Switch;
 use squinch::run::{self, Exit, Extent, Outcome, Plan, Source};
-use squinch::run::request::{Keep, LineTypes, LooseEnds, NamesOf, Request, Strokes, Switch, TrailingEdge};
+use squinch::run::request::{Keep, Request};
 use squinch::watch::{Progress, no_clock};
 use std::collections::BTreeMap;
 
@@ -37,15 +38,20 @@ fn file_and_request(bytes: &[u8]) -> (&[u8], Request) {
     let chosen = |bit: u8| choice & (1 << bit) != 0;
     let request = Request {
         max_vertices: VERTICES,
-        far_field: if chosen(0) { 0.0 } else { 2.0 },
-        trailing_edge: if chosen(1) { TrailingEdge::Sharp } else { TrailingEdge::Keep },
-        chord: chosen(2).then_some(3.0),
+        airfoil: AirfoilOptions {
+            far_field: if chosen(0) { 0.0 } else { 2.0 },
+            trailing_edge: if chosen(1) { TrailingEdge::Sharp } else { TrailingEdge::Keep },
+            chord: chosen(2).then_some(3.0),
+            ..AirfoilOptions::default()
+        },
         strokes: if chosen(0) { Strokes::Area } else { Strokes::Auto },
-        flatten_z: if chosen(1) { Switch::On } else { Switch::Off },
-        line_types: if chosen(2) { LineTypes::All } else { LineTypes::Edges },
-        names: if chosen(3) { NamesOf::Outline } else { NamesOf::Layer },
+        dxf: DxfOptions {
+            flatten_z: if chosen(1) { Switch::On } else { Switch::Off },
+            line_types: if chosen(2) { LineTypes::All } else { LineTypes::Edges },
+        },
+        names: if chosen(3) { Naming::Outline } else { Naming::Layer },
         close: chosen(4).then_some(0.01),
-        loose: if chosen(5) { LooseEnds::Drop } else { LooseEnds::Auto },
+        loose: if chosen(5) { Loose::Drop } else { Loose::Auto },
         keep: if chosen(6) { Keep::All } else { Keep::Inside },
         ..Request::default()
     };

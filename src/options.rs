@@ -1,0 +1,314 @@
+//! What an option is: a field of the options of the room that it is for, written once.
+//!
+//! The field's name in kebab-case is its key, on the command line, in a `--config` file and in a case file alike. Its doc comment is its
+//! help, the default of its struct is its default, and `#[schemars(extend(…))]` says what no type can:
+//!
+//! | attribute | says |
+//! |---|---|
+//! | `group` | the heading under which it stands, a [`Group`] |
+//! | `value` | what stands for its value in the help: `LENGTH` |
+//! | `report` | its name in the report, where that has a unit: `timeout_s` |
+//! | `rare` | that only the long help has it |
+//! | `switch` | that `on` may be left out |
+//! | `file` | that the name of a file may stand for its content |
+//! | `commas` | that several values may stand between commas |
+//!
+//! [`described`] lists the options of a struct. The command line, the report and its schema are made of that list.
+
+use schemars::{JsonSchema, generate::SchemaSettings};
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+use std::fmt;
+
+/// Headings of options, in the order in which they are told.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Group {
+    Engine,
+    Bounds,
+    Input,
+    Budget,
+    Airfoils,
+    Solids,
+    /// Of the engine for generalized constrained refinement.
+    Gcdr,
+}
+
+/// An option, as its field describes it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Described {
+    pub key: String,
+    pub group: Group,
+    pub value: String,
+    /// A sentence without its full stop, and the default where there is one.
+    pub help: String,
+    pub report: String,
+    pub rare: bool,
+    pub switch: bool,
+    pub file: bool,
+    pub commas: bool,
+    pub kind: Kind,
+}
+
+/// What an option's value is.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Kind {
+    Number,
+    Integer,
+    /// One of some words, each with what it means.
+    Word(Vec<(String, Option<String>)>),
+    /// What the option's own type reads: a number with a sign, a word or a number, a pair.
+    Text,
+    /// Any number of texts.
+    Texts,
+}
+
+/// The attributes of a field, as its schema has them.
+#[derive(Deserialize)]
+struct Attributes {
+    description: String,
+    group: Group,
+    value: String,
+    report: Option<String>,
+    #[serde(default)]
+    rare: bool,
+    #[serde(default)]
+    switch: bool,
+    #[serde(default)]
+    file: bool,
+    #[serde(default)]
+    commas: bool,
+    default: Option<Value>,
+}
+
+/// The options of a struct, those of the structs that it gathers among them, in the order of its fields.
+pub fn described<T: JsonSchema>() -> Vec<Described> {
+    let inline = |settings: &mut SchemaSettings| settings.inline_subschemas = true;
+    let settings = SchemaSettings::draft2020_12().with(inline);
+    let schema = settings.into_generator().into_root_schema_for::<T>().to_value();
+    let fields = schema["properties"].as_object().expect("options are a struct");
+    fields.iter().map(|(key, field)| Described::new(key, field)).collect()
+}
+
+impl Described {
+    fn new(key: &str, field: &Value) -> Self {
+        let attributes = Attributes::deserialize(field).unwrap_or_else(|e| panic!("the option {key}: {e}"));
+        let Attributes { group, value, rare, switch, file, commas, .. } = attributes;
+        let default = match &attributes.default {
+            Some(Value::String(word)) => format!(" [default: {word}]"),
+            Some(Value::Number(number)) => format!(" [default: {}]", plain(number)),
+            Some(Value::Null | Value::Bool(_) | Value::Array(_) | Value::Object(_)) | None => String::new(),
+        };
+        let told = attributes.description.contains("[default");
+        let help = sentence(&attributes.description) + if told { "" } else { &default };
+        let report = attributes.report.unwrap_or_else(|| key.replace('-', "_"));
+        Self { key: key.into(), group, value, help, report, rare, switch, file, commas, kind: Kind::of(field) }
+    }
+}
+
+/// A doc comment as a line of help.
+fn sentence(comment: &str) -> String {
+    comment.replace('\n', " ").trim_end_matches('.').to_owned()
+}
+
+/// A number as people write it: 20, not 20.0.
+fn plain(number: &serde_json::Number) -> String {
+    number.as_f64().map_or_else(|| number.to_string(), |value| value.to_string())
+}
+
+impl Kind {
+    fn of(field: &Value) -> Self {
+        if let Some(words) = words(field) {
+            return Self::Word(words);
+        }
+        let is = |kind: &str| match &field["type"] {
+            Value::Array(kinds) => kinds.iter().any(|k| k == kind),
+            only => only == kind,
+        };
+        match () {
+            () if is("array") => Self::Texts,
+            () if is("integer") => Self::Integer,
+            () if is("number") => Self::Number,
+            () => Self::Text,
+        }
+    }
+}
+
+/// The words of a choice, from the schema of its enum: in their order where each has a doc comment, else those without one first.
+fn words(field: &Value) -> Option<Vec<(String, Option<String>)>> {
+    let word = |choice: &Value| {
+        let help = choice["description"].as_str().map(sentence);
+        let list = choice["enum"].as_array().into_iter().flatten();
+        list.chain(choice.get("const")).filter_map(Value::as_str).map(|w| (w.to_owned(), help.clone())).collect()
+    };
+    let choices: Vec<(String, Option<String>)> = match field["oneOf"].as_array() {
+        Some(choices) => choices.iter().flat_map(|choice| -> Vec<_> { word(choice) }).collect(),
+        None => word(field),
+    };
+    (!choices.is_empty()).then_some(choices)
+}
+
+/// On or off.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
+#[serde(rename_all = "lowercase")]
+pub enum Switch {
+    On,
+    Off,
+}
+
+impl Switch {
+    pub fn is_on(self) -> bool {
+        self == Self::On
+    }
+}
+
+/// An option out of its bounds.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("--{option} {value}: {why}")]
+pub struct OutOfBounds {
+    pub option: &'static str,
+    pub value: String,
+    pub why: &'static str,
+}
+
+impl OutOfBounds {
+    /// Refuses the value of an option unless its bounds hold.
+    ///
+    /// # Errors
+    /// With the option, its value and `why`.
+    pub fn unless(holds: bool, option: &'static str, value: &dyn fmt::Display, why: &'static str) -> Result<(), Self> {
+        if holds { Ok(()) } else { Err(Self { option, value: value.to_string(), why }) }
+    }
+
+    /// Refuses numbers that are given and not positive.
+    ///
+    /// # Errors
+    /// With the first such option.
+    pub fn unless_positive(numbers: &[(&'static str, Option<f64>)]) -> Result<(), Self> {
+        let positive = |(option, value): &(&'static str, Option<f64>)| {
+            let value = value.unwrap_or(1.0);
+            Self::unless(value.is_finite() && value > 0.0, option, &value, "a positive number is needed")
+        };
+        numbers.iter().try_for_each(positive)
+    }
+}
+
+/// A number, or a word or a number with a sign behind it: how mixed options stand in a file.
+#[derive(Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum Scalar {
+    Number(f64),
+    Text(String),
+}
+
+impl From<String> for Scalar {
+    fn from(text: String) -> Self {
+        text.parse().map_or(Self::Text(text), Self::Number)
+    }
+}
+
+/// Lets types that are written as text (`FromStr`, `Display`) stand in a file as a [`Scalar`]: for `#[serde(try_from, into)]`.
+macro_rules! scalar {
+    ($($name:ident),*) => {$(
+        impl TryFrom<$crate::options::Scalar> for $name {
+            type Error = String;
+            fn try_from(value: $crate::options::Scalar) -> Result<Self, String> {
+                match value {
+                    $crate::options::Scalar::Number(number) => number.to_string().parse(),
+                    $crate::options::Scalar::Text(text) => text.parse(),
+                }
+            }
+        }
+        impl From<$name> for $crate::options::Scalar {
+            fn from(value: $name) -> Self {
+                value.to_string().into()
+            }
+        }
+    )*};
+}
+pub(crate) use scalar;
+
+/// A number from text, for the types of options.
+///
+/// # Errors
+/// A sentence with the text.
+pub fn number(text: &str) -> Result<f64, String> {
+    text.trim().parse().map_err(|_| format!("'{text}' is not a number"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two rooms' options, gathered.
+    #[derive(Serialize, Deserialize, JsonSchema)]
+    #[serde(rename_all = "kebab-case", default)]
+    struct All {
+        /// Who works
+        #[schemars(extend("group" = "engine", "value" = "WHO"))]
+        who: Who,
+        #[serde(flatten)]
+        room: Room,
+        /// Seconds it may take
+        #[schemars(extend("group" = "budget", "value" = "S", "report" = "wait_s"))]
+        wait: Option<f64>,
+    }
+
+    #[derive(Serialize, Deserialize, JsonSchema)]
+    #[serde(rename_all = "kebab-case", default)]
+    struct Room {
+        /// How far
+        /// [default there: 3]
+        #[schemars(extend("group" = "bounds", "value" = "LENGTH", "rare" = true))]
+        far_off: f64,
+        /// Of which names
+        #[schemars(extend("group" = "bounds", "value" = "A,B", "commas" = true))]
+        of: Vec<String>,
+    }
+
+    #[derive(Default, Serialize, Deserialize, JsonSchema)]
+    #[serde(rename_all = "lowercase")]
+    enum Who {
+        /// The first
+        #[default]
+        One,
+        /// Another.
+        Other,
+    }
+
+    impl Default for All {
+        fn default() -> Self {
+            Self { who: Who::One, room: Room::default(), wait: None }
+        }
+    }
+
+    impl Default for Room {
+        fn default() -> Self {
+            Self { far_off: 3.0, of: Vec::new() }
+        }
+    }
+
+    #[test]
+    fn options_are_described_by_their_fields() {
+        let options = described::<All>();
+        let keys: Vec<&str> = options.iter().map(|o| o.key.as_str()).collect();
+        assert_eq!(keys, ["who", "far-off", "of", "wait"]);
+        assert_eq!(options[0].help, "Who works [default: one]");
+        assert_eq!(
+            options[0].kind,
+            Kind::Word(vec![("one".into(), Some("The first".into())), ("other".into(), Some("Another".into()))])
+        );
+        assert_eq!((options[1].kind.clone(), options[1].rare), (Kind::Number, true));
+        assert_eq!(options[1].help, "How far [default there: 3]", "told already");
+        assert_eq!((options[2].kind.clone(), options[2].commas), (Kind::Texts, true));
+        assert_eq!((options[3].kind.clone(), options[3].report.as_str()), (Kind::Number, "wait_s"));
+        assert_eq!(options[3].group, Group::Budget);
+    }
+
+    #[test]
+    fn bounds_name_the_option_and_the_value() {
+        let refused = OutOfBounds::unless_positive(&[("a", None), ("b", Some(2.0)), ("c", Some(-1.0))]);
+        assert_eq!(refused.unwrap_err().to_string(), "--c -1: a positive number is needed");
+    }
+}

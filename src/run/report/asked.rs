@@ -1,0 +1,124 @@
+//! What was asked of a run, as its report tells it: every option of the request under its name there, in the order of the groups.
+//!
+//! What a run did not come to, and what is for another engine, is `null`.
+
+use crate::domain::{Domain, Drawing};
+use crate::options::{Described, Group, Kind};
+use crate::run::request::{Engine, Request};
+use crate::size::Sizing;
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::Serialize;
+use serde_json::{Map, Value, json};
+use std::borrow::Cow;
+
+/// What is told first: the unit of all lengths (`null`: the file's own, which is not known), the engine, and the two angles of its theory.
+const FIRST: [&str; 4] = ["length_unit", "engine", "angle_min_deg", "tau_rad"];
+
+/// Every option as used. Lengths in `length_unit`, areas in its square.
+#[derive(Clone, Debug, Serialize)]
+#[serde(transparent)]
+pub struct RequestReport(Map<String, Value>);
+
+impl RequestReport {
+    /// The options as asked.
+    pub fn new(request: &Request) -> Self {
+        let asked = serde_json::to_value(request).expect("options are words, numbers and lists of them");
+        let mut told: Map<String, Value> = FIRST.map(|name| (name.to_owned(), Value::Null)).into_iter().collect();
+        for option in in_groups() {
+            told.insert(option.report.clone(), tell(option, request, &asked[&option.key]));
+        }
+        Self(told)
+    }
+
+    /// What the options came to for a drawing and its domain.
+    pub fn note_use(&mut self, drawing: &Drawing, domain: &Domain, tau_rad: f64, sizing: &Sizing) {
+        let unit = drawing.unit.as_ref().map(|(unit, _)| unit);
+        let used = [
+            ("length_unit", json!(unit)),
+            ("tolerance", json!(domain.tolerance())),
+            ("tau_rad", json!(tau_rad)),
+            ("chord_error", json!(sizing.chord_error)),
+        ];
+        self.0.extend(used.map(|(name, value)| (name.to_owned(), value)));
+    }
+
+    /// An option by its name in the report; `null` where there is none.
+    pub fn get(&self, name: &str) -> &Value {
+        self.0.get(name).unwrap_or(&Value::Null)
+    }
+}
+
+fn in_groups() -> Vec<&'static Described> {
+    let mut options: Vec<&Described> = Request::options().iter().collect();
+    options.sort_by_key(|option| option.group);
+    options
+}
+
+/// An option as it is told; `asked` is what the request's file says of it, `null` where it says nothing.
+fn tell(option: &Described, request: &Request, asked: &Value) -> Value {
+    if option.group == Group::Gcdr && request.engine != Engine::Gcdr {
+        return Value::Null;
+    }
+    match option.key.as_str() {
+        // Known when they have been used.
+        "tolerance" | "chord-error" => Value::Null,
+        "edge-turning" => json!(request.limits.edge_turning.deg()),
+        "size" => json!(request.limits.size.as_ref().map(ToString::to_string)),
+        "size-of" => request.limits.size_of.iter().map(|s| (s.name.clone(), json!(s.edge))).collect(),
+        "scale" => json!(request.scale.unwrap_or(1.0)),
+        "delta2" => json!(request.regions().delta2),
+        "delta1" => json!(request.regions().delta1),
+        "mu" => json!(request.regions().mu),
+        "snap" => json!(request.gcdr.snap.as_ref().map(ToString::to_string)),
+        _ => match (&option.kind, asked) {
+            (Kind::Word(words), word) if is_switch(words) => json!(word == "on"),
+            (Kind::Text, Value::Number(number)) => json!(number.as_f64().map(|n| n.to_string())),
+            (Kind::Texts, Value::Null) => json!([]),
+            (_, asked) => asked.clone(),
+        },
+    }
+}
+
+fn is_switch(words: &[(String, Option<String>)]) -> bool {
+    matches!(words, [(on, _), (off, _)] if on == "on" && off == "off")
+}
+
+/// The schema of an option as it is told.
+fn schema(option: &Described) -> Value {
+    let kind = match (option.key.as_str(), &option.kind) {
+        ("size-of", _) => json!({ "type": "object", "additionalProperties": { "type": "number" } }),
+        ("edge-turning" | "chord-error", _) | (_, Kind::Number) => json!({ "type": ["number", "null"] }),
+        (_, Kind::Integer) => json!({ "type": ["integer", "null"] }),
+        (_, Kind::Word(words)) if is_switch(words) => json!({ "type": ["boolean", "null"] }),
+        (_, Kind::Texts) => json!({ "type": "array", "items": { "type": "string" } }),
+        (_, Kind::Word(_) | Kind::Text) => json!({ "type": ["string", "null"] }),
+    };
+    let Value::Object(mut kind) = kind else { unreachable!("each is an object") };
+    kind.insert("description".into(), json!(option.help));
+    Value::Object(kind)
+}
+
+impl JsonSchema for RequestReport {
+    fn schema_name() -> Cow<'static, str> {
+        "RequestReport".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        let first = |name: &str| {
+            let (kind, what) = match name {
+                "length_unit" => ("string", "Unit of all lengths; null: the file's own, which is not known"),
+                _ => ("number", "As used, also where auto was asked for; null where the run did not come so far"),
+            };
+            (name.to_owned(), json!({ "type": [kind, "null"], "description": what }))
+        };
+        let mut properties: Map<String, Value> = FIRST.into_iter().map(first).collect();
+        properties.extend(in_groups().into_iter().map(|option| (option.report.clone(), schema(option))));
+        let required: Vec<&String> = properties.keys().collect();
+        json_schema!({
+            "description": "Every option as used. Lengths in `length_unit`, areas in its square",
+            "type": "object",
+            "required": required,
+            "properties": properties,
+        })
+    }
+}
