@@ -19,7 +19,6 @@ use crate::watch::Watch;
 
 /// A hook turns at least so far within this part of the tolerance: a disc that is wider than the tolerance has none.
 const HOOK_RAD: f64 = 0.05;
-
 const HOOK: f64 = 0.0625;
 
 /// A Bézier curve has no hooks where its speed along the chord is at least this part of its greatest: it bends no sharper than some

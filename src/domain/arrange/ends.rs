@@ -18,6 +18,7 @@ pub(super) enum Owner {
     OffPlane(usize, usize),
 }
 
+/// Where a single line ends.
 pub(super) struct FreeEnd {
     pub at: Point,
     /// Unit vector along the line that ends there.

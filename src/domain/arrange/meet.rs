@@ -15,7 +15,6 @@ const BENT: f64 = 0.375;
 
 /// Pieces that cross within the tolerance of a common end begin up to so many times as far from it, and no farther than this part of the tolerance.
 const BEYOND: f64 = 16.0;
-
 const BEYOND_REACH: f64 = 0.9;
 
 /// A place at which a piece is to be cut.
@@ -40,12 +39,16 @@ impl Found {
     }
 }
 
+/// A place on a piece.
 #[derive(Clone, Copy, Debug)]
 enum Site {
+    /// Within the tolerance of one of its ends.
     End(PointId),
+    /// At a parameter.
     Inside(f64, Point),
 }
 
+/// Makes one of a node and a place on a piece: a link of two nodes, or a cut.
 fn join(found: &mut Found, (piece, site): (CurveId, Site), node: PointId) {
     match site {
         Site::End(end) if end != node => found.links.push([end, node]),
@@ -152,6 +155,15 @@ impl Network<'_> {
     /// Further meetings of two pieces with a common end. Within the tolerance of it all is one contact, but the curves may cross there
     /// once more: they are cut there. Where even that is within the tolerance of the end, both begin at the crossing instead. Asked
     /// only of pieces that meet nowhere else: those that repeat each other are cut and become one first.
+    ///
+    /// ```text
+    ///    p ╲   ╱ q
+    ///       ╲ ╱            p and q leave m, and cross once more at x. Where x is farther from m than the tolerance, they are cut there.
+    ///        x             Else what lies between x and m is left out, and what begins at x, or somewhat beyond, is moved to m.
+    ///       ╱ ╲
+    ///       ╲ ╱
+    ///        m
+    /// ```
     fn untangle(&mut self, ids: [CurveId; 2], found: &mut Found) -> Result<(), ArrangeError> {
         let [p, q] = ids.map(|id| &self.pieces[id]);
         if !p.ends.iter().any(|end| q.ends.contains(end)) {

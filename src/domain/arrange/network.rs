@@ -1,8 +1,10 @@
 //! The network: nodes, and the pieces of drawn curves that run between them, on their way to a domain.
 //!
 //! ```text
-//!        drawn curve                    pieces a, b between nodes m, n, o
-//!   ────────────────────────      m ────── a ────── n ──── b ──── o       `source`: the drawn curve, `range`: between which of its parameters
+//!   as drawn                          pieces a, b, c and nodes ●
+//!
+//!   p ──────────────                ●── a ──●══ b ══●── c ──●      Each piece is a part of a drawn curve, its `source`: a and b of p, c of q.
+//!           ────────────── q                                       Along b runs q, too, which is `merged` with it.
 //! ```
 
 use super::frame::Tolerances;
@@ -147,6 +149,7 @@ pub(super) struct Seen {
 }
 
 impl Seen {
+    /// The id of a list, which is recorded if it is new; `None` of an empty one.
     pub fn id(&mut self, list: Vec<ShapeId>) -> Option<SeenId> {
         if list.is_empty() {
             return None;
@@ -187,6 +190,7 @@ impl<'a> Network<'a> {
         }
     }
 
+    /// How far a phase is, with so much left to do.
     pub fn progress(&self, phase: &'static str, queued: usize) -> Progress {
         Progress { phase, vertices: self.nodes.len(), queued }
     }
@@ -195,11 +199,12 @@ impl<'a> Network<'a> {
         self.nodes.push(Node { at, origin, fresh: true })
     }
 
+    /// What a drawn curve is called.
     pub fn entity(&self, source: u32) -> &'a str {
         &self.drawing.curves[source as usize].entity
     }
 
-    /// The entity of a piece.
+    /// What the drawn curve of a piece is called.
     pub fn text_of(&self, id: CurveId) -> &str {
         &self.drawing.curves[self.pieces[id].source as usize].entity
     }
@@ -210,6 +215,7 @@ impl<'a> Network<'a> {
         [(piece.source, false)].into_iter().chain(piece.merged.iter().copied())
     }
 
+    /// Lists a repair.
     pub fn repair(&mut self, kind: RepairKind, at: Point, size: f64, what: String) {
         self.repairs.push(Repair { kind, at: [at.x, at.y], size, what });
     }

@@ -226,10 +226,9 @@ impl<'n, 'a> Ways<'n, 'a> {
 ///   │              │        that are connected by then: it closes a ring, by the way around through 1, and both gaps are missing.
 ///   ╰──── · 2 ─────╯
 ///
-///   ──╮                     Link 3 is from an end that stops short of an open line to the nearest point of it, its foot: the line up to the
-///     │  · 3                foot is part of the ring, what goes on beyond it is not.
-///     │──·──────
-///     ╰──╯
+///   ╭──────────────╮        Link 3 is from an end that stops short of an open line to its foot, the nearest point there. The line up to the
+///   │              · 3      foot is part of the ring; what goes on beyond it is not.
+///   ╰──────────────·──────
 /// ```
 pub(super) fn missed_rings(network: &Network, ends: &[FreeEnd]) -> Option<ArrangeError> {
     let gaps = missed_gaps(ends);

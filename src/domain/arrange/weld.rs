@@ -49,6 +49,12 @@ impl Network<'_> {
     }
 
     /// One round: clusters the nodes, cuts the pieces, moves their ends to the clusters, and drops what is repeated or of no length.
+    ///
+    /// ```text
+    ///   p ─────── a   b ─────── q           p ──────╲ ╱────── q       a and b are nearer to each other than the tolerance, and so is r. They
+    ///   r ───────────────────────     →              a                become one node, the one drawn first, at which r is cut, and to which
+    ///                                      r₁ ──────╱ ╲────── r₂      all pieces are moved.
+    /// ```
     fn weld(&mut self, found: Found) {
         let cuts = self.cuts_by_piece(found.cuts);
         let clusters = self.clusters(&found.links, &cuts);
