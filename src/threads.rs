@@ -15,10 +15,16 @@ mod pooled {
     use std::sync::atomic::{AtomicUsize, Ordering};
     use std::sync::{Arc, Mutex, PoisonError};
 
-    /// The pool, and the process that made it.
-    static POOL: Mutex<Option<(u32, Arc<ThreadPool>)>> = Mutex::new(None);
+    /// The pool that is made first.
+    static POOL: Mutex<Option<Made>> = Mutex::new(None);
     /// Threads asked for; 0: as many as cores.
     static COUNT: AtomicUsize = AtomicUsize::new(0);
+
+    /// A pool, and the process that made it.
+    struct Made {
+        process: u32,
+        pool: Arc<ThreadPool>,
+    }
 
     /// Sets how many threads there are, before any work: the pool that is made first keeps its size. 0: as many as cores.
     pub fn set_count(threads: usize) {
@@ -32,16 +38,18 @@ mod pooled {
 
     /// `None` where the system has no threads to give.
     fn pool() -> Option<Arc<ThreadPool>> {
-        let process = std::process::id();
         let mut made = POOL.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some((of, pool)) = &*made
-            && *of == process
-        {
-            return Some(pool.clone());
+        pool_of(std::process::id(), &mut made, COUNT.load(Ordering::Relaxed))
+    }
+
+    /// The pool of a process: the one that it made, or a new one of so many threads.
+    fn pool_of(process: u32, made: &mut Option<Made>, threads: usize) -> Option<Arc<ThreadPool>> {
+        if let Some(made) = made.as_ref().filter(|made| made.process == process) {
+            return Some(made.pool.clone());
         }
-        let pool = Arc::new(ThreadPoolBuilder::new().num_threads(COUNT.load(Ordering::Relaxed)).build().ok()?);
+        let pool = Arc::new(ThreadPoolBuilder::new().num_threads(threads).build().ok()?);
         // The threads of a pool of another process are not here to be ended.
-        std::mem::forget(made.replace((process, pool.clone())));
+        std::mem::forget(made.replace(Made { process, pool: pool.clone() }));
         Some(pool)
     }
 
@@ -66,6 +74,35 @@ mod pooled {
     pub fn map<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> R + Send + Sync) -> Vec<R> {
         within(|| items.par_iter().map(work).collect())
     }
+
+    #[cfg(test)]
+    mod tests {
+        use super::*;
+
+        #[test]
+        fn a_pool_has_as_many_threads_as_asked_for_and_stays() {
+            for threads in 1..4 {
+                let mut made = None;
+                let first = pool_of(1, &mut made, threads).expect("there are threads");
+                assert_eq!(first.current_num_threads(), threads);
+                let again = pool_of(1, &mut made, threads + 1).expect("it was made");
+                assert!(Arc::ptr_eq(&first, &again), "the pool that is made first keeps its size");
+            }
+        }
+
+        #[test]
+        fn another_process_makes_a_pool_of_its_own() {
+            let mut made = None;
+            let parent = pool_of(1, &mut made, 2).expect("there are threads");
+            let child = pool_of(2, &mut made, 2).expect("there are threads");
+            assert!(!Arc::ptr_eq(&parent, &child));
+            assert!(Arc::ptr_eq(&child, &pool_of(2, &mut made, 2).expect("it was made")));
+            // It works, and so does the other one, in the process that it is of.
+            for pool in [parent, child] {
+                assert_eq!(pool.install(|| (0..1000_u32).into_par_iter().sum::<u32>()), 499_500);
+            }
+        }
+    }
 }
 
 #[cfg(not(feature = "parallel"))]
@@ -88,5 +125,26 @@ mod serial {
     /// What comes of each item, in their order.
     pub fn map<T, R>(items: &[T], work: impl Fn(&T) -> R) -> Vec<R> {
         items.iter().map(work).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::atomic::{AtomicUsize, Ordering};
+
+    #[test]
+    fn work_comes_out_as_if_done_one_after_the_other() {
+        assert!(count() >= 1);
+        let items: Vec<usize> = (0..1000).collect();
+        let wanted: Vec<usize> = items.iter().map(|x| x * x).collect();
+        assert_eq!(map(&items, |x| x * x), wanted, "in their order");
+        let seen: Vec<AtomicUsize> = items.iter().map(|_| AtomicUsize::new(0)).collect();
+        for_each(items.len(), |k| _ = seen[k].fetch_add(1, Ordering::Relaxed));
+        assert!(seen.iter().all(|times| times.load(Ordering::Relaxed) == 1), "each once");
+        // Work within work, as the verifier does it.
+        let (a, b) = join(|| map(&items, |x| x + 1), || join(|| 3, || "four"));
+        assert_eq!((a[999], b), (1000, (3, "four")));
+        assert!(map(&[0; 0], |x: &i32| *x).is_empty());
     }
 }

@@ -81,6 +81,115 @@ fn every_room_has_a_row() {
     assert!(gone.is_empty(), "without a source: {gone:?}");
 }
 
+/// No two rooms know each other, neither directly nor by way of others. The same holds within a room, on each of its floors: what lies side by
+/// side in one folder has an order in which one could read it.
+///
+/// ```text
+///   domain/                      `domain` imports `curve`, so `curve` imports nothing that leads back to `domain`.
+///   ├── mod.rs                   A `mod.rs` declares what lies beside it and holds what all of it shares: that its children import from
+///   ├── locate.rs ◀────────╮     it, and it from them, is no circle.
+///   └── arrange/           │
+///       ├── mod.rs         │
+///       ├── fill.rs ───▶ trace.rs ──╳──▶ fill.rs     Two that import each other are one module in two files.
+///       └── faces.rs ◀── fill.rs
+/// ```
+///
+/// A file counts with all that lies in the folder of its name: `clip/part.rs` imports for `clip`, and is imported as `clip`.
+#[test]
+fn no_imports_run_in_a_circle() {
+    let modules: BTreeSet<String> = sources().iter().map(|file| module_of(file).to_owned()).collect();
+    let mut floors: BTreeMap<String, Graph> = BTreeMap::new();
+    for file in sources() {
+        let text = fs::read_to_string(source_root().join(&file)).expect("a source is readable");
+        let module = module_of(&file);
+        for target in imported(without_tests(&text), module) {
+            if let Some(target) = module_with(&target, &modules)
+                && let Some((floor, [from, to])) = floor_between(module, target)
+            {
+                floors.entry(floor).or_default().entry(from).or_default().insert(to);
+            }
+        }
+    }
+    assert!(floors.len() > 10, "floors are found: {}", floors.len());
+    let circles: Vec<String> = (floors.iter())
+        .flat_map(|(floor, graph)| circle_of(graph).map(|circle| format!("src/{floor}: {}", circle.join(" → "))))
+        .collect();
+    assert!(circles.is_empty(), "imports run in a circle:\n{}", circles.join("\n"));
+}
+
+/// What each of some siblings imports of the others.
+type Graph = BTreeMap<String, BTreeSet<String>>;
+
+/// A source up to its own tests, which may look at what they like.
+fn without_tests(text: &str) -> &str {
+    text.split("#[cfg(test)]\nmod tests").next().unwrap_or(text)
+}
+
+/// The module that a path leads to: the longest one that it begins with.
+fn module_with<'m>(path: &str, modules: &'m BTreeSet<String>) -> Option<&'m str> {
+    let mut path = path;
+    loop {
+        if let Some(module) = modules.get(path) {
+            return Some(module);
+        }
+        path = path.rsplit_once('/')?.0;
+    }
+}
+
+/// The folder in which the ways to two modules part, and what each way goes on with; `None` where one lies within the other.
+fn floor_between(from: &str, to: &str) -> Option<(String, [String; 2])> {
+    let (from, to): (Vec<&str>, Vec<&str>) = (from.split('/').collect(), to.split('/').collect());
+    let common = from.iter().zip(&to).take_while(|(a, b)| a == b).count();
+    let parting = [*from.get(common)?, *to.get(common)?];
+    Some((from[..common].join("/"), parting.map(str::to_owned)))
+}
+
+/// One circle of a graph, its first member again at the end.
+fn circle_of(graph: &Graph) -> Option<Vec<String>> {
+    /// `way` leads to `here`; `done` leads into no circle.
+    fn walk(graph: &Graph, here: &str, way: &mut Vec<String>, done: &mut BTreeSet<String>) -> Option<Vec<String>> {
+        if let Some(first) = way.iter().position(|name| name == here) {
+            return Some(way[first..].iter().cloned().chain([here.to_owned()]).collect());
+        }
+        if !done.contains(here) {
+            way.push(here.to_owned());
+            for next in graph.get(here).into_iter().flatten() {
+                if let Some(circle) = walk(graph, next, way, done) {
+                    return Some(circle);
+                }
+            }
+            way.pop();
+            done.insert(here.to_owned());
+        }
+        None
+    }
+    let mut done = BTreeSet::new();
+    graph.keys().find_map(|start| walk(graph, start, &mut Vec::new(), &mut done))
+}
+
+#[test]
+fn a_circle_is_found() {
+    let graph = |edges: &[(&str, &str)]| {
+        let mut graph = Graph::new();
+        for &(from, to) in edges {
+            graph.entry(from.into()).or_default().insert(to.into());
+        }
+        graph
+    };
+    assert_eq!(circle_of(&graph(&[("a", "b"), ("a", "c"), ("b", "c")])), None);
+    let circle = circle_of(&graph(&[("a", "b"), ("b", "c"), ("c", "d"), ("d", "b")]));
+    assert_eq!(circle.expect("there is one"), ["b", "c", "d", "b"]);
+    let parting = |from: &str, to: &str| floor_between(from, to).map(|(floor, [a, b])| format!("{floor}: {a} {b}"));
+    assert_eq!(parting("import/dxf/hatch", "import/dxf/spline").as_deref(), Some("import/dxf: hatch spline"));
+    assert_eq!(parting("run/plan/budget", "run/report").as_deref(), Some("run: plan report"));
+    assert_eq!(parting("run/plan/budget", "size").as_deref(), Some(": run size"));
+    assert_eq!(parting("curve/line", "curve"), None, "what a module holds for its children");
+    let modules = ["curve".to_owned(), "curve/line".to_owned()].into();
+    assert_eq!(module_with("curve/line/Line", &modules), Some("curve/line"));
+    assert_eq!(module_with("curve/Curve", &modules), Some("curve"));
+    assert_eq!(module_with("kurbo/Point", &modules), None);
+}
+
 #[test]
 fn what_is_forbidden_is_found() {
     let text = "

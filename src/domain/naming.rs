@@ -2,7 +2,7 @@
 
 use super::{Drawing, Seed, SeedKind};
 use crate::geometry::boxes::BoxHierarchy;
-use crate::geometry::{Point, Rect};
+use crate::geometry::{Point, Rect, extent};
 use crate::ids::Forest;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -184,7 +184,7 @@ impl Drawing {
     /// The closed outline that each curve is a part of: curves of one name and shape that follow each other from end to end, and none of
     /// whose ends is free.
     fn closed_outlines(&self) -> Vec<Option<usize>> {
-        let near = SAME_END * self.bounds().map_or(0.0, |b| b.size().to_vec2().hypot());
+        let near = SAME_END * self.bounds().map_or(0.0, extent);
         let ends: Vec<Point> = self.curves.iter().flat_map(|drawn| [drawn.curve.start(), drawn.curve.end()]).collect();
         let around = |&at: &Point| Rect::from_points(at, at).inflate(near / 2.0, near / 2.0);
         let key = |end: usize| (self.curves[end / 2].name, self.curves[end / 2].shape);

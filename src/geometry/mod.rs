@@ -42,6 +42,11 @@ pub fn magnitude(bounds: Rect) -> f64 {
     bounds.x0.abs().max(bounds.x1.abs()).max(bounds.y0.abs()).max(bounds.y1.abs())
 }
 
+/// The length of a box's diagonal.
+pub fn extent(bounds: Rect) -> f64 {
+    bounds.size().to_vec2().hypot()
+}
+
 /// The smallest box around some points; `None` of none.
 pub fn bounds_of(points: impl IntoIterator<Item = Point>) -> Option<Rect> {
     points.into_iter().map(|p| Rect::from_points(p, p)).reduce(|a, b| a.union(b))

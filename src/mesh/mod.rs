@@ -149,3 +149,61 @@ impl Mesh {
         self
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ids::Id;
+
+    /// Two triangles side by side: `plate` and `rib`, which share a side named `seam`.
+    ///
+    /// ```text
+    ///   3 ─────── 2
+    ///   │ rib   ╱ │     `rim` is around both; no edge is of the name of a region, nor the other way around.
+    ///   │  seam   │
+    ///   │ ╱ plate │
+    ///   0 ─────── 1
+    /// ```
+    fn two_triangles() -> Mesh {
+        let mut mesh = Mesh::default();
+        for (x, y) in [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)] {
+            mesh.nodes.push(Point::new(x, y));
+        }
+        let [plate, rib, rim, seam] = ["plate", "rib", "rim", "seam"].map(|name| mesh.names.intern(name));
+        for (name, corners) in [(plate, [0, 1, 2]), (rib, [0, 2, 3])] {
+            let region = mesh.regions.push(name);
+            mesh.triangles.push(corners.map(VertexId));
+            mesh.triangle_regions.push(region);
+        }
+        for (name, nodes) in [(rim, [0, 1]), (rim, [1, 2]), (rim, [2, 3]), (rim, [3, 0]), (seam, [0, 2])] {
+            mesh.edges.push(CurveEdge { nodes: nodes.map(VertexId), name, link: None });
+        }
+        mesh
+    }
+
+    #[test]
+    fn triangles_are_found_by_the_name_of_their_region() {
+        let mut mesh = two_triangles();
+        let of = |mesh: &Mesh, name: &str| mesh.triangles_of(name).map(Id::index).collect::<Vec<_>>();
+        assert_eq!((of(&mesh, "plate"), of(&mesh, "rib")), (vec![0], vec![1]));
+        for absent in ["", "Plate", "seam", "nowhere"] {
+            assert!(of(&mesh, absent).is_empty(), "{absent:?} is no region");
+        }
+        // Regions of one name are one for who asks by name.
+        let again = mesh.regions.push(mesh.regions[RegionId(0)]);
+        mesh.triangle_regions[TriangleId(1)] = again;
+        assert_eq!((of(&mesh, "plate"), of(&mesh, "rib")), (vec![0, 1], vec![]));
+        assert!(of(&Mesh::default(), "plate").is_empty());
+    }
+
+    #[test]
+    fn edges_are_found_by_the_name_of_their_boundary() {
+        let mesh = two_triangles();
+        let of = |name: &str| mesh.edges_of(name).map(|edge| edge.nodes.map(Id::index)).collect::<Vec<_>>();
+        assert_eq!(of("rim"), [[0, 1], [1, 2], [2, 3], [3, 0]], "in their order");
+        assert_eq!(of("seam"), [[0, 2]]);
+        for absent in ["", "Rim", "plate", "nowhere"] {
+            assert!(of(absent).is_empty(), "{absent:?} is no boundary");
+        }
+    }
+}

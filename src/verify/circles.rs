@@ -5,7 +5,6 @@
 
 use super::evidence::{Evidence, Piece, place};
 use super::tally::Tally;
-use super::topology::nodes_of_points;
 use super::{Check, Status};
 use crate::domain::Domain;
 use crate::geometry::boxes::BoxHierarchy;
@@ -166,7 +165,7 @@ fn apexes(ev: &Evidence, piece: &Piece) -> impl Iterator<Item = VertexId> {
 
 /// Nodes at corners with a ball, ascending, and the radius.
 fn ball_at_nodes(ev: &Evidence, domain: &Domain) -> Vec<(VertexId, f64)> {
-    let nodes = nodes_of_points(ev, domain);
+    let nodes = ev.nodes_of_points(domain);
     let mut balls: Vec<(VertexId, f64)> =
         ev.mesh.balls.iter().filter_map(|ball| Some((nodes[ball.corner]?, ball.radius))).collect();
     balls.sort_unstable_by_key(|&(v, _)| v);

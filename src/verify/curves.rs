@@ -3,7 +3,7 @@
 use super::elevation::mids_on_curves;
 use super::evidence::{Evidence, Piece, is_kept, place};
 use super::tally::Tally;
-use super::topology::{ends_a_region, nodes_of_points};
+use super::topology::ends_a_region;
 use super::{Check, Status};
 use crate::curve::Curve;
 use crate::domain::Domain;
@@ -80,7 +80,7 @@ fn stray_nodes(ev: &Evidence, domain: &Domain, tally: &mut Tally) {
 /// without a gap, and grouped by curve. Checked: curves.
 pub fn curve_chain(ev: &Evidence, domain: &Domain) -> Check {
     let mut tally = Tally::highest("curve_chain");
-    let node = nodes_of_points(ev, domain);
+    let node = ev.nodes_of_points(domain);
     let mut seen: IdVec<CurveId, bool> = vec![false; domain.curves().len()].into();
     for chain in ev.pieces.chunk_by(|a, b| a.curve == b.curve) {
         tally.count();

@@ -104,6 +104,25 @@ impl<'a> Evidence<'a> {
         self.classes.of_mesh[self.mesh.triangle_regions[t]]
     }
 
+    /// The node of each point of P: as listed, or (foreign) as found on the curves.
+    pub fn nodes_of_points(&self, domain: &Domain) -> IdVec<PointId, Option<VertexId>> {
+        let mut node: IdVec<PointId, Option<VertexId>> = vec![None; domain.points().len()].into();
+        for &(p, v) in &self.mesh.points {
+            node[p] = Some(v);
+        }
+        if self.promise.foreign {
+            for piece in &self.pieces {
+                let ends = domain.curves()[piece.curve].ends;
+                for (t, v) in piece.t.into_iter().zip(piece.nodes) {
+                    if t == 0.0 || t == 1.0 {
+                        node[ends[usize::from(t == 1.0)]] = Some(v);
+                    }
+                }
+            }
+        }
+        node
+    }
+
     /// "triangle 7 (0 1 2) at (x, y)".
     pub fn tell(&self, t: TriangleId) -> String {
         let [a, b, c] = self.mesh.triangles[t].map(|v| v.0);

@@ -9,7 +9,7 @@ use crate::domain::Domain;
 use crate::geometry::boxes::BoxHierarchy;
 use crate::geometry::exact::{Orientation, orient};
 use crate::geometry::{Point, Rect, bounds_of};
-use crate::ids::{Id, IdVec, PointId, VertexId};
+use crate::ids::{Id, PointId, VertexId};
 use crate::mesh::quality;
 
 /// Every triangle runs counter-clockwise, exactly. Worst: the smallest signed area.
@@ -103,28 +103,9 @@ pub fn ends_a_region(ev: &Evidence, edge: &Edge) -> bool {
     left != right
 }
 
-/// The node of each point of P: as listed, or (foreign) as found on the curves.
-pub fn nodes_of_points(ev: &Evidence, domain: &Domain) -> IdVec<PointId, Option<VertexId>> {
-    let mut node: IdVec<PointId, Option<VertexId>> = vec![None; domain.points().len()].into();
-    for &(p, v) in &ev.mesh.points {
-        node[p] = Some(v);
-    }
-    if ev.promise.foreign {
-        for piece in &ev.pieces {
-            let ends = domain.curves()[piece.curve].ends;
-            for (t, v) in piece.t.into_iter().zip(piece.nodes) {
-                if t == 0.0 || t == 1.0 {
-                    node[ends[usize::from(t == 1.0)]] = Some(v);
-                }
-            }
-        }
-    }
-    node
-}
-
 /// A point at the end of a kept curve must be a node; one that no curve holds, if a triangle covers it.
 fn missing_points(ev: &Evidence, domain: &Domain, tally: &mut Tally) {
-    let node = nodes_of_points(ev, domain);
+    let node = ev.nodes_of_points(domain);
     let mut lone = Vec::new();
     for (p, &at) in domain.points().enumerate() {
         tally.count();

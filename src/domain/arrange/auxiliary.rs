@@ -1,9 +1,10 @@
 //! Linework that is no edge of the part, where inside and outside are told by how often outlines go around: drawing frames, outlines that
 //! cross those of another layer, and bolt circles. It is taken as drawn, and told with the option that leaves it out.
 
-use super::cut::Network;
-use super::fill::{closed_outlines, drawn_along};
-use super::trace::{Faces, Half};
+use super::faces::Faces;
+use super::fill::closed_outlines;
+use super::network::Network;
+use super::trace::Half;
 use crate::domain::Domain;
 use crate::domain::locate::Side;
 use crate::geometry::Point;
@@ -42,7 +43,7 @@ impl<'a> Outlines<'a> {
     fn new(network: &'a Network<'a>, faces: &'a Faces) -> Self {
         let closed = closed_outlines(network);
         let layers = |id: CurveId| {
-            let sources = drawn_along(network, id).map(|(source, _)| source as usize).filter(|&source| closed[source]);
+            let sources = network.drawn_along(id).map(|(source, _)| source as usize).filter(|&source| closed[source]);
             sources.filter_map(|source| network.drawing.curves[source].layer).collect::<BTreeSet<_>>()
         };
         let is_circle = |source: usize| {
@@ -50,7 +51,7 @@ impl<'a> Outlines<'a> {
             is_closed && network.drawing.curves[source].layer.is_some()
         };
         let circles = |id: CurveId| {
-            drawn_along(network, id).map(|(source, _)| source as usize).filter(|&s| is_circle(s)).collect()
+            network.drawn_along(id).map(|(source, _)| source as usize).filter(|&s| is_circle(s)).collect()
         };
         let by_curve: Vec<_> = network.pieces.ids().map(layers).collect();
         let circles = network.pieces.ids().map(circles).collect();

@@ -1,11 +1,13 @@
 //! Which faces are inside: by how often the drawn curves go around them, or by the shapes of a picture that paint them.
 
 use super::FillRule;
-use super::cut::{Network, extent};
-use super::trace::{Face, Faces, Half};
+use super::faces::{Face, Faces};
+use super::network::Network;
+use super::paint::painted;
+use super::trace::Half;
+use crate::domain::Domain;
 use crate::domain::locate::Side;
-use crate::domain::{Domain, Drawing};
-use crate::ids::{ClipId, CurveId, Id, IdVec, NameId, Names, PointId, SeenId, ShapeId};
+use crate::ids::{CurveId, Id, IdVec, NameId, PointId};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// What the fill rule says of every face, by the cycle that bounds it.
@@ -216,7 +218,7 @@ fn carried_on(network: &Network) -> BTreeMap<PointId, BTreeSet<usize>> {
     let mut ending: BTreeMap<(usize, usize), BTreeSet<PointId>> = BTreeMap::new();
     let overlaps = network.pieces.enumerate().filter(|(_, piece)| !piece.merged.is_empty());
     for (id, piece) in overlaps {
-        let along: BTreeSet<usize> = drawn_along(network, id).map(|(source, _)| source as usize).collect();
+        let along: BTreeSet<usize> = network.drawn_along(id).map(|(source, _)| source as usize).collect();
         for node in piece.ends {
             let (here, passing): (Vec<usize>, Vec<usize>) = along.iter().partition(|&&source| ends_at(source, node));
             for (a, b) in here.into_iter().flat_map(|a| passing.iter().map(move |&b| (a, b))) {
@@ -239,7 +241,7 @@ fn windings(network: &Network, domain: &mut Domain, faces: &Faces, rule: FillRul
         let [left, right] = [Side::Left, Side::Right].map(|side| faces.cycle_of[Half { curve: id, side }.index()]);
         left == right
     };
-    let drawn = |id: CurveId| drawn_along(network, id);
+    let drawn = |id: CurveId| network.drawn_along(id);
     // Outlines of shapes bound what they fill, and turn nothing inside out.
     let of_shapes =
         |source: u32| rule == FillRule::EvenOddAndShapes && network.drawing.curves[source as usize].shape.is_some();
@@ -273,243 +275,4 @@ fn tell_copies(count: usize) -> Option<String> {
         _ => format!("{count} curves are"),
     };
     Some(format!("{curves} drawn twice, in whole or in part: what lies over another curve is a copy, and counts once."))
-}
-
-/// The drawn curves that run along a piece of the domain, and whether each runs against it.
-pub(super) fn drawn_along(network: &Network, id: CurveId) -> impl Iterator<Item = (u32, bool)> {
-    let piece = &network.pieces[id];
-    [(piece.source, false)].into_iter().chain(piece.merged.iter().copied())
-}
-
-// ---- shapes ----
-
-/// How often each shape goes around one face, and which shapes fill it. Held for one face at a time: a tour of all faces crosses one
-/// curve after another, and back, so that shapes nested a thousand deep cost no more than the curves they are made of.
-struct Paint<'a> {
-    drawing: &'a Drawing,
-    winding: BTreeMap<ShapeId, i32>,
-    /// Those that are painted, cut or not.
-    filled: BTreeSet<ShapeId>,
-    /// The parts of clips.
-    open: BTreeMap<ClipId, BTreeSet<ShapeId>>,
-}
-
-impl<'a> Paint<'a> {
-    /// What fills the face around everything: nothing.
-    fn nothing(drawing: &'a Drawing) -> Self {
-        Self { drawing, winding: BTreeMap::new(), filled: BTreeSet::new(), open: BTreeMap::new() }
-    }
-
-    /// Whether the face lies in a clip and all that it lies within.
-    fn lies_in(&self, clip: Option<ClipId>) -> bool {
-        let shapes = &self.drawing.shapes;
-        let mut chain = std::iter::successors(clip, |&clip| self.drawing.clips[clip].within);
-        chain.all(|clip| self.open.get(&clip).is_some_and(|parts| parts.iter().any(|&p| self.lies_in(shapes[p].clip))))
-    }
-
-    /// The shapes that are painted on the face, the topmost first.
-    fn seen(&self) -> impl Iterator<Item = ShapeId> {
-        self.filled.iter().rev().copied().filter(|&shape| self.lies_in(self.drawing.shapes[shape].clip))
-    }
-
-    fn add(&mut self, shape: ShapeId, turns: i32) {
-        let winding = self.winding.entry(shape).or_insert(0);
-        *winding += turns;
-        let fills = if self.drawing.shapes[shape].even_odd { *winding % 2 != 0 } else { *winding != 0 };
-        let of_its_kind = match self.drawing.shapes[shape].part_of {
-            None => &mut self.filled,
-            Some(clip) => self.open.entry(clip).or_default(),
-        };
-        if fills {
-            of_its_kind.insert(shape);
-        } else {
-            of_its_kind.remove(&shape);
-        }
-        if *winding == 0 {
-            self.winding.remove(&shape);
-        }
-    }
-
-    /// Goes from the face of a curve's side to the face across the curve.
-    fn cross(&mut self, half: Half, network: &Network) {
-        for (source, against) in drawn_along(network, half.curve) {
-            if let Some(shape) = network.drawing.curves[source as usize].shape {
-                // The left of a curve that runs once around a shape winds once more than its right.
-                let leaves_left = (half.side == Side::Left) != against;
-                self.add(shape, if leaves_left { -1 } else { 1 });
-            }
-        }
-    }
-}
-
-/// Names of fragments list so many names of shapes, and as many as come to so many bytes: the topmost ones.
-const LISTED_MAX: usize = 8;
-const LISTED_BYTES: usize = 120;
-/// Shapes looked at for them: many may have one name.
-const LOOKED_AT: usize = 64;
-
-/// Names of the sets of shapes that fill faces.
-struct FragmentNames<'a> {
-    names: &'a mut Names,
-    /// By the names listed and the number of the shapes below that are not.
-    known: BTreeMap<(Vec<NameId>, usize), NameId>,
-}
-
-impl FragmentNames<'_> {
-    /// The names of the shapes, each once, the topmost first, joined by `+`; `+9 more` where further shapes lie below.
-    fn of(&mut self, drawing: &Drawing, seen: &[ShapeId]) -> Option<NameId> {
-        let (mut listed, mut passed, mut bytes): (Vec<NameId>, usize, usize) = (Vec::new(), 0, 0);
-        for &shape in seen.iter().take(LOOKED_AT) {
-            let name = drawing.shapes[shape].name;
-            if !listed.contains(&name) {
-                bytes += self.names.text(name).len() + 1;
-                if listed.len() == LISTED_MAX || !listed.is_empty() && bytes > LISTED_BYTES {
-                    break;
-                }
-                listed.push(name);
-            }
-            passed += 1;
-        }
-        let key = (listed, seen.len() - passed);
-        if let (&[alone], 0) = (&key.0[..], key.1) {
-            return Some(alone);
-        }
-        if key.0.is_empty() {
-            return None;
-        }
-        if let Some(&known) = self.known.get(&key) {
-            return Some(known);
-        }
-        let texts: Vec<&str> = key.0.iter().map(|&name| self.names.text(name)).collect();
-        let more = if key.1 > 0 { format!("+{} more", key.1) } else { String::new() };
-        let text = texts.join("+") + &more;
-        // A shape may itself be called so.
-        let others = (2..).map(|k| format!("{text}#{k}"));
-        let free = std::iter::once(text.clone()).chain(others).find(|text| self.names.find(text).is_none());
-        let name = self.names.intern(&free.unwrap_or(text));
-        self.known.insert(key, name);
-        Some(name)
-    }
-}
-
-/// The shapes seen on faces: lists of them, the topmost first, each list once.
-#[derive(Default)]
-pub(super) struct Seen {
-    lists: IdVec<SeenId, Vec<ShapeId>>,
-    known: BTreeMap<Vec<ShapeId>, SeenId>,
-}
-
-impl Seen {
-    fn id(&mut self, list: Vec<ShapeId>) -> Option<SeenId> {
-        if list.is_empty() {
-            return None;
-        }
-        if let Some(&known) = self.known.get(&list) {
-            return Some(known);
-        }
-        let id = self.lists.push(list.clone());
-        self.known.insert(list, id);
-        Some(id)
-    }
-
-    /// The topmost of a list.
-    pub fn top(&self, id: SeenId) -> ShapeId {
-        self.lists[id][0]
-    }
-}
-
-/// The name of each face by the shapes that fill it: the topmost one or, of `fragments`, all.
-fn painted(network: &Network, faces: &Faces, names: &mut Names, fragments: bool) -> Vec<Option<NameId>> {
-    let looked_at;
-    let (seen, painters) = if network.pieces.iter().any(|piece| piece.paint.is_some()) {
-        (&network.seen, painters_beside(network, faces))
-    } else {
-        let (seen, painters) = painters(network, faces, fragments);
-        looked_at = seen;
-        (&looked_at, painters)
-    };
-    let mut fragment_names = FragmentNames { names, known: BTreeMap::new() };
-    let mut name = |list: &Vec<ShapeId>| match fragments {
-        true => fragment_names.of(network.drawing, list),
-        false => Some(network.drawing.shapes[list[0]].name),
-    };
-    let named: IdVec<SeenId, Option<NameId>> = seen.lists.iter().map(&mut name).collect();
-    painters.into_iter().map(|painter| painter.and_then(|id| named[id])).collect()
-}
-
-/// The topmost shape seen on each face, or all. All outlines must be there.
-pub(super) fn painters(network: &Network, faces: &Faces, all: bool) -> (Seen, Vec<Option<SeenId>>) {
-    let mut seen = Seen::default();
-    let most = if all { usize::MAX } else { 1 };
-    let painters = by_paint(network, faces, |_, paint| seen.id(paint.seen().take(most).collect()));
-    (seen, painters)
-}
-
-/// Whether each piece is one that curves of no shape run along, of which one lies in its clip or has none. All outlines must be there.
-pub(super) fn lines_in_clips(network: &Network, faces: &Faces) -> IdVec<CurveId, bool> {
-    let lines = |id: CurveId| {
-        let drawn = drawn_along(network, id).map(|(source, _)| &network.drawing.curves[source as usize]);
-        drawn.filter(|drawn| drawn.shape.is_none()).map(|drawn| drawn.clip)
-    };
-    let mut kept: IdVec<CurveId, bool> = network.pieces.ids().map(|id| lines(id).any(|clip| clip.is_none())).collect();
-    if !network.drawing.clips.is_empty() {
-        by_paint(network, faces, |cycles, paint| {
-            for half in cycles.iter().flat_map(|&cycle| &faces.cycles[cycle].halves) {
-                kept[half.curve] |= lines(half.curve).any(|clip| paint.lies_in(clip));
-            }
-            None::<()>
-        });
-    }
-    kept
-}
-
-/// What is seen in each face, as noted on the curves around it. They agree, but where a tolerance moved one over another: then
-/// most of the border says.
-fn painters_beside(network: &Network, faces: &Faces) -> Vec<Option<SeenId>> {
-    let mut votes: Vec<BTreeMap<Option<SeenId>, f64>> = vec![BTreeMap::new(); faces.cycles.len()];
-    for (id, piece) in network.pieces.enumerate() {
-        let Some(paint) = piece.paint else { continue };
-        for (side, seen) in [Side::Left, Side::Right].into_iter().zip(paint) {
-            if let Some(face) = faces.face(Half { curve: id, side }) {
-                *votes[face].entry(seen).or_default() += extent(piece.bounds);
-            }
-        }
-    }
-    let most = |votes: BTreeMap<Option<SeenId>, f64>| votes.into_iter().max_by(|a, b| a.1.total_cmp(&b.1));
-    votes.into_iter().map(|votes| most(votes).and_then(|(seen, _)| seen)).collect()
-}
-
-/// What is said of every bounded face by the cycles that bound it and the shapes that fill it.
-fn by_paint<T>(network: &Network, faces: &Faces, mut of: impl FnMut(&[usize], &Paint) -> Option<T>) -> Vec<Option<T>> {
-    enum Step {
-        Cross(Half),
-        Return(Half),
-    }
-    let mut said: Vec<Option<T>> = faces.cycles.iter().map(|_| None).collect();
-    if network.drawing.shapes.is_empty() {
-        return said;
-    }
-    let holds = faces.components_by_face();
-    let cycles = |face: Face| {
-        let around = holds[face.unwrap_or(faces.cycles.len())].iter().map(|&component| faces.outer[component]);
-        face.into_iter().chain(around)
-    };
-    let sides = |face: Face| cycles(face).flat_map(|cycle| faces.cycles[cycle].halves.iter().copied());
-    let mut seen = vec![false; faces.cycles.len()];
-    let mut paint = Paint::nothing(network.drawing);
-    let mut steps: Vec<Step> = sides(None).map(Step::Cross).collect();
-    while let Some(step) = steps.pop() {
-        match step {
-            Step::Return(half) => paint.cross(half.twin(), network),
-            Step::Cross(half) => {
-                let Some(face) = faces.face(half.twin()).filter(|&face| !seen[face]) else { continue };
-                seen[face] = true;
-                paint.cross(half, network);
-                said[face] = of(&cycles(Some(face)).collect::<Vec<usize>>(), &paint);
-                steps.push(Step::Return(half));
-                steps.extend(sides(Some(face)).map(Step::Cross));
-            }
-        }
-    }
-    said
 }

@@ -6,12 +6,14 @@
 //! What was split only where such stretches met it is made whole again: the same part of the drawn curve, not its fragments. The network is
 //! settled once more after that, as what was split had been moved by up to a tolerance.
 
-use super::RepairKind;
-use super::cut::{Network, Part, Piece, extent, is_spiral};
-use super::fill::{lines_in_clips, painters};
-use super::trace::{Faces, Half};
+use super::faces::Faces;
+use super::network::{Network, Part, Piece, is_spiral};
+use super::paint::{lines_in_clips, painters};
+use super::repair::{Cells, RepairKind};
+use super::trace::Half;
 use crate::curve::End;
 use crate::domain::locate::Side;
+use crate::geometry::extent;
 use crate::ids::{CurveId, IdVec, NameId, PointId, SeenId};
 use std::collections::BTreeSet;
 
@@ -138,5 +140,13 @@ impl Network<'_> {
         whole.merged.extend(merged);
         whole.paint = first.paint;
         self.place_part(whole);
+    }
+
+    /// Drops splits from the list at places where nothing is split any more.
+    pub fn forget_splits(&mut self) {
+        let cells = Cells::wider_than(self.tolerances.weld);
+        let nodes: BTreeSet<[i64; 2]> = self.nodes.iter().map(|node| cells.of([node.at.x, node.at.y])).collect();
+        let is_node = |at: [f64; 2]| cells.around(at).any(|cell| nodes.contains(&cell));
+        self.repairs.retain(|repair| repair.kind != RepairKind::Split || is_node(repair.at));
     }
 }

@@ -1,13 +1,19 @@
 //! Drawing → Domain: weld, meet, split, drop, trace, name. The only door to a [`Domain`].
 //!
-//! 1. `cut`: drawn curves are cut at breaks (cusps, tangent jumps), at their meetings with themselves, and once where they are closed.
-//! 2. `cut`, `weld`: pieces are cut where they meet, places within the tolerance become one node, and pieces are moved by a similarity
-//!    to end at their nodes, bit for bit; again, until nothing meets but at common ends. The node is the truth: a drawn end, where there
-//!    is one, rather than a computed crossing. Pieces that coincide become one.
-//! 3. `star`: the curves around every point, in order.
-//! 4. `trace`, `fill`: faces, winding numbers, painted shapes, hole and region seeds, names.
-//! 5. `hidden`: stretches of outlines that later shapes of a picture cover, and what clips cut away, are left out, and 2 to 4 repeated
+//! 0. `frame`: the drawing is brought to a size of about 1, and its tolerances are chosen.
+//! 1. `cut`: drawn curves are cut at breaks (cusps, tangent jumps), at their meetings with themselves, and once where they are closed. What
+//!    comes of it are the nodes and pieces of a `network`.
+//! 2. `candidates`, `meet`, `weld`: pieces are cut where they meet, places within the tolerance become one node, and pieces are moved by a
+//!    similarity to end at their nodes, bit for bit; again, until nothing meets but at common ends. The node is the truth: a drawn end,
+//!    where there is one, rather than a computed crossing. Pieces that coincide become one.
+//! 3. `ends`, `rings`, `loose`: free ends, the outlines that miss closing because of them, and what becomes of lines that stay open.
+//! 4. `star`: the curves around every point, in order.
+//! 5. `trace`, `faces`: cycles of curve sides, and how they lie in each other.
+//! 6. `paint`, `fill`, `regions`: painted shapes, winding numbers, which faces are inside; hole and region seeds, names.
+//! 7. `hidden`: stretches of outlines that later shapes of a picture cover, and what clips cut away, are left out, and 2, 4 and 5 repeated
 //!    without them.
+//!
+//! `auxiliary` tells of frames and crossing layers; `repair` lists what was mended.
 //!
 //! **Invariant.** A drawn curve runs along pieces in its order, or its loss is itemised; every piece ends at the places of its two nodes, bit for
 //! bit, and lies within the tolerance of its curve for every time that it was moved.
@@ -38,10 +44,19 @@
 //! All of it happens in a frame scaled by a power of two, so that the same drawing at another such scale gives the same bits.
 
 mod auxiliary;
+mod candidates;
 mod cut;
+mod ends;
+mod error;
+mod faces;
 mod fill;
+mod frame;
 mod hidden;
 mod loose;
+mod meet;
+mod network;
+mod paint;
+mod regions;
 mod repair;
 mod rings;
 mod star;
@@ -49,20 +64,20 @@ mod trace;
 mod weld;
 
 use super::{Domain, DomainCurve, Drawing, FillRule};
-use crate::curve::Curve;
-use crate::geometry::{Point, Rect, magnitude, scaled, unit_scale};
+use crate::geometry::{Point, magnitude, unit_scale};
 use crate::ids::{IdVec, PointId};
 use crate::watch::{Stopped, Watch};
-use cut::{Network, extent};
+use cut::cut_drawing;
+pub use error::{ArrangeError, Unarranged};
+use faces::Faces;
+use frame::Tolerances;
+use network::{Network, Piece};
 use repair::{Cells, Places};
 pub use repair::{Repair, RepairKind};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-
-/// A drawn point this many times as far from the origin as the curves reach is a mistake, and would take 20 of the 53 bits of every
-/// coordinate.
-const STRAY: f64 = 1048576.0;
+use trace::Cycles;
 
 /// How a drawing is arranged.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -98,80 +113,6 @@ pub enum Loose {
     Drop,
     /// All are refused.
     Error,
-}
-
-/// What cannot be repaired, where, and the way out.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("{what} at ({}, {})", at.x, at.y)]
-pub struct ArrangeError {
-    /// What is wrong, with the entities.
-    pub what: String,
-    pub at: Point,
-    /// Further places of the same flaw, as many as `what` lists.
-    pub also_at: Vec<Point>,
-    /// What the user can do.
-    pub help: String,
-    /// Whether features that lie too near to each other are the reason: a coarser tolerance may make one of them.
-    pub near: bool,
-}
-
-/// Why there is no domain.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum Unarranged {
-    #[error(transparent)]
-    Invalid(#[from] ArrangeError),
-    #[error(transparent)]
-    Stopped(#[from] Stopped),
-}
-
-impl Unarranged {
-    /// Its place times a factor.
-    fn scaled(self, factor: f64) -> Self {
-        match self {
-            Self::Invalid(error) => {
-                let also_at = error.also_at.iter().map(|at| scaled(*at, factor)).collect();
-                ArrangeError { at: scaled(error.at, factor), also_at, ..error }.into()
-            }
-            Self::Stopped(_) => self,
-        }
-    }
-}
-
-impl ArrangeError {
-    fn new(what: impl Into<String>, at: Point, help: impl Into<String>) -> Self {
-        Self { what: what.into(), at, also_at: Vec::new(), help: help.into(), near: false }
-    }
-
-    /// Features lie too near to each other.
-    fn near(what: impl Into<String>, at: Point, help: impl Into<String>) -> Self {
-        Self { near: true, ..Self::new(what, at, help) }
-    }
-}
-
-/// Lengths below which things are one, in the unit frame.
-#[derive(Clone, Copy, Debug)]
-struct Tolerances {
-    /// Ends nearer than this are one node.
-    weld: f64,
-    /// Free ends nearer than this are joined; 0: never.
-    gap: f64,
-    /// Free ends as near as the last decimals explain are joined up to this; 0: never.
-    written: f64,
-    /// Free ends nearer than this are joined as the user asks for; 0: not asked for.
-    close: f64,
-    /// Whether curves that part from each other slowly are one as long as they are within `weld`.
-    zip: bool,
-    /// What rounding does to coordinates.
-    rounding: f64,
-    /// The length, in the drawing's units, of one unit of the frame: for messages.
-    unit: f64,
-}
-
-impl Tolerances {
-    /// A length of the unit frame in the drawing's units, to six digits: for messages.
-    fn told(&self, length: f64) -> f64 {
-        format!("{:.5e}", length * self.unit).parse().unwrap_or(length * self.unit)
-    }
 }
 
 impl Drawing {
@@ -229,129 +170,6 @@ impl Drawing {
         repairs.iter_mut().for_each(|repair| repair.scale(1.0 / factor));
         Ok(repairs)
     }
-
-    /// Refuses a drawing without curves, with places that are no numbers, or whose extent leaves no digits to work with.
-    fn check_extent(&self) -> Result<Rect, ArrangeError> {
-        let stray = |p: Point| !p.is_finite();
-        let places = self.points.iter().map(|p| (p.at, &p.entity)).chain(self.seeds.iter().map(|s| (s.at, &s.entity)));
-        let bounds = self.curves.iter().map(|c| c.curve.bounds()).reduce(|a, b| a.union(b));
-        let Some(bounds) = bounds else { return Err(self.no_curves()) };
-        let refuse = |what: String, help: &str| Err(ArrangeError::new(what, bounds.center(), help));
-        if let Some((_, entity)) = places.into_iter().find(|(at, _)| stray(*at)) {
-            return refuse(format!("{entity} has a coordinate that is no finite number"), "correct it in the file");
-        }
-        let reach = STRAY * (magnitude(bounds) + extent(bounds));
-        let strays = |p: &&super::DrawnPoint| p.at.x.abs().max(p.at.y.abs()) > reach;
-        if let Some(point) = self.points.iter().find(strays) {
-            let what = format!("{} lies far from all curves, which are {:e} across", point.entity, extent(bounds));
-            return Err(ArrangeError::new(what, point.at, "remove it, or correct its coordinates"));
-        }
-        let size = magnitude(bounds);
-        if !bounds.is_finite() || (size != 0.0 && !(1e-140..1e140).contains(&size)) {
-            // Areas are squares of lengths, and must neither overflow nor underflow (1e±308).
-            return refuse(format!("coordinates as large as {size:e}"), "scale the drawing to usual numbers");
-        }
-        if extent(bounds) == 0.0 {
-            return refuse("nothing to mesh: all curves lie in one point".into(), "check the units of the file");
-        }
-        // Fewer than 2^16 representable numbers across the drawing are too few for any mesh.
-        if extent(bounds) < size * f64::EPSILON * 65536.0 {
-            let what = format!("the drawing is {:e} across, but lies {size:e} from the origin", extent(bounds));
-            return refuse(what, "move it nearer to the origin: its coordinates have no digits left");
-        }
-        Ok(bounds)
-    }
-
-    fn no_curves(&self) -> ArrangeError {
-        let skipped: Vec<String> =
-            self.skipped.iter().map(|s| format!("{} {} ({})", s.count, s.entity, s.why)).collect();
-        let help = match skipped.is_empty() {
-            true => "the file holds no curves".to_owned(),
-            false => format!("the file holds no curves; left out: {}", skipped.join(", ")),
-        };
-        ArrangeError::new("nothing to mesh: the drawing has no curves", Point::ORIGIN, help)
-    }
-
-    /// The drawing times a power of two, with the box of `keep all`, and its tolerances.
-    fn in_unit_frame(&self, factor: f64, options: &ArrangeOptions) -> Result<(Drawing, Tolerances), ArrangeError> {
-        let mut unit = self.clone();
-        for drawn in &mut unit.curves {
-            drawn.curve = drawn.curve.scaled(factor);
-            drawn.last_decimal *= factor;
-        }
-        unit.off_plane.iter_mut().for_each(|entity| entity.ends = entity.ends.map(|end| scaled(end, factor)));
-        unit.points.iter_mut().for_each(|p| p.at = scaled(p.at, factor));
-        unit.labels.iter_mut().for_each(|label| label.at = scaled(label.at, factor));
-        for seed in &mut unit.seeds {
-            seed.at = scaled(seed.at, factor);
-            if let super::SeedKind::Region { max_area: Some(area), .. } = &mut seed.kind {
-                *area *= factor * factor;
-            }
-        }
-        let bounds = unit.curves.iter().map(|c| c.curve.bounds()).reduce(|a, b| a.union(b)).unwrap_or_default();
-        let tolerances = unit.tolerances(bounds, factor, options)?;
-        if options.keep_all {
-            unit.add_box(bounds.inflate(extent(bounds), extent(bounds)));
-        }
-        Ok((unit, tolerances))
-    }
-
-    fn tolerances(&self, bounds: Rect, factor: f64, options: &ArrangeOptions) -> Result<Tolerances, ArrangeError> {
-        let diagonal = extent(bounds);
-        let refuse = |what: String| {
-            Err(ArrangeError::new(
-                what,
-                bounds.center(),
-                "give a welding distance of 0 or a small part of the drawing's size",
-            ))
-        };
-        // Sixteen units of rounding of the largest number that points are computed from, as in the search for meetings: arcs from
-        // their centers too, though of nearly straight ones no more than the default tolerance.
-        let carried = self.curves.iter().map(|c| carrier_magnitude(&c.curve)).fold(magnitude(bounds), f64::max);
-        let coordinates = 16.0 * f64::EPSILON * magnitude(bounds);
-        let rounding = (16.0 * f64::EPSILON * carried).min(1e-9 * diagonal).max(coordinates);
-        let refused = |option: &str, given: f64| {
-            (given.is_nan() || given < 0.0 || given * factor >= diagonal / 4.0)
-                .then(|| format!("{option} of {given} for a drawing {} across", diagonal / factor))
-        };
-        if let Some(what) = options.close.and_then(|given| refused("a gap to close", given)) {
-            return refuse(what);
-        }
-        let weld = match options.tolerance {
-            None => 1e-9 * diagonal,
-            Some(given) => match refused("a tolerance", given) {
-                Some(what) => return refuse(what),
-                None => given * factor,
-            },
-        };
-        let joins = if options.tolerance.is_none() || options.raised { [1e-6, 1e-3] } else { [0.0, 0.0] };
-        let [gap, written] = joins.map(|part| part * diagonal);
-        let close = options.close.unwrap_or(0.0) * factor;
-        // A tolerance that was asked for says what is one; else a contact of curves drawn to touch stays the point that it is.
-        let zip = options.tolerance.is_some_and(|given| given > 0.0);
-        Ok(Tolerances { weld: weld.max(rounding), gap, written, close, zip, rounding, unit: 1.0 / factor })
-    }
-
-    /// Adds the sides of a box as boundary `box`.
-    fn add_box(&mut self, bounds: Rect) {
-        let [x0, x1, y0, y1] = [bounds.x0, bounds.x1, bounds.y0, bounds.y1];
-        let corners = [Point::new(x0, y0), Point::new(x1, y0), Point::new(x1, y1), Point::new(x0, y1)];
-        for (k, side) in ["bottom", "right", "top", "left"].into_iter().enumerate() {
-            if let Ok(line) = Curve::line(corners[k], corners[(k + 1) % 4]) {
-                self.add(line, "box", format!("{side} of the box"));
-            }
-        }
-    }
-}
-
-/// The largest number that a curve's points are computed from.
-fn carrier_magnitude(curve: &Curve) -> f64 {
-    let from = |center: Point, reach: f64| center.x.abs().max(center.y.abs()) + reach;
-    match curve {
-        Curve::Arc(arc) => from(arc.center, arc.radius),
-        Curve::Ellipse(ellipse) => from(ellipse.center, ellipse.u.hypot().max(ellipse.v.hypot())),
-        Curve::Line(_) | Curve::Bezier(_) | Curve::Spline(_) => magnitude(curve.bounds()),
-    }
 }
 
 fn arrange_in_unit_frame(
@@ -374,21 +192,22 @@ fn arrange_in_unit_frame(
     if fill::by_parity(rule) || rule == FillRule::NonZero {
         domain.notes.append(&mut auxiliary::remarks(&network, &domain, &faces));
     }
-    trace::keep(&network, &mut domain, &faces, rule, options, watch)?;
+    regions::keep(&network, &mut domain, &faces, rule, options, watch)?;
     Ok(domain)
 }
 
 /// The settled network as a domain without regions, and its faces.
-fn traced(network: &Network, watch: &mut Watch) -> Result<(Domain, trace::Faces), Unarranged> {
+fn traced(network: &Network, watch: &mut Watch) -> Result<(Domain, Faces), Unarranged> {
     let domain = bare_domain(network, watch)?;
+    let cycles = Cycles::trace(&domain, watch)?;
     // Level lines keep twice the rounding away from ends of curves.
-    let faces = trace::Faces::trace(&domain, 2.0 * network.tolerances.rounding, watch)?;
+    let faces = Faces::new(cycles, &domain, 2.0 * network.tolerances.rounding, watch)?;
     Ok((domain, faces))
 }
 
 /// A drawing's curves welded and split until they meet at common ends only.
 fn settled<'a>(drawing: &'a Drawing, tolerances: Tolerances, watch: &mut Watch) -> Result<Network<'a>, Unarranged> {
-    let mut network = Network::new(drawing, tolerances, watch)?;
+    let mut network = cut_drawing(drawing, tolerances, watch)?;
     network.settle(watch)?;
     if network.join_free_ends() {
         network.settle(watch)?;
@@ -401,7 +220,7 @@ fn settled<'a>(drawing: &'a Drawing, tolerances: Tolerances, watch: &mut Watch) 
 fn bare_domain(network: &Network, watch: &mut Watch) -> Result<Domain, Unarranged> {
     let drawing = network.drawing;
     let (points, point_of) = used_points(network);
-    let curve = |piece: &cut::Piece| DomainCurve {
+    let curve = |piece: &Piece| DomainCurve {
         curve: piece.curve.clone(),
         ends: piece.ends.map(|end| point_of[end].expect("a piece ends at used points")),
         sides: [None, None],

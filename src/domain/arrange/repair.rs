@@ -1,7 +1,6 @@
 //! What was mended on the way in, and where.
 
-use super::cut::Network;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 /// Something that was mended on the way in, with its place and size (a length, in units of the drawing): how far ends moved, how wide the gap
 /// between curves was that became one, how large what was lost; 0 where nothing moved.
@@ -93,7 +92,7 @@ impl Cells {
     }
 
     /// The cell of a place and the ones around it.
-    fn around(self, at: [f64; 2]) -> impl Iterator<Item = [i64; 2]> {
+    pub fn around(self, at: [f64; 2]) -> impl Iterator<Item = [i64; 2]> {
         let [i, j] = self.of(at);
         (-1..=1).flat_map(move |di| (-1..=1).map(move |dj| [i + di, j + dj]))
     }
@@ -121,15 +120,5 @@ impl Places {
             }
         }
         false
-    }
-}
-
-impl Network<'_> {
-    /// Drops splits from the list at places where nothing is split any more.
-    pub fn forget_splits(&mut self) {
-        let cells = Cells::wider_than(self.tolerances.weld);
-        let nodes: BTreeSet<[i64; 2]> = self.nodes.iter().map(|node| cells.of([node.at.x, node.at.y])).collect();
-        let is_node = |at: [f64; 2]| cells.around(at).any(|cell| nodes.contains(&cell));
-        self.repairs.retain(|repair| repair.kind != RepairKind::Split || is_node(repair.at));
     }
 }

@@ -10,10 +10,10 @@
 //! A free end without such a link may stop short of the inside of another open line, which goes on beyond the corner: it is linked with the
 //! nearest point there, under the same limits.
 
-use super::ArrangeError;
-use super::cut::{Network, extent};
-use super::loose::{FreeEnd, Gap, Owner, Short, nearest_ends};
-use crate::geometry::Point;
+use super::ends::{FreeEnd, Gap, Owner, Short, nearest_ends};
+use super::error::ArrangeError;
+use super::network::Network;
+use crate::geometry::{Point, extent};
 use crate::ids::{CurveId, Forest, Id, PointId};
 use std::collections::{BTreeSet, VecDeque};
 
@@ -28,6 +28,9 @@ const STEPS_MAX: usize = 1 << 24;
 
 /// Gaps that a message lists.
 const LISTED: usize = 4;
+
+/// Shorter lengths are written with an exponent.
+const PLAIN: f64 = 1e-4;
 
 /// Along what a ring goes from one place to the next.
 #[derive(Clone, Copy)]
@@ -126,8 +129,12 @@ impl<'n, 'a> Ways<'n, 'a> {
         self.from[b].push((a, via));
     }
 
-    fn places(&self, gap: &Gap) -> [usize; 2] {
-        gap.ends.map(|end| self.place_of(self.ends[end].owner))
+    /// What may close a ring: across gaps, then from ends to their feet on lines.
+    fn links(&self, gaps: &[Gap]) -> Vec<([usize; 2], Via)> {
+        let place = |end: usize| self.place_of(self.ends[end].owner);
+        let across = gaps.iter().map(|gap| (gap.ends.map(place), Via::Gap(*gap)));
+        let onto = |(k, short): (usize, &Short)| ([place(short.end), self.foot(k)], Via::Short(*short));
+        across.chain(self.shorts.iter().enumerate().map(onto)).collect()
     }
 
     /// The ring that a link from one place to another closes: by the way of the fewest steps. `None` where it is too narrow, or not found
@@ -212,78 +219,118 @@ impl<'n, 'a> Ways<'n, 'a> {
     }
 }
 
-impl Network<'_> {
-    /// Says what outlines miss closing, if any do.
-    pub fn missed_rings(&self, ends: &[FreeEnd]) -> Option<ArrangeError> {
-        let all: Vec<usize> = (0..ends.len()).collect();
-        let mut links = nearest_ends(ends, &all, |i| MISSED * ends[i].chain);
-        links.retain(|gap| gap.width < MISSED * ends[gap.ends[1]].chain);
-        links.iter_mut().for_each(|gap| gap.ends.sort_unstable());
-        links.sort_by(|a, b| a.width.total_cmp(&b.width).then(a.ends.cmp(&b.ends)));
-        links.dedup_by_key(|gap| gap.ends);
-        let linked: BTreeSet<usize> = links.iter().flat_map(|gap| gap.ends).collect();
-        let left: Vec<usize> = (0..ends.len()).filter(|i| !linked.contains(i)).collect();
-        let mut shorts = self.shorts(ends, &left, |i| MISSED * ends[i].chain);
-        shorts.retain(|short| short.width < MISSED * extent(self.pieces[short.onto].bounds));
-        if links.is_empty() && shorts.is_empty() {
-            return None;
-        }
-        let mut ways = Ways::new(self, ends, &shorts);
-        let mut parts = Forest::new(ways.from.len());
-        for (here, ways) in ways.from.iter().enumerate() {
-            ways.iter().for_each(|&(there, _)| parts.join(here, there));
-        }
-        let across = links.iter().map(|gap| (ways.places(gap), Via::Gap(*gap)));
-        let onto =
-            |(k, short): (usize, &Short)| ([ways.place_of(ends[short.end].owner), ways.foot(k)], Via::Short(*short));
-        let links: Vec<([usize; 2], Via)> = across.chain(shorts.iter().enumerate().map(onto)).collect();
-        let mut rings = Vec::new();
-        for ([a, b], via) in links {
-            if parts.root(a) == parts.root(b) {
-                rings.extend(ways.ring([a, b], via));
-            }
-            parts.join(a, b);
-            ways.add([a, b], via);
-        }
-        self.missed(&rings, ends)
+/// Why a drawing is refused whose outlines miss closing; `None` where none do.
+///
+/// ```text
+///   ╭──── · 1 ─────╮        Links are added one after the other, the narrowest gaps first. Link 1 joins two parts. Link 2 is between places
+///   │              │        that are connected by then: it closes a ring, by the way around through 1, and both gaps are missing.
+///   ╰──── · 2 ─────╯
+///
+///   ╭──────────────╮        Link 3 is from an end that stops short of an open line to its foot, the nearest point there. The line up to the
+///   │              · 3      foot is part of the ring; what goes on beyond it is not.
+///   ╰──────────────·──────
+/// ```
+pub(super) fn missed_rings(network: &Network, ends: &[FreeEnd]) -> Option<ArrangeError> {
+    let gaps = missed_gaps(ends);
+    let shorts = missed_lines(network, ends, &gaps);
+    if gaps.is_empty() && shorts.is_empty() {
+        return None;
     }
+    let rings = closed_by(&gaps, Ways::new(network, ends, &shorts));
+    leaves_plane(network, &rings).or_else(|| misses_closing(network, ends, &rings))
+}
 
-    fn missed(&self, rings: &[Ring], ends: &[FreeEnd]) -> Option<ArrangeError> {
-        if let Some(&k) = rings.iter().find_map(|ring| ring.off_plane.first()) {
-            let entity = &self.drawing.off_plane[k];
-            let what = format!("{} leaves the plane and is left out, so that an outline does not close", entity.entity);
-            return Some(ArrangeError::new(what, entity.ends[0], "--flatten-z projects it onto the plane"));
-        }
-        let mut gaps: Vec<Gap> = rings.iter().flat_map(|ring| ring.gaps.iter().copied()).collect();
-        gaps.sort_by_key(|gap| gap.ends);
-        gaps.dedup_by_key(|gap| gap.ends);
-        let mut shorts: Vec<Short> = rings.iter().flat_map(|ring| ring.shorts.iter().copied()).collect();
-        shorts.sort_by_key(|short| short.end);
-        shorts.dedup_by_key(|short| short.end);
-        // Widths and places of all, with what is to be said of each.
-        let between = |gap: &Gap| {
-            let [a, b] = gap.ends.map(|end| self.place(&ends[end]));
-            (gap.width, ends[gap.ends[0]].at, format!("{a} and {b} are {} apart", self.tolerances.told(gap.width)))
-        };
-        let before = |short: &Short| {
-            let end = &ends[short.end];
-            let [a, b] = [self.place(end), self.text_of(short.onto).to_owned()];
-            (short.width, end.at, format!("{a} stops {} short of {b}", self.tolerances.told(short.width)))
-        };
-        let missing: Vec<(f64, Point, String)> = gaps.iter().map(between).chain(shorts.iter().map(before)).collect();
-        let widest = missing.iter().map(|gap| gap.0).reduce(f64::max)?;
-        let listed: Vec<&str> = missing.iter().take(LISTED).map(|gap| &gap.2[..]).collect();
-        let more =
-            if missing.len() > LISTED { format!(", and {} gaps more", missing.len() - LISTED) } else { String::new() };
-        let outlines = if rings.len() == 1 { "an outline misses" } else { "outlines miss" };
-        let what = format!("{outlines} closing: {}{more}", listed.join("; "));
-        let help = format!(
-            "--close {} joins these ends and welds nothing else; --loose keep takes them for open lines, --loose drop leaves them out",
-            rounded_up(widest * self.tolerances.unit)
-        );
-        let also_at = missing.iter().take(LISTED).skip(1).map(|gap| gap.1).collect();
-        Some(ArrangeError { also_at, ..ArrangeError::new(what, missing[0].1, help) })
+/// Gaps between nearest free ends that are short beside both chains, each once, the narrowest first.
+fn missed_gaps(ends: &[FreeEnd]) -> Vec<Gap> {
+    let all: Vec<usize> = (0..ends.len()).collect();
+    let mut gaps = nearest_ends(ends, &all, |i| MISSED * ends[i].chain);
+    gaps.retain(|gap| gap.width < MISSED * ends[gap.ends[1]].chain);
+    gaps.iter_mut().for_each(|gap| gap.ends.sort_unstable());
+    gaps.sort_by(|a, b| a.width.total_cmp(&b.width).then(a.ends.cmp(&b.ends)));
+    gaps.dedup_by_key(|gap| gap.ends);
+    gaps
+}
+
+/// Free ends without such a gap that stop short of open lines, under the same limits.
+fn missed_lines(network: &Network, ends: &[FreeEnd], gaps: &[Gap]) -> Vec<Short> {
+    let linked: BTreeSet<usize> = gaps.iter().flat_map(|gap| gap.ends).collect();
+    let left: Vec<usize> = (0..ends.len()).filter(|i| !linked.contains(i)).collect();
+    let mut shorts = network.shorts(ends, &left, |i| MISSED * ends[i].chain);
+    shorts.retain(|short| short.width < MISSED * extent(network.pieces[short.onto].bounds));
+    shorts
+}
+
+/// The rings that links across gaps, then those onto lines, close one after the other.
+fn closed_by(gaps: &[Gap], mut ways: Ways) -> Vec<Ring> {
+    let mut parts = Forest::new(ways.from.len());
+    for (here, ways) in ways.from.iter().enumerate() {
+        ways.iter().for_each(|&(there, _)| parts.join(here, there));
     }
+    let mut rings = Vec::new();
+    for (places, via) in ways.links(gaps) {
+        let [a, b] = places;
+        if parts.root(a) == parts.root(b) {
+            rings.extend(ways.ring(places, via));
+        }
+        parts.join(a, b);
+        ways.add(places, via);
+    }
+    rings
+}
+
+/// A ring that an entity which is left out would close.
+fn leaves_plane(network: &Network, rings: &[Ring]) -> Option<ArrangeError> {
+    let &k = rings.iter().find_map(|ring| ring.off_plane.first())?;
+    let entity = &network.drawing.off_plane[k];
+    let what = format!("{} leaves the plane and is left out, so that an outline does not close", entity.entity);
+    Some(ArrangeError::new(what, entity.ends[0], "--flatten-z projects it onto the plane"))
+}
+
+/// What a ring lacks to be closed.
+struct Missing {
+    width: f64,
+    at: Point,
+    /// What lies how far apart.
+    text: String,
+}
+
+/// All that rings lack: gaps, then ends that stop short of lines, in the order of the ends, each once.
+fn missing(network: &Network, ends: &[FreeEnd], rings: &[Ring]) -> Vec<Missing> {
+    let mut gaps: Vec<Gap> = rings.iter().flat_map(|ring| ring.gaps.iter().copied()).collect();
+    gaps.sort_by_key(|gap| gap.ends);
+    gaps.dedup_by_key(|gap| gap.ends);
+    let mut shorts: Vec<Short> = rings.iter().flat_map(|ring| ring.shorts.iter().copied()).collect();
+    shorts.sort_by_key(|short| short.end);
+    shorts.dedup_by_key(|short| short.end);
+    let told = |width: f64| network.tolerances.told(width);
+    let across = gaps.into_iter().map(|Gap { ends: pair, width }| {
+        let [a, b] = pair.map(|end| network.place(&ends[end]));
+        Missing { width, at: ends[pair[0]].at, text: format!("{a} and {b} are {} apart", told(width)) }
+    });
+    let onto = shorts.into_iter().map(|Short { end, onto, width, .. }| {
+        let (a, b) = (network.place(&ends[end]), network.text_of(onto));
+        Missing { width, at: ends[end].at, text: format!("{a} stops {} short of {b}", told(width)) }
+    });
+    across.chain(onto).collect()
+}
+
+/// Lists what is missing, with the option that closes it.
+fn misses_closing(network: &Network, ends: &[FreeEnd], rings: &[Ring]) -> Option<ArrangeError> {
+    let missing = missing(network, ends, rings);
+    let widest = missing.iter().map(|missing| missing.width).reduce(f64::max)?;
+    let listed: Vec<&str> = missing.iter().take(LISTED).map(|missing| missing.text.as_str()).collect();
+    let more = match missing.len().saturating_sub(LISTED) {
+        0 => String::new(),
+        more => format!(", and {more} gaps more"),
+    };
+    let outlines = if rings.len() == 1 { "an outline misses" } else { "outlines miss" };
+    let what = format!("{outlines} closing: {}{more}", listed.join("; "));
+    let help = format!(
+        "--close {} joins these ends and welds nothing else; --loose keep takes them for open lines, --loose drop leaves them out",
+        rounded_up(widest * network.tolerances.unit)
+    );
+    let also_at = missing.iter().take(LISTED).skip(1).map(|missing| missing.at).collect();
+    Some(ArrangeError { also_at, ..ArrangeError::new(what, missing[0].at, help) })
 }
 
 /// A little more than a positive length, in two digits.
@@ -296,6 +343,3 @@ fn rounded_up(length: f64) -> String {
         _ => rounded,
     }
 }
-
-/// Shorter lengths are written with an exponent.
-const PLAIN: f64 = 1e-4;

@@ -1,6 +1,6 @@
 //! Stars: the curves at every point, counter-clockwise. The order is topological: where tangents do not tell, it is read off a circle.
 
-use super::{ArrangeError, Unarranged};
+use super::error::{ArrangeError, Unarranged};
 use crate::curve::{Curve, End};
 use crate::domain::locate::TANGENTS_TELL;
 use crate::domain::{DomainCurve, Incident};

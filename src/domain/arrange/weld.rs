@@ -1,10 +1,12 @@
 //! Welding: nodes within the tolerance become one, pieces are cut and moved to end at their nodes, repeated pieces become one.
 
-use super::cut::{CROWDED, CUTS_MAX, Cut, Found, Network, Node, Origin, Piece, extent};
-use super::repair::Cells;
-use super::{ArrangeError, RepairKind, Unarranged};
+use super::candidates::CUTS_MAX;
+use super::error::{ArrangeError, Unarranged};
+use super::meet::{Cut, Found};
+use super::network::{Network, Origin, Piece};
+use super::repair::{Cells, RepairKind};
 use crate::curve::{Curve, End};
-use crate::geometry::{Point, Vec2};
+use crate::geometry::{Point, Vec2, extent};
 use crate::ids::{CurveId, Forest, Id, IdVec, PointId};
 use crate::watch::Watch;
 use std::collections::BTreeMap;
@@ -12,6 +14,10 @@ use std::collections::BTreeMap;
 /// Rounds of meeting and welding. Each round moves what it welds by a tolerance at most, which seldom makes a new meeting; a drawing
 /// that needs more rounds is one whose features lie as near to each other as its tolerance.
 const ROUNDS: usize = 48;
+
+/// After the first round pieces meet where they were moved to, seldom twice on a piece. Where it is so often in the mean, whole bundles of
+/// curves lie within the tolerance of each other, and each round finds more of them.
+const CROWDED: usize = 32;
 
 impl Network<'_> {
     /// Meets and welds until nothing meets but at common ends.
@@ -43,6 +49,12 @@ impl Network<'_> {
     }
 
     /// One round: clusters the nodes, cuts the pieces, moves their ends to the clusters, and drops what is repeated or of no length.
+    ///
+    /// ```text
+    ///   p ─────── a   b ─────── q           p ──────╲ ╱────── q       a and b are nearer to each other than the tolerance, and so is r. They
+    ///   r ───────────────────────     →              a                become one node, the one drawn first, at which r is cut, and to which
+    ///                                      r₁ ──────╱ ╲────── r₂      all pieces are moved.
+    /// ```
     fn weld(&mut self, found: Found) {
         let cuts = self.cuts_by_piece(found.cuts);
         let clusters = self.clusters(&found.links, &cuts);
@@ -214,21 +226,6 @@ impl Network<'_> {
         part.bounds = part.curve.bounds();
         part.fresh = true;
         self.pieces.push(part);
-    }
-
-    /// Drops nodes that nothing ends at; the order stays.
-    pub fn renumber(&mut self) {
-        let mut used: IdVec<PointId, bool> = vec![false; self.nodes.len()].into();
-        let ends = self.pieces.iter().flat_map(|p| p.ends);
-        let drawn = self.drawn_ends.iter().flatten().flatten().copied().chain(self.drawn_points.iter().copied());
-        ends.chain(drawn).for_each(|id| used[id] = true);
-        let mut nodes: IdVec<PointId, Node> = IdVec::new();
-        let renamed: IdVec<PointId, PointId> =
-            (self.nodes.enumerate()).map(|(id, &node)| if used[id] { nodes.push(node) } else { id }).collect();
-        self.nodes = nodes;
-        self.pieces.iter_mut().flat_map(|p| &mut p.ends).for_each(|end| *end = renamed[*end]);
-        self.drawn_ends.iter_mut().flatten().flatten().for_each(|end| *end = renamed[*end]);
-        self.drawn_points.iter_mut().for_each(|node| *node = renamed[*node]);
     }
 
     /// Pieces between the same nodes that coincide become one, the first; it remembers which drawn curves ran along it.

@@ -1,7 +1,8 @@
 //! Entities put where they belong: on layers that are seen or not, and in blocks, as often as these are inserted.
 
 use super::DxfOptions;
-use super::entities::{DEGENERATE, Figure, Insert, Level, NO_OUTLINE, Notices, Refusal, TILTED, figure};
+use super::entities::figure;
+use super::figure::{DEGENERATE, Figure, Insert, Level, NO_OUTLINE, Notices, Refusal, TILTED};
 use super::fills::Fill;
 use super::header::Header;
 use super::layers::{AUXILIARY, CONTINUOUS, Hidden, LAYER_0, Layers, LineType, key};
@@ -53,6 +54,16 @@ struct Setting {
     path: String,
     /// Blocks that it stands in, to tell a block that holds itself.
     within: Vec<usize>,
+}
+
+/// An entity that is drawn: on what layer, with what line type, under what name, and where.
+struct Pen<'e, 'a> {
+    entity: &'e Entity<'a>,
+    layer: LayerId,
+    line_type: Rc<str>,
+    /// The entity with the way to its block, for messages.
+    label: String,
+    setting: &'e Setting,
 }
 
 /// A drawing in the making.
@@ -196,86 +207,117 @@ impl<'f, 'a> Sketch<'f, 'a> {
         };
         let inherited = setting.layer.filter(|_| entity.layer == LAYER_0);
         let layer = inherited.unwrap_or(entity.layer);
-        let why_not = match figure {
-            // A block may hold what is on other layers: only a frozen one hides these, too.
-            Figure::Insert(_) => self.layers.hidden(layer).filter(|h| *h == Hidden::Frozen).map(Hidden::why),
-            Figure::Curves { .. } | Figure::Point { .. } | Figure::Fill { .. } | Figure::Text { .. } => {
-                self.layers.why_not(layer)
-            }
-        };
-        if let Some(why) = why_not {
+        let line_type = self.layers.line_type(&entity.line_type, layer, &setting.line_type);
+        if let Some(why) = self.why_not_drawn(figure, layer, &line_type) {
             self.skip(&entity.kind, why);
             return Ok(());
         }
-        let line_type = self.layers.line_type(&entity.line_type, layer, &setting.line_type);
-        if !matches!(figure, Figure::Insert(_)) && self.layers.is_auxiliary(&line_type) {
-            self.skip(&entity.kind, AUXILIARY);
-            return Ok(());
-        }
-        let label = format!("{}{}", setting.path, entity.label);
-        if let Figure::Insert(insert) = figure {
-            return self.draw_insert(insert, entity, layer, line_type, setting);
-        }
+        let pen = Pen { entity, layer, line_type, label: format!("{}{}", setting.path, entity.label), setting };
         match figure {
             Figure::Curves { curves, level, parts, last_decimal } => {
-                let placed: Result<Vec<Option<Curve>>, _> =
-                    curves.iter().map(|curve| self.placed(curve, setting, &label)).collect();
-                let placed = placed?;
-                match level {
-                    Level::At(z) => self.rise(setting, *z),
-                    Level::Leaves if self.options.flatten_z.is_on() => self.flattened += 1,
-                    Level::Leaves => {
-                        self.leave_out(label, &placed);
-                        self.skip(&entity.kind, TILTED);
-                        return Ok(());
-                    }
-                }
-                let name = self.layers.name(layer, self.drawing);
-                self.layers.count(layer, line_type);
-                for (i, curve) in placed.into_iter().enumerate() {
-                    let text = if parts.is_empty() { label.clone() } else { format!("{label}, {parts} {}", i + 1) };
-                    match curve {
-                        Some(curve) => self.drawing.curves.push(DrawnCurve {
-                            layer: Some(layer),
-                            handle: entity.handle,
-                            last_decimal: last_decimal * setting.scale,
-                            ..DrawnCurve::new(curve, name, text)
-                        }),
-                        None if matches!(level, Level::Leaves) => self.skip("curve", "seen from its side"),
-                        None => self.skip("curve", "too small for numbers once it is inserted"),
-                    }
-                }
+                self.draw_curves(curves, *level, parts, *last_decimal, pen)
             }
             Figure::Point { at, z } => {
-                self.rise(setting, *z);
+                self.draw_point(*at, *z, pen);
+                Ok(())
+            }
+            Figure::Fill { loops, last_decimal } => self.draw_fill(loops, *last_decimal, pen),
+            Figure::Text { at, bytes } => self.draw_text(*at, bytes, &pen),
+            Figure::Insert(insert) => self.draw_insert(insert, pen),
+        }
+    }
+
+    /// Why a figure on a layer, of a line type, is left out; `None`: it is drawn.
+    fn why_not_drawn(&self, figure: &Figure, layer: LayerId, line_type: &str) -> Option<&'static str> {
+        match figure {
+            // A block may hold what is on other layers: only a frozen one hides these, too.
+            Figure::Insert(_) => self.layers.hidden(layer).filter(|h| *h == Hidden::Frozen).map(Hidden::why),
+            Figure::Curves { .. } | Figure::Point { .. } | Figure::Fill { .. } | Figure::Text { .. } => {
+                let auxiliary = || self.layers.is_auxiliary(line_type).then_some(AUXILIARY);
+                self.layers.why_not(layer).or_else(auxiliary)
+            }
+        }
+    }
+
+    fn draw_curves(
+        &mut self,
+        curves: &[Curve],
+        level: Level,
+        parts: &str,
+        last_decimal: f64,
+        Pen { entity, layer, line_type, label, setting }: Pen<'_, 'a>,
+    ) -> Result<(), ImportError> {
+        let placed: Result<Vec<Option<Curve>>, _> =
+            curves.iter().map(|curve| self.placed(curve, setting, &label)).collect();
+        let placed = placed?;
+        let lost = match level {
+            Level::At(z) => {
+                self.rise(setting, z);
+                "too small for numbers once it is inserted"
+            }
+            Level::Leaves if self.options.flatten_z.is_on() => {
+                self.flattened += 1;
+                "seen from its side"
+            }
+            Level::Leaves => {
+                self.leave_out(label, &placed);
+                self.skip(&entity.kind, TILTED);
+                return Ok(());
+            }
+        };
+        let name = self.layers.name(layer, self.drawing);
+        self.layers.count(layer, line_type);
+        for (i, curve) in placed.into_iter().enumerate() {
+            let text = if parts.is_empty() { label.clone() } else { format!("{label}, {parts} {}", i + 1) };
+            match curve {
+                Some(curve) => self.drawing.curves.push(DrawnCurve {
+                    layer: Some(layer),
+                    handle: entity.handle,
+                    last_decimal: last_decimal * setting.scale,
+                    ..DrawnCurve::new(curve, name, text)
+                }),
+                None => self.skip("curve", lost),
+            }
+        }
+        Ok(())
+    }
+
+    fn draw_point(&mut self, at: Point, z: f64, Pen { layer, line_type, label, setting, .. }: Pen) {
+        self.rise(setting, z);
+        self.layers.count(layer, line_type);
+        let at = setting.map.map_or(at, |map| map * at);
+        let name = Some(self.layers.name(layer, self.drawing));
+        self.drawing.points.push(DrawnPoint { at, name, entity: label });
+    }
+
+    fn draw_fill(
+        &mut self,
+        loops: &[Vec<Curve>],
+        last_decimal: f64,
+        Pen { entity, layer, line_type, label, setting }: Pen,
+    ) -> Result<(), ImportError> {
+        let placed: Result<Option<Vec<Vec<Curve>>>, _> = (loops.iter())
+            .map(|outline| outline.iter().map(|curve| self.placed(curve, setting, &label)).collect())
+            .collect();
+        match placed? {
+            Some(loops) => {
                 self.layers.count(layer, line_type);
-                let at = setting.map.map_or(*at, |map| map * *at);
-                let name = Some(self.layers.name(layer, self.drawing));
-                self.drawing.points.push(DrawnPoint { at, name, entity: label });
+                let name = self.layers.name(layer, self.drawing);
+                let (handle, last_decimal) = (entity.handle, last_decimal * setting.scale);
+                self.fills.push(Fill { name, layer, handle, last_decimal, loops, entity: label });
             }
-            Figure::Fill { loops, last_decimal } => {
-                let placed: Result<Option<Vec<Vec<Curve>>>, _> = (loops.iter())
-                    .map(|outline| outline.iter().map(|curve| self.placed(curve, setting, &label)).collect())
-                    .collect();
-                match placed? {
-                    Some(loops) => {
-                        self.layers.count(layer, line_type);
-                        let name = self.layers.name(layer, self.drawing);
-                        let (handle, last_decimal) = (entity.handle, last_decimal * setting.scale);
-                        self.fills.push(Fill { name, layer, handle, last_decimal, loops, entity: label });
-                    }
-                    None => self.skip(&entity.kind, "too small for numbers once it is inserted"),
-                }
-            }
-            Figure::Text { at, bytes } => {
-                self.skip(&entity.kind, NO_OUTLINE);
-                if let Some(text) = text::name(&self.header.name(bytes)) {
-                    self.spend(1, &label)?;
-                    let at = setting.map.map_or(*at, |map| map * *at);
-                    self.drawing.labels.push(Label { at, text });
-                }
-            }
-            Figure::Insert(_) => {}
+            None => self.skip(&entity.kind, "too small for numbers once it is inserted"),
+        }
+        Ok(())
+    }
+
+    /// A text draws nothing, but may name a region.
+    fn draw_text(&mut self, at: Point, bytes: &[u8], pen: &Pen) -> Result<(), ImportError> {
+        self.skip(&pen.entity.kind, NO_OUTLINE);
+        if let Some(text) = text::name(&self.header.name(bytes)) {
+            self.spend(1, &pen.label)?;
+            let at = pen.setting.map.map_or(at, |map| map * at);
+            self.drawing.labels.push(Label { at, text });
         }
         Ok(())
     }
@@ -320,14 +362,9 @@ impl<'f, 'a> Sketch<'f, 'a> {
         Ok(())
     }
 
-    fn draw_insert(
-        &mut self,
-        insert: &Insert<'a>,
-        entity: &Entity<'a>,
-        layer: LayerId,
-        line_type: Rc<str>,
-        setting: &Setting,
-    ) -> Result<(), ImportError> {
+    /// Draws a block, in all rows and columns, if it can be.
+    fn draw_insert(&mut self, insert: &Insert<'a>, pen: Pen<'_, 'a>) -> Result<(), ImportError> {
+        let (entity, setting) = (pen.entity, pen.setting);
         let Some(place) = entity.block else {
             self.skip(&entity.kind, "of a block that the file does not define");
             return Ok(());
@@ -347,22 +384,33 @@ impl<'f, 'a> Sketch<'f, 'a> {
             return Err(ImportError::new(what, "explode the inner blocks"));
         }
         let within = [&setting.within[..], &[place]].concat();
-        let entities = self.block_entities(place)?;
-        let from_base = Affine::translate(-block.base.to_vec2());
-        let mut inner = Setting {
+        let inner = Setting {
             map: None,
             z: setting.z + setting.z_scale * insert.z,
             z_scale: setting.z_scale * insert.z_scale,
             scale: 1.0,
-            layer: Some(layer),
-            line_type,
+            layer: Some(pen.layer),
+            line_type: pen.line_type,
             path,
             within,
         };
+        self.draw_block(place, insert, setting.map.unwrap_or_default(), inner)
+    }
+
+    /// Draws a block once for every row and column. `outer` leads from where it is inserted to the drawing.
+    fn draw_block(
+        &mut self,
+        place: usize,
+        insert: &Insert,
+        outer: Affine,
+        mut inner: Setting,
+    ) -> Result<(), ImportError> {
+        let entities = self.block_entities(place)?;
+        let from_base = Affine::translate(-self.file.blocks[place].1.base.to_vec2());
         for (row, column) in (0..insert.rows).flat_map(|row| (0..insert.columns).map(move |column| (row, column))) {
             self.spend(1, &inner.path)?;
             let offset: Vec2 = insert.steps[0] * column as f64 + insert.steps[1] * row as f64;
-            let map = setting.map.unwrap_or_default() * Affine::translate(offset) * insert.map * from_base;
+            let map = outer * Affine::translate(offset) * insert.map * from_base;
             if !is_usable(map) {
                 let what = format!("{}a block is drawn too large or too small for numbers", inner.path);
                 return Err(ImportError::new(what, "correct the scales of the blocks"));

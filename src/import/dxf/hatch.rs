@@ -1,7 +1,9 @@
 //! The boundary of a HATCH: paths of polylines or of lines, arcs, elliptic arcs and splines.
 
-use super::entities::{Notices, Refusal, bulged_vertices, segments, sweep};
+use super::arc::sweep;
+use super::figure::{Notices, Refusal};
 use super::pairs::Pair;
+use super::polyline::{bulged_vertices, segments};
 use super::sections::Record;
 use super::spline::SplineData;
 use crate::curve::{Curve, CurveError};

@@ -1,6 +1,8 @@
 //! MLINE: parallel lines along a polyline. The entity itself tells how far each line lies from every vertex, along the miter there.
 
-use super::entities::{Figure, Notices, Refusal, Vertex, flat, segments};
+use super::figure::{Figure, Notices, Refusal};
+use super::plane::flat;
+use super::polyline::{Vertex, segments};
 use super::sections::Record;
 use crate::curve::Curve;
 use crate::geometry::{Point, Vec2};

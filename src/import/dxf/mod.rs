@@ -13,14 +13,18 @@
 //!
 //! The format: Autodesk, *DXF Reference*, with the arbitrary axis algorithm of its chapter "Object Coordinate Systems".
 
+mod arc;
 mod blocks;
 mod entities;
+mod figure;
 mod fills;
 mod hatch;
 mod header;
 mod layers;
 mod mline;
 mod pairs;
+mod plane;
+mod polyline;
 mod sections;
 mod spline;
 mod text;

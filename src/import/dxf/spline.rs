@@ -1,6 +1,7 @@
 //! SPLINE entities and spline edges of hatches, with the liberties that writers take.
 
-use super::entities::{Figure, Notices, Refusal, built, flat, single};
+use super::figure::{Figure, Notices, Refusal, built, single};
+use super::plane::flat;
 use super::sections::Record;
 use crate::curve::Curve;
 use crate::geometry::{Point, Vec2};

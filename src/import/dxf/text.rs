@@ -1,6 +1,6 @@
 //! Texts: what they say without the codes of their format, and where they stand. Glyphs have no outlines here; a text may name a region.
 
-use super::entities::{Figure, NO_OUTLINE, Refusal};
+use super::figure::{Figure, NO_OUTLINE, Refusal};
 use super::sections::Record;
 use crate::geometry::Point;
 

@@ -2,11 +2,11 @@
 //! (CSS Masking 1, SVG 2 section 14.4, CSS Shapes 1).
 
 use super::super::ImportError;
+use super::basic_shape::basic_outline;
 use super::path::{Outline, Subpath};
 use super::style::{Property, Style};
-use super::units::{Axis, Quantity, Viewport};
-use super::walk::is_flat;
-use super::{Reader, cut, known_tag, label, local_name, selector, transform};
+use super::units::Viewport;
+use super::{Reader, cut, known_tag, label, local_name, transform};
 use crate::domain::{Clip, DrawnCurve, Shape};
 use crate::geometry::{Point, Rect, Vec2};
 use crate::ids::{ClipId, NameId};
@@ -300,7 +300,7 @@ impl<'a> Reader<'a> {
         let own = if transform::asks_for_own_box(&declared) { self.own_box(child, placed.viewport)? } else { None };
         let map = placed.map * transform::of(&declared, placed.viewport, own).unwrap_or_default();
         self.check_map(child, tag, map)?;
-        if is_flat(map) {
+        if transform::is_flat(map) {
             return Ok(());
         }
         let placed = Placed { map, ..placed };
@@ -432,87 +432,4 @@ fn url(value: &str) -> Option<&str> {
 
 fn known_box(word: &str) -> bool {
     matches!(word, "fill-box" | "stroke-box" | "view-box" | "border-box" | "padding-box" | "content-box" | "margin-box")
-}
-
-/// The outline of a basic shape in a reference box, and whether its rule is even-odd.
-fn basic_outline(text: &str, about: Rect, viewport: Viewport) -> Option<(Outline, bool)> {
-    let (name, inner) = text.split_once('(')?;
-    let inner = inner.strip_suffix(')')?.trim();
-    let units = Viewport { size: about.size(), ..viewport };
-    let length = |word: &str, axis| units.length(word, axis);
-    // `at` stands before the centre, `round` before the radii of corners.
-    let (head, tail) =
-        [" at ", "at ", " round "].into_iter().find_map(|word| inner.split_once(word)).unwrap_or((inner, ""));
-    let words: Vec<&str> = head.split_ascii_whitespace().collect();
-    let center = || match tail.trim() {
-        "" => Some(about.center()),
-        place => transform::origin(place, about.size(), units).map(|offset| about.origin() + offset),
-    };
-    let nonzero = |outline| Some((outline, false));
-    match name.trim() {
-        "circle" => {
-            let center = center()?;
-            let sides =
-                [center.x - about.x0, about.x1 - center.x, center.y - about.y0, about.y1 - center.y].map(f64::abs);
-            let radius = match words[..] {
-                [] | ["closest-side"] => sides.into_iter().fold(f64::INFINITY, f64::min),
-                ["farthest-side"] => sides.into_iter().fold(0.0, f64::max),
-                [radius] => length(radius, Axis::Both)?,
-                _ => return None,
-            };
-            nonzero(Outline::of_ellipse(center, Vec2::new(radius, radius)))
-        }
-        "ellipse" => {
-            let center = center()?;
-            let near = |a: f64, b: f64| a.abs().min(b.abs());
-            let radii = match words[..] {
-                [] | ["closest-side", "closest-side"] => Vec2::new(
-                    near(center.x - about.x0, about.x1 - center.x),
-                    near(center.y - about.y0, about.y1 - center.y),
-                ),
-                [rx, ry] => Vec2::new(length(rx, Axis::X)?, length(ry, Axis::Y)?),
-                _ => return None,
-            };
-            nonzero(Outline::of_ellipse(center, radii))
-        }
-        "inset" => {
-            let side = |k: usize, axis| length(words.get(k)?, axis);
-            // Top, right, bottom, left; what is missing is as its opposite.
-            let top = side(0, Axis::Y)?;
-            let right = side(1, Axis::X).or(side(0, Axis::X))?;
-            let bottom = side(2, Axis::Y).unwrap_or(top);
-            let left = side(3, Axis::X).unwrap_or(right);
-            let size = Vec2::new(about.width() - left - right, about.height() - top - bottom);
-            let round = match tail.split_ascii_whitespace().next() {
-                None => Vec2::ZERO,
-                Some(_) if tail.split_ascii_whitespace().count() > 1 => return None,
-                Some(radius) => Vec2::new(length(radius, Axis::X)?, length(radius, Axis::Y)?),
-            };
-            nonzero(Outline::of_rect(Point::new(about.x0 + left, about.y0 + top), size, round))
-        }
-        "polygon" => {
-            let mut pieces: Vec<&str> = selector::list(inner).map(str::trim).collect();
-            let even_odd = pieces.first() == Some(&"evenodd");
-            if matches!(pieces.first(), Some(&"evenodd" | &"nonzero")) {
-                pieces.remove(0);
-            }
-            let corner = |pair: &&str| {
-                let (x, rest) = Quantity::first(pair.trim())?;
-                let y = Quantity::parse(rest)?;
-                Some(about.origin() + Vec2::new(units.measure(x, Axis::X)?, units.measure(y, Axis::Y)?))
-            };
-            let corners: Vec<Point> = pieces.iter().map(corner).collect::<Option<_>>()?;
-            Some((Outline::of_corners(&corners), even_odd))
-        }
-        "path" => {
-            let (rule, data) =
-                inner.split_once(',').filter(|(rule, _)| !rule.contains(['"', '\''])).unwrap_or(("", inner));
-            let data = data.trim().trim_matches(['"', '\'']);
-            let mut outline = Outline::of_path(data);
-            let shift = Affine::translate(about.origin().to_vec2());
-            outline.subpaths = outline.subpaths.into_iter().map(|s| s.transformed(shift)).collect();
-            Some((outline, rule.trim() == "evenodd"))
-        }
-        _ => None,
-    }
 }

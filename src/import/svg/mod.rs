@@ -8,6 +8,7 @@
 //! only where it says so; what lies wholly outside of it is left out. Not applied, but counted: masks, filters, markers, patterns; not
 //! read, but counted: text, images, whatever is hidden. Strokes have no width unless what they cover is asked for.
 
+mod basic_shape;
 mod clip;
 mod css;
 mod digits;

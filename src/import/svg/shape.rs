@@ -16,6 +16,7 @@ use kurbo::Affine;
 use roxmltree::Node;
 
 impl<'a> Reader<'a> {
+    /// Draws an element that has an outline, or says why not.
     pub(super) fn shape(
         &mut self,
         node: Node<'a, 'a>,
@@ -59,6 +60,18 @@ impl<'a> Reader<'a> {
         if context.shown_by.is_some() {
             self.expand(outline.subpaths.iter().map(|s| s.curves.len()).sum())?;
         }
+        self.paint(known, outline, entity, context, declared)
+    }
+
+    /// Draws what an element fills, and its stroke as a line or as the area that it covers.
+    fn paint(
+        &mut self,
+        known: &'static str,
+        outline: Outline,
+        entity: String,
+        context: &Context<'a>,
+        declared: &Declared<'a>,
+    ) -> Result<(), ImportError> {
         let fill = self.painting(known, context.style.fill());
         let stroke = self.painting(known, context.style.stroke());
         // What lies on a line encloses nothing, whatever fills it.

@@ -6,12 +6,22 @@ use super::units::{Axis, Quantity, Viewport};
 use crate::geometry::{Rect, Vec2};
 use kurbo::{Affine, Size};
 
+/// A map that squeezes one direction by more than this leaves nothing to see.
+const SQUEEZE_MIN: f64 = 1e-12;
+
 /// The box that percentages and origins refer to; `None` where an element asks for its own and has no extent.
 pub(super) type ReferenceBox = Option<Rect>;
 
 /// Whether the place or the size of an element's own box matters to its transform.
 pub(super) fn asks_for_own_box(declared: &Declared) -> bool {
     matches!(declared.given(Property::TransformBox), Some("fill-box" | "content-box" | "stroke-box" | "border-box"))
+}
+
+/// Whether a map leaves no extent.
+pub(super) fn is_flat(map: Affine) -> bool {
+    let [a, b, c, d, ..] = map.as_coeffs();
+    let size = a * a + b * b + c * c + d * d;
+    map.determinant().abs() <= SQUEEZE_MIN * size
 }
 
 /// The map of an element; what cannot be read of it is `Err`.

@@ -18,8 +18,6 @@ const EXPANSION_MAX: usize = 1_000_000;
 pub(super) const USE_DEPTH_MAX: usize = 64;
 /// How deep `use` is followed for the box around an element.
 const OWN_BOX_DEPTH_MAX: usize = 16;
-/// A map that squeezes one direction by more than this leaves nothing to see.
-const SQUEEZE_MIN: f64 = 1e-12;
 
 /// What an element inherits.
 #[derive(Clone)]
@@ -215,7 +213,7 @@ impl<'a> Reader<'a> {
             }
         }
         self.check_map(node, tag, context.map)?;
-        if is_flat(context.map) {
+        if transform::is_flat(context.map) {
             self.skip(known, "its transform leaves no extent");
             return Ok(None);
         }
@@ -398,11 +396,4 @@ fn nested_viewport<'a>(
 fn is_for_us(node: Node) -> bool {
     let english = |list: &str| list.split(',').any(|language| language.trim().to_ascii_lowercase().starts_with("en"));
     node.attribute("requiredExtensions").is_none() && node.attribute("systemLanguage").is_none_or(english)
-}
-
-/// Whether a map leaves no extent.
-pub(super) fn is_flat(map: Affine) -> bool {
-    let [a, b, c, d, ..] = map.as_coeffs();
-    let size = a * a + b * b + c * c + d * d;
-    map.determinant().abs() <= SQUEEZE_MIN * size
 }

@@ -1,0 +1,222 @@
+//! What may meet: pairs of pieces, and of a node and a piece, whose boxes meet and of which it is not plain that they do not.
+
+use super::error::{ArrangeError, Unarranged};
+use super::network::{Network, Piece};
+use crate::curve::{Curve, End};
+use crate::geometry::boxes::{BoxHierarchy, Labels};
+use crate::geometry::{Point, Rect};
+use crate::ids::{CurveId, Id, IdVec, PointId};
+use crate::watch::Watch;
+use std::f64::consts::TAU;
+
+/// Pairs of curves, or of a node and a curve, that are kept at most while it is looked for where they meet: half a gigabyte.
+const PAIRS_MAX: usize = 1 << 26;
+
+/// Cuts of one round that are kept at most, two a crossing: some gigabytes with the pieces that they make.
+pub(super) const CUTS_MAX: usize = 1 << 24;
+
+/// Curves part slowly where they stay within the tolerance of each other for so many tolerances; those that part at an angle with a sine of one
+/// over this do not.
+pub(super) const SLOW: f64 = 16.0;
+
+/// Circles that cross at a smaller angle (its sine) are compared in full: they stay within the tolerance of each other for long.
+const SLANT: f64 = 1e-3;
+
+/// Fewer lines around a node are compared each with each.
+const HUB: usize = 16;
+
+/// Nodes at which many lines end. That a spoke's far end lies on another spoke is asked of its neighbours by angle only.
+struct Hubs {
+    spokes: IdVec<PointId, Vec<CurveId>>,
+    /// Hubs to which a line runs from a node.
+    of_node: IdVec<PointId, Labels>,
+}
+
+impl Hubs {
+    fn new(network: &Network) -> Self {
+        let mut spokes: IdVec<PointId, Vec<CurveId>> = vec![Vec::new(); network.nodes.len()].into();
+        let lines = || network.pieces.enumerate().filter(|(_, piece)| piece.is_line());
+        lines().for_each(|(id, line)| line.ends.into_iter().for_each(|end| spokes[end].push(id)));
+        let mut hubs = Self { spokes, of_node: vec![Labels::default(); network.nodes.len()].into() };
+        for (_, line) in lines() {
+            for (node, hub) in [(line.ends[0], line.ends[1]), (line.ends[1], line.ends[0])] {
+                let free = hubs.of_node[node].iter().position(Option::is_none);
+                if let (true, Some(free)) = (hubs.is_hub(hub), free) {
+                    hubs.of_node[node][free] = Some(hub.0);
+                }
+            }
+        }
+        hubs
+    }
+
+    fn is_hub(&self, node: PointId) -> bool {
+        self.spokes[node].len() >= HUB
+    }
+
+    /// The hubs at which a line ends.
+    fn of_piece(&self, piece: &Piece) -> Labels {
+        if piece.is_line() { piece.ends.map(|end| self.is_hub(end).then_some(end.0)) } else { Labels::default() }
+    }
+
+    /// Calls `ask` with the far ends of spokes that may lie on other spokes of their hub, and these.
+    fn spokes_on_spokes(
+        &self,
+        network: &Network,
+        ask: &mut impl FnMut(PointId, CurveId) -> Result<(), Unarranged>,
+    ) -> Result<(), Unarranged> {
+        for hub in self.spokes.ids().filter(|&hub| self.is_hub(hub)) {
+            let far = |id: CurveId| network.pieces[id].ends.into_iter().find(|&end| end != hub).unwrap_or(hub);
+            let arm = |id: CurveId| network.nodes[far(id)].at - network.nodes[hub].at;
+            let mut around: Vec<(f64, CurveId)> =
+                self.spokes[hub].iter().map(|&id| (libm::atan2(arm(id).y, arm(id).x), id)).collect();
+            around.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+            let n = around.len();
+            for (k, &(angle, id)) in around.iter().enumerate() {
+                // Half a circle's chord at least as long as the tolerance; 1e-12 is more than rounding does to an angle.
+                let reach = (2.0 * network.tolerances.weld / arm(id).hypot()).min(4.0) + 1e-12;
+                let off = |other: f64| (other - angle).abs().min(TAU - (other - angle).abs());
+                let beside = |step: usize| (1..n).map(move |i| (k + i * step) % n);
+                for way in [1, n - 1] {
+                    beside(way)
+                        .map(|i| around[i])
+                        .take_while(|other| off(other.0) <= reach)
+                        .try_for_each(|other| ask(far(id), other.1))?;
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Network<'_> {
+    /// Pairs of pieces that may cross and were not both looked at before, in order.
+    pub fn fresh_pairs(&self, boxes: &BoxHierarchy, watch: &mut Watch) -> Result<Vec<(CurveId, CurveId)>, Unarranged> {
+        let mut pairs = Vec::new();
+        let fresh: Vec<CurveId> = self.pieces.ids().filter(|&id| self.pieces[id].fresh).collect();
+        let mut ask = |a: CurveId, b: CurveId| {
+            if !self.are_circles_apart(a, b) && !self.part_at_once(a, b) {
+                pairs.push((a, b));
+            }
+            self.keep_on(pairs.len(), self.pieces[a].bounds.center(), watch)
+        };
+        let labels = |i: usize| self.crossing_labels(CurveId::from_index(i));
+        if fresh.len() == self.pieces.len() {
+            boxes.try_pairs(labels, |i, j| ask(CurveId::from_index(i), CurveId::from_index(j)))?;
+            pairs.sort_unstable();
+            return Ok(pairs);
+        }
+        let of_fresh = BoxHierarchy::new(fresh.iter().map(|&id| boxes.boxes()[id.index()]));
+        of_fresh.try_pairs_with(
+            |i| self.crossing_labels(fresh[i]),
+            boxes,
+            labels,
+            |i, j| {
+                let (a, b) = (fresh[i], CurveId::from_index(j));
+                // Of two fresh ones each finds the other.
+                if a < b || (b < a && !self.pieces[b].fresh) { ask(a.min(b), a.max(b)) } else { Ok(()) }
+            },
+        )?;
+        pairs.sort_unstable();
+        Ok(pairs)
+    }
+
+    /// Nodes with pieces that they may lie on without being their ends, each pair once, in order.
+    pub fn nodes_near_pieces(
+        &self,
+        boxes: &BoxHierarchy,
+        watch: &mut Watch,
+    ) -> Result<Vec<(PointId, CurveId)>, Unarranged> {
+        let hubs = Hubs::new(self);
+        let nodes = BoxHierarchy::new(self.nodes.iter().map(|n| Rect::from_points(n.at, n.at)));
+        let mut near = Vec::new();
+        let mut ask = |id: PointId, i: CurveId| {
+            let (node, piece) = (&self.nodes[id], &self.pieces[i]);
+            if (node.fresh || piece.fresh) && !piece.ends.contains(&id) && !self.is_off_circle(node.at, piece) {
+                near.push((id, i));
+            }
+            self.keep_on(near.len(), node.at, watch)
+        };
+        nodes.try_pairs_with(
+            |i| hubs.of_node[PointId::from_index(i)],
+            boxes,
+            |i| hubs.of_piece(&self.pieces[CurveId::from_index(i)]),
+            |i, j| ask(PointId::from_index(i), CurveId::from_index(j)),
+        )?;
+        hubs.spokes_on_spokes(self, &mut ask)?;
+        near.sort_unstable();
+        near.dedup();
+        Ok(near)
+    }
+
+    /// Asks the watch now and then while pairs are found, and refuses more than can be kept.
+    fn keep_on(&self, pairs: usize, at: Point, watch: &mut Watch) -> Result<(), Unarranged> {
+        if pairs > PAIRS_MAX {
+            return Err(too_many_cuts(CUTS_MAX, at).into());
+        }
+        if pairs.is_multiple_of(1024) { Ok(self.progress("meeting", pairs).tell(watch)?) } else { Ok(()) }
+    }
+
+    /// Whether two pieces with a common end part there at an angle for good: they meet nowhere else.
+    fn part_at_once(&self, a: CurveId, b: CurveId) -> bool {
+        let [first, second] = [a, b].map(|id| &self.pieces[id]);
+        let ends = [End::Start, End::Finish];
+        let common = ends.iter().find_map(|&i| {
+            let j = ends.iter().find(|&&j| first.end(i) == second.end(j))?;
+            Some((first.curve.cone_from(i)?, second.curve.cone_from(*j)?))
+        });
+        common.is_some_and(|(cone, other)| cone.is_apart_from(&other, 1.0 / SLOW))
+    }
+
+    /// Whether a place is for certain no part of an arc, told by its circle.
+    fn is_off_circle(&self, at: Point, piece: &Piece) -> bool {
+        let Curve::Arc(arc) = &piece.curve else { return false };
+        let from = at.distance(arc.center);
+        (from - arc.radius).abs() > self.off_circle(from + arc.radius)
+    }
+
+    /// How far a point of an arc, computed from numbers of a magnitude, may lie off its circle, and a tolerance more. Moved ends are spread
+    /// along an arc: its points lie off its circle by two tolerances at most.
+    fn off_circle(&self, magnitude: f64) -> f64 {
+        8.0 * self.tolerances.weld.max(f64::EPSILON * magnitude)
+    }
+
+    /// Whether two arcs meet nowhere, or nowhere but at their one common end, told by their circles: rings in each other and fans of arcs
+    /// have as many pairs of boxes that meet as there are pairs.
+    fn are_circles_apart(&self, a: CurveId, b: CurveId) -> bool {
+        let [first, second] = [a, b].map(|id| &self.pieces[id]);
+        let (Curve::Arc(p), Curve::Arc(q)) = (&first.curve, &second.curve) else { return false };
+        let between = p.center.distance(q.center);
+        let slack = self.off_circle(between + p.radius + q.radius);
+        if between > p.radius + q.radius + slack || between < (p.radius - q.radius).abs() - slack {
+            return true;
+        }
+        let mut shared = first.ends.into_iter().filter(|end| second.ends.contains(end));
+        let (Some(hub), None) = (shared.next(), shared.next()) else { return false };
+        let at = self.nodes[hub].at;
+        let sine = (p.center - at).cross(q.center - at).abs() / (p.radius * q.radius);
+        // Circles that cross at an angle cross once more, as far behind the line of their centers.
+        let along = (q.center - p.center) / between;
+        let other = p.center + 2.0 * along.dot(at - p.center) * along - (at - p.center);
+        let reach = slack / SLANT;
+        sine >= SLANT
+            && at.distance(other) > 2.0 * reach
+            && [first, second].iter().any(|piece| piece.curve.nearest(other, 0.0, 1.0).1 > reach)
+    }
+
+    /// Lines with a common end do not cross.
+    fn crossing_labels(&self, id: CurveId) -> Labels {
+        match &self.pieces[id] {
+            line if line.is_line() => line.ends.map(|end| Some(end.0)),
+            _ => Labels::default(),
+        }
+    }
+}
+
+pub(super) fn too_many_cuts(most: usize, at: Point) -> ArrangeError {
+    let what = format!("the curves meet in more than {} places", most / 2);
+    let help = match most {
+        CUTS_MAX => "such a drawing is noise: leave out the curves that cross most of the others there",
+        _ => "bundles of curves lie within the tolerance of each other: lower it, or leave out all but one of each",
+    };
+    ArrangeError::near(what, at, help)
+}

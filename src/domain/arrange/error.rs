@@ -1,0 +1,52 @@
+//! Why there is no domain.
+
+use crate::geometry::{Point, scaled};
+use crate::watch::Stopped;
+
+/// What cannot be repaired, where, and the way out.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{what} at ({}, {})", at.x, at.y)]
+pub struct ArrangeError {
+    /// What is wrong, with the entities.
+    pub what: String,
+    pub at: Point,
+    /// Further places of the same flaw, as many as `what` lists.
+    pub also_at: Vec<Point>,
+    /// What the user can do.
+    pub help: String,
+    /// Whether features that lie too near to each other are the reason: a coarser tolerance may make one of them.
+    pub near: bool,
+}
+
+/// Why there is no domain.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum Unarranged {
+    #[error(transparent)]
+    Invalid(#[from] ArrangeError),
+    #[error(transparent)]
+    Stopped(#[from] Stopped),
+}
+
+impl Unarranged {
+    /// Its place times a factor.
+    pub(super) fn scaled(self, factor: f64) -> Self {
+        match self {
+            Self::Invalid(error) => {
+                let also_at = error.also_at.iter().map(|at| scaled(*at, factor)).collect();
+                ArrangeError { at: scaled(error.at, factor), also_at, ..error }.into()
+            }
+            Self::Stopped(_) => self,
+        }
+    }
+}
+
+impl ArrangeError {
+    pub(super) fn new(what: impl Into<String>, at: Point, help: impl Into<String>) -> Self {
+        Self { what: what.into(), at, also_at: Vec::new(), help: help.into(), near: false }
+    }
+
+    /// Features lie too near to each other.
+    pub(super) fn near(what: impl Into<String>, at: Point, help: impl Into<String>) -> Self {
+        Self { near: true, ..Self::new(what, at, help) }
+    }
+}

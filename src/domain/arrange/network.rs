@@ -1,0 +1,237 @@
+//! The network: nodes, and the pieces of drawn curves that run between them, on their way to a domain.
+//!
+//! ```text
+//!   as drawn                          pieces a, b, c and nodes ●
+//!
+//!   p ──────────────                ●── a ──●══ b ══●── c ──●      Each piece is a part of a drawn curve, its `source`: a and b of p, c of q.
+//!           ────────────── q                                       Along b runs q, too, which is `merged` with it.
+//! ```
+
+use super::frame::Tolerances;
+use super::repair::{Repair, RepairKind};
+use crate::curve::{Curve, End};
+use crate::domain::Drawing;
+use crate::geometry::{Point, Rect};
+use crate::ids::{CurveId, IdVec, PointId, SeenId, ShapeId};
+use crate::watch::Progress;
+use std::collections::BTreeMap;
+
+/// What a node or a cut is there for. Earlier ones win where nodes are welded: what was drawn is the truth.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub(super) enum Origin {
+    /// An end or a break of a drawn curve.
+    Curve(u32),
+    /// A drawn point.
+    Point(u32),
+    /// Computed: where the drawn curve is met.
+    Meeting(u32),
+}
+
+impl Origin {
+    /// Drawn nodes first, curves and points alike.
+    pub fn is_computed(self) -> bool {
+        matches!(self, Origin::Meeting(_))
+    }
+
+    pub fn text(self, drawing: &Drawing) -> &str {
+        match self {
+            Origin::Curve(i) | Origin::Meeting(i) => &drawing.curves[i as usize].entity,
+            Origin::Point(i) => &drawing.points[i as usize].entity,
+        }
+    }
+}
+
+/// A vertex to be.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Node {
+    pub at: Point,
+    pub origin: Origin,
+    /// Not yet looked at for meetings.
+    pub fresh: bool,
+}
+
+/// A curve, and between which parameters of a drawn one it runs.
+#[derive(Clone, Debug)]
+pub(super) struct Part {
+    pub curve: Curve,
+    pub range: [f64; 2],
+}
+
+impl Part {
+    pub fn whole(curve: &Curve) -> Self {
+        Self { curve: curve.clone(), range: [0.0, 1.0] }
+    }
+
+    pub fn between(&self, t0: f64, t1: f64) -> Self {
+        let [r0, r1] = self.range;
+        let along = |t: f64| if t == 1.0 { r1 } else { r0 + t * (r1 - r0) };
+        Self { curve: self.curve.part(t0, t1), range: [along(t0), along(t1)] }
+    }
+
+    /// The parts between ascending parameters inside it.
+    pub fn split(self, cuts: &[f64]) -> Vec<Self> {
+        if cuts.is_empty() {
+            return vec![self];
+        }
+        let starts = [0.0].into_iter().chain(cuts.iter().copied());
+        starts.zip(cuts.iter().copied().chain([1.0])).map(|(t0, t1)| self.between(t0, t1)).collect()
+    }
+}
+
+/// A part of a drawn curve, on its way between two nodes.
+#[derive(Clone, Debug)]
+pub(super) struct Piece {
+    pub curve: Curve,
+    pub ends: [PointId; 2],
+    pub bounds: Rect,
+    /// The drawn curve.
+    pub source: u32,
+    /// Between which of its parameters.
+    pub range: [f64; 2],
+    /// Further drawn curves that run along the whole piece, and whether they run against it.
+    pub merged: Vec<(u32, bool)>,
+    /// What is seen on its left and right, once hidden stretches are left out.
+    pub paint: Option<[Option<SeenId>; 2]>,
+    /// Not yet looked at for meetings.
+    pub fresh: bool,
+}
+
+impl Piece {
+    pub fn new(Part { curve, range }: Part, ends: [PointId; 2], source: u32) -> Self {
+        Self { bounds: curve.bounds(), curve, ends, source, range, merged: Vec::new(), paint: None, fresh: true }
+    }
+
+    /// The part between two parameters, from node to node.
+    pub fn between(&self, t0: f64, t1: f64, ends: [PointId; 2]) -> Self {
+        let part = Part { curve: self.curve.clone(), range: self.range }.between(t0, t1);
+        Self { merged: self.merged.clone(), paint: self.paint, ..Self::new(part, ends, self.source) }
+    }
+
+    /// Whether it is the whole of the drawn curve.
+    pub fn is_whole(&self) -> bool {
+        self.range == [0.0, 1.0]
+    }
+
+    pub fn is_line(&self) -> bool {
+        matches!(self.curve, Curve::Line(_))
+    }
+
+    pub fn end(&self, end: End) -> PointId {
+        match end {
+            End::Start => self.ends[0],
+            End::Finish => self.ends[1],
+        }
+    }
+}
+
+/// Nodes and pieces on their way to a domain.
+pub(super) struct Network<'a> {
+    pub drawing: &'a Drawing,
+    pub tolerances: Tolerances,
+    pub nodes: IdVec<PointId, Node>,
+    pub pieces: IdVec<CurveId, Piece>,
+    pub repairs: Vec<Repair>,
+    /// Loops of a drawn curve that became lines: the curve, the place and the width. Itemised where some of the curve is left.
+    pub loops: Vec<(u32, Point, f64)>,
+    /// The ends of the drawn curves, as they were drawn; `None` of curves of no length.
+    pub drawn_ends: Vec<Option<[PointId; 2]>>,
+    /// The drawn points.
+    pub drawn_points: Vec<PointId>,
+    /// What the paint of pieces refers to.
+    pub seen: Seen,
+}
+
+/// The shapes seen on faces: lists of them, the topmost first, each list once.
+#[derive(Default)]
+pub(super) struct Seen {
+    pub lists: IdVec<SeenId, Vec<ShapeId>>,
+    known: BTreeMap<Vec<ShapeId>, SeenId>,
+}
+
+impl Seen {
+    /// The id of a list, which is recorded if it is new; `None` of an empty one.
+    pub fn id(&mut self, list: Vec<ShapeId>) -> Option<SeenId> {
+        if list.is_empty() {
+            return None;
+        }
+        if let Some(&known) = self.known.get(&list) {
+            return Some(known);
+        }
+        let id = self.lists.push(list.clone());
+        self.known.insert(list, id);
+        Some(id)
+    }
+
+    /// The topmost of a list.
+    pub fn top(&self, id: SeenId) -> ShapeId {
+        self.lists[id][0]
+    }
+}
+
+/// Whether a curve is an arc that winds off its circle: only parts of it are arcs of circles, and those on both sides of a cut are of
+/// different ones.
+pub(super) fn is_spiral(curve: &Curve) -> bool {
+    matches!(curve, Curve::Arc(arc) if arc.is_spiral())
+}
+
+impl<'a> Network<'a> {
+    /// Without nodes and pieces.
+    pub fn empty(drawing: &'a Drawing, tolerances: Tolerances) -> Self {
+        Self {
+            drawing,
+            tolerances,
+            nodes: IdVec::new(),
+            pieces: IdVec::new(),
+            repairs: Vec::new(),
+            loops: Vec::new(),
+            drawn_ends: Vec::new(),
+            drawn_points: Vec::new(),
+            seen: Seen::default(),
+        }
+    }
+
+    /// How far a phase is, with so much left to do.
+    pub fn progress(&self, phase: &'static str, queued: usize) -> Progress {
+        Progress { phase, vertices: self.nodes.len(), queued }
+    }
+
+    pub fn add_node(&mut self, at: Point, origin: Origin) -> PointId {
+        self.nodes.push(Node { at, origin, fresh: true })
+    }
+
+    /// What a drawn curve is called.
+    pub fn entity(&self, source: u32) -> &'a str {
+        &self.drawing.curves[source as usize].entity
+    }
+
+    /// What the drawn curve of a piece is called.
+    pub fn text_of(&self, id: CurveId) -> &str {
+        &self.drawing.curves[self.pieces[id].source as usize].entity
+    }
+
+    /// The drawn curves that run along a piece, and whether each runs against it.
+    pub fn drawn_along(&self, id: CurveId) -> impl Iterator<Item = (u32, bool)> + use<'_> {
+        let piece = &self.pieces[id];
+        [(piece.source, false)].into_iter().chain(piece.merged.iter().copied())
+    }
+
+    /// Lists a repair.
+    pub fn repair(&mut self, kind: RepairKind, at: Point, size: f64, what: String) {
+        self.repairs.push(Repair { kind, at: [at.x, at.y], size, what });
+    }
+
+    /// Drops nodes that nothing ends at; the order stays.
+    pub fn renumber(&mut self) {
+        let mut used: IdVec<PointId, bool> = vec![false; self.nodes.len()].into();
+        let ends = self.pieces.iter().flat_map(|p| p.ends);
+        let drawn = self.drawn_ends.iter().flatten().flatten().copied().chain(self.drawn_points.iter().copied());
+        ends.chain(drawn).for_each(|id| used[id] = true);
+        let mut nodes: IdVec<PointId, Node> = IdVec::new();
+        let renamed: IdVec<PointId, PointId> =
+            (self.nodes.enumerate()).map(|(id, &node)| if used[id] { nodes.push(node) } else { id }).collect();
+        self.nodes = nodes;
+        self.pieces.iter_mut().flat_map(|p| &mut p.ends).for_each(|end| *end = renamed[*end]);
+        self.drawn_ends.iter_mut().flatten().flatten().for_each(|end| *end = renamed[*end]);
+        self.drawn_points.iter_mut().for_each(|node| *node = renamed[*node]);
+    }
+}
