@@ -30,15 +30,15 @@
 
 #[cfg(feature = "cad")]
 pub mod cad;
-pub mod canvas;
 pub mod curve;
 pub mod domain;
-pub mod export;
 pub mod generate;
 pub mod geometry;
 pub mod ids;
 pub mod import;
 pub mod mesh;
+pub mod meshio;
+pub mod picture;
 pub mod plane;
 pub mod prelude;
 pub mod promise;

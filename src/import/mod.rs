@@ -4,7 +4,6 @@
 pub mod airfoil;
 pub mod dxf;
 mod foreign;
-pub mod mesh;
 pub mod outline;
 pub mod poly;
 mod selection;
@@ -18,6 +17,7 @@ pub use selection::{Glob, Selection};
 pub use svg::{Strokes, SvgOptions};
 
 use crate::domain::Drawing;
+use crate::geometry::written::{number, numbers, tokens};
 use std::path::Path;
 
 /// Why a file cannot be read, where, and the way out.
@@ -206,27 +206,4 @@ pub fn read(bytes: &[u8], format: Format, stem: &str, options: &Options) -> Resu
             Err(ImportError::new("this build has no STEP reader", help))
         }
     }
-}
-
-/// A finite number as Fortran, C and spreadsheets write it (`.5`, `1.`, `-1.5D-03`); words such as `nan` are none.
-fn number(token: &[u8]) -> Option<f64> {
-    let text = std::str::from_utf8(token).ok()?;
-    if !text.starts_with(|c: char| c.is_ascii_digit() || matches!(c, '+' | '-' | '.')) {
-        return None;
-    }
-    let value = match text.parse::<f64>() {
-        Ok(value) => value,
-        Err(_) => text.replace(['d', 'D'], "e").parse().ok()?,
-    };
-    value.is_finite().then_some(value)
-}
-
-/// The tokens of a line between blanks, commas and semicolons.
-fn tokens(line: &[u8]) -> impl Iterator<Item = &[u8]> {
-    line.split(|b| b.is_ascii_whitespace() || matches!(b, b',' | b';')).filter(|t| !t.is_empty())
-}
-
-/// The tokens of a line, each as a number where it is one.
-fn numbers(line: &[u8]) -> impl Iterator<Item = Option<f64>> {
-    tokens(line).map(number)
 }
