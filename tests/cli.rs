@@ -1,10 +1,10 @@
 //! The contract of the command line, kept by the program itself: exit codes, files, reports.
 
-use squinch::export;
 use squinch::geometry::{Point, Vec2};
 use squinch::ids::{IdVec, NameId, VertexId};
-use squinch::import::mesh::vtu;
+use squinch::import;
 use squinch::mesh::Mesh;
+use squinch::{meshio, picture};
 use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -592,10 +592,14 @@ fn rewritten(mesh: &Mesh) -> Vec<(&'static str, Mesh)> {
     ]
 }
 
+fn read_vtu(bytes: &[u8]) -> Result<meshio::MeshFile, meshio::MeshError> {
+    meshio::read(bytes, meshio::Format::Vtu, &[])
+}
+
 fn write_mesh(bench: &Bench, file: &str, mesh: &Mesh) {
-    let mut bytes = Vec::new();
-    export::vtu::write(mesh, &[], &mut bytes).expect("a vector takes everything");
-    fs::write(bench.0.join(file), bytes).expect("a mesh is written");
+    let bytes =
+        meshio::encode(mesh, &[], meshio::Format::Vtu, &meshio::WriteOptions::default()).expect("the lists fit");
+    fs::write(bench.0.join(file), bytes.concat()).expect("a mesh is written");
 }
 
 #[test]
@@ -605,7 +609,7 @@ fn a_mesh_that_another_program_rewrote_is_judged_by_where_its_nodes_lie() {
     fs::copy(plate, bench.0.join("plate.json")).expect("a sample");
     for (drawing, edge) in [("lens.json", "0.3"), ("square.poly", "0.3"), ("plate.json", "2")] {
         bench.ends(0, &["mesh", drawing, "-o", "a.vtu", "--max-edge", edge]);
-        let ours = vtu::read(&fs::read(bench.0.join("a.vtu")).unwrap()).expect("our own mesh").mesh;
+        let ours = read_vtu(&fs::read(bench.0.join("a.vtu")).unwrap()).expect("our own mesh").mesh;
         for (what, mesh) in rewritten(&ours) {
             write_mesh(&bench, "b.vtu", &mesh);
             let check = ["check", "b.vtu", "--against", drawing, "--report", "r.json"];
@@ -644,7 +648,7 @@ fn is_on_rim(mesh: &Mesh, v: VertexId) -> bool {
 fn a_rewritten_mesh_with_wrong_names_is_broken() {
     let bench = Bench::new("misnamed");
     bench.ends(0, &["mesh", "lens.json", "-o", "a.vtu", "--max-edge", "0.2"]);
-    let ours = vtu::read(&fs::read(bench.0.join("a.vtu")).unwrap()).expect("our own mesh").mesh;
+    let ours = read_vtu(&fs::read(bench.0.join("a.vtu")).unwrap()).expect("our own mesh").mesh;
     let mut swapped = ours.clone().untied();
     let other = swapped.names.find("above").expect("a boundary");
     swapped.edges[0].name = other;
@@ -1230,6 +1234,44 @@ fn short_help_is_for_jobs_and_long_help_for_all() {
     }
     assert!(printed(&bench.ends(0, &["-h"])).contains("By job:"));
     assert!(!printed(&bench.ends(0, &["-h"])).contains("130"), "exit codes are in the long help");
+}
+
+/// Every format is in the lists that people read, on the command line and in the README.
+#[test]
+fn help_lists_every_format() {
+    let bench = Bench::new("help-formats");
+    let help = |verb| printed(&bench.ends(0, &[verb, "--help"])).split_whitespace().collect::<Vec<_>>().join(" ");
+    let [mesh, convert, check] = ["mesh", "convert", "check"].map(help);
+    let all = format!("{} {}", meshio::Format::ALL.map(|f| f.name()).join(" "), "svg png");
+    let refused = printed(&bench.ends(2, &["mesh", "square.poly", "-o", "square.vtu", "--format", "none"]));
+    for name in all.split(' ') {
+        assert!(refused.contains(name), "{name} is not offered: {refused}");
+    }
+    for format in meshio::Format::ALL {
+        let main = format.suffixes()[0];
+        assert!(mesh.contains(&format!(".{main}")), "{main} is not among the outputs of `squinch mesh`");
+        if let Some(reading) = format.reading() {
+            let suffix = format!(".{}", reading.suffix);
+            assert!(convert.contains(&suffix) && check.contains(&suffix), "{suffix} is not among the meshes read");
+        }
+    }
+    for format in picture::Format::ALL {
+        assert!(mesh.contains(&format!(".{}", format.name())), "{format:?} is not among the outputs");
+    }
+    let names = import::Format::ALL.map(|f| f.name()).join(", ");
+    assert!(mesh.contains(&names), "--input-format names {names}");
+    for format in import::Format::ALL {
+        let suffix = format!(".{}", format.suffixes()[0]);
+        assert!(mesh.contains(&suffix), "{suffix} is not among the drawings of `squinch mesh`");
+    }
+    let readme = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/README.md")).expect("a README");
+    let bullet = |word: &str| {
+        let from = readme.split_once(&format!("- **{word}**")).expect(word).1;
+        from.split("\n- **").next().unwrap_or(from).to_lowercase()
+    };
+    let (reads, writes) = (bullet("Reads"), bullet("Writes"));
+    import::Format::ALL.iter().for_each(|f| assert!(reads.contains(f.name()), "{f:?} is not in the README"));
+    meshio::Format::ALL.iter().for_each(|f| assert!(writes.contains(f.name()), "{f:?} is not in the README"));
 }
 
 /// The commands that a help text shows.

@@ -2,8 +2,8 @@
 //!
 //! What a format says of its own broken files is tested beside the rest of it (`svg.rs`, `dxf.rs`, `import.rs`, `formats.rs`, `vtu.rs`); here is what is common.
 
-use squinch::import::mesh::{self, MeshFile};
 use squinch::import::{self, Format, ImportError, Options};
+use squinch::meshio::{self, MeshFile};
 use squinch::run::request::{LineTypes, LooseEnds, Request, Strokes, Switch};
 use squinch::run::{Exit, Extent, Outcome, Source, run};
 use squinch::watch::no_clock;
@@ -112,9 +112,9 @@ fn other_files_are_refused_by_every_reader() {
             let error = error.expect_err(&format!("{what} is no {}", format.name()));
             assert!(!error.what.is_empty() && !error.help.is_empty(), "{what} as {}: {error:?}", format.name());
         }
-        for format in mesh::Format::ALL {
-            if let Err(error) = soon(what, || mesh::read(bytes, format, &[])) {
-                assert!(!error.what.is_empty() && !error.help.is_empty(), "{what} as {}: {error:?}", format.suffix());
+        for format in meshio::Format::ALL {
+            if let Err(error) = soon(what, || meshio::read(bytes, format, &[])) {
+                assert!(!error.what.is_empty() && !error.help.is_empty(), "{what} as {}: {error:?}", format.name());
             }
         }
     }
@@ -454,13 +454,13 @@ fn gaps_are_closed_by_absurd_values_or_refused() {
 
 // ---- meshes ----
 
-fn read_mesh(what: &str, format: mesh::Format, text: &str) -> Result<MeshFile, mesh::MeshError> {
-    soon(what, || mesh::read(text.as_bytes(), format, &[]))
+fn read_mesh(what: &str, format: meshio::Format, text: &str) -> Result<MeshFile, meshio::MeshError> {
+    soon(what, || meshio::read(text.as_bytes(), format, &[]))
 }
 
 #[test]
 fn mesh_files_with_counts_beyond_the_file_are_refused() {
-    use mesh::Format::{Inp, Msh, Obj, Stl, Su2, Triangle, Vtk, Vtu};
+    use meshio::Format::{Inp, Msh, Obj, Stl, Su2, Triangle, Vtk, Vtu};
     for count in ["2000000000", "4294967295", "9223372036854775807", "18446744073709551615", "-1", "1e18", "nan"] {
         let vtu = format!(
             "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\"><UnstructuredGrid>\
@@ -496,12 +496,12 @@ fn mesh_files_with_counts_beyond_the_file_are_refused() {
             (Triangle, format!("{count} 3 0\n1 1 2 3\n")),
         ];
         for (format, text) in broken {
-            let error = read_mesh(count, format, &text).expect_err(&format!("{count} in {}: {text}", format.suffix()));
+            let error = read_mesh(count, format, &text).expect_err(&format!("{count} in {}: {text}", format.name()));
             assert!(!error.what.is_empty() && !error.help.is_empty(), "{error:?}");
         }
     }
     let stl = [&[b' '; 80][..], &u32::MAX.to_le_bytes(), &[0; 50]].concat();
-    soon("stl", || mesh::read(&stl, Stl, &[])).expect_err("4294967295 triangles in 134 bytes");
+    soon("stl", || meshio::read(&stl, Stl, &[])).expect_err("4294967295 triangles in 134 bytes");
     // Of a generated set the numbers are all in the file but for these three.
     let set = "*NODE\n1, 0, 0\n2, 1, 0\n3, 0, 1\n*ELEMENT, TYPE=CPS3\n1, 1, 2, 3\n*ELSET, ELSET=all, GENERATE\n1, 9000000000000000000, 1\n";
     let _ = read_mesh("a generated set", Inp, set);

@@ -7,7 +7,6 @@ mod foreign;
 pub mod outline;
 pub mod poly;
 mod selection;
-#[cfg(feature = "cad")]
 pub mod step;
 pub mod svg;
 
@@ -52,39 +51,77 @@ impl ImportError {
     }
 }
 
-/// A format that can be read.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Format {
+/// The formats: the enum, [`Format::ALL`] and the way to their facts.
+macro_rules! formats {
+    ($($(#[doc = $doc:literal])* $format:ident = $facts:path;)*) => {
+        /// A format of drawings.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum Format {
+            $($(#[doc = $doc])* $format,)*
+        }
+
+        impl Format {
+            pub const ALL: [Self; [$(Self::$format),*].len()] = [$(Self::$format),*];
+
+            const fn facts(self) -> &'static Facts {
+                match self {
+                    $(Self::$format => &$facts,)*
+                }
+            }
+        }
+    };
+}
+
+formats! {
     /// Airfoil coordinates: Selig, Lednicer, MSES/XFOIL blade files.
-    Airfoil,
+    Airfoil = airfoil::FACTS;
     /// Triangle's planar straight-line graph.
-    Poly,
+    Poly = poly::FACTS;
     /// Triangle's vertices alone.
-    Node,
+    Node = poly::FACTS_OF_NODE;
     /// Our own curves, as JSON.
-    Outline,
+    Outline = outline::FACTS;
     /// Drawings of CAD systems.
-    Dxf,
+    Dxf = dxf::FACTS;
     /// Scalable Vector Graphics, plain or compressed.
-    Svg,
+    Svg = svg::FACTS;
     /// STEP (ISO 10303-21): one planar face of a solid. Read where the feature `cad` is on.
-    Step,
+    Step = step::FACTS;
+}
+
+/// What there is to know of a format.
+struct Facts {
+    /// The name by which a user asks for the format.
+    name: &'static str,
+    /// Suffixes of its files, the usual one first.
+    suffixes: &'static [&'static str],
+    /// Whether the first bytes of a file are as this format has them, and how surely that tells.
+    sign: fn(&[u8]) -> bool,
+    certainty: Certainty,
+    /// Reads a file; the text is its name without suffix, the title where the file gives none.
+    read: fn(&[u8], &str, &Options) -> Result<Drawing, ImportError>,
+}
+
+/// How surely first bytes tell a format.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Certainty {
+    /// They say which it is: JSON starts with a brace, DXF with its sentinel or a section, XML and gzip each in their own way.
+    Mark,
+    /// They have a shape of their own, which no mark contradicts.
+    Shape,
+    /// They hold lines of numbers, as many files do: of the format, if of none above.
+    Numbers,
 }
 
 impl Format {
-    pub const ALL: [Self; 7] = [Self::Airfoil, Self::Poly, Self::Node, Self::Outline, Self::Dxf, Self::Svg, Self::Step];
-
     /// The name by which a user asks for the format.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Airfoil => "airfoil",
-            Self::Poly => "poly",
-            Self::Node => "node",
-            Self::Outline => "outline",
-            Self::Dxf => "dxf",
-            Self::Svg => "svg",
-            Self::Step => "step",
-        }
+    pub const fn name(self) -> &'static str {
+        self.facts().name
+    }
+
+    /// Suffixes of its files, the usual one first.
+    pub const fn suffixes(self) -> &'static [&'static str] {
+        self.facts().suffixes
     }
 
     /// The format of this name, as [`Format::name`] gives it.
@@ -92,44 +129,24 @@ impl Format {
         Self::ALL.into_iter().find(|f| f.name() == name)
     }
 
-    /// A guess from the first bytes, for files whose suffix says nothing.
-    ///
-    /// STEP says so, JSON starts with a brace, DXF with its sentinel or a section, XML and gzip each in their own way. Triangle's first line
-    /// holds whole numbers of which the second, the dimension, is 2; with one line of
-    /// that shape more, the segment header, it is a `.poly`. Anything else that has lines of two numbers may be an airfoil.
+    /// A guess from the first bytes, for files whose suffix says nothing: what says its format, else what has the shape of one, else numbers.
     pub fn sniff(bytes: &[u8]) -> Option<Self> {
-        let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-        Self::by_its_mark(bytes).or_else(|| poly::sniff(text)).or_else(|| airfoil::sniff(text).then_some(Self::Airfoil))
+        [Certainty::Mark, Certainty::Shape, Certainty::Numbers].into_iter().find_map(|by| Self::told(bytes, by))
     }
 
-    /// A format that says in its first bytes what it is.
-    fn by_its_mark(bytes: &[u8]) -> Option<Self> {
-        let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-        if text.trim_ascii_start().starts_with(b"ISO-10303-21") {
-            return Some(Self::Step);
-        }
-        if text.iter().find(|b| !b.is_ascii_whitespace()) == Some(&b'{') {
-            return Some(Self::Outline);
-        }
-        if dxf::sniff(bytes) {
-            return Some(Self::Dxf);
-        }
-        svg::sniff(text).then_some(Self::Svg)
+    fn told(bytes: &[u8], by: Certainty) -> Option<Self> {
+        Self::ALL.into_iter().find(|f| f.facts().certainty == by && (f.facts().sign)(bytes))
     }
+}
+
+fn without_bom(bytes: &[u8]) -> &[u8] {
+    bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)
 }
 
 /// The format that a file's suffix names; `None` where it names none.
 pub fn format_of(path: &Path) -> Option<Format> {
-    match path.extension()?.to_str()?.to_ascii_lowercase().as_str() {
-        "dat" | "txt" => Some(Format::Airfoil),
-        "poly" => Some(Format::Poly),
-        "node" => Some(Format::Node),
-        "json" => Some(Format::Outline),
-        "dxf" => Some(Format::Dxf),
-        "svg" | "svgz" => Some(Format::Svg),
-        "step" | "stp" => Some(Format::Step),
-        _ => None,
-    }
+    let suffix = path.extension()?.to_str()?;
+    Format::ALL.into_iter().find(|f| f.suffixes().iter().any(|s| s.eq_ignore_ascii_case(suffix)))
 }
 
 /// What a reader may be told.
@@ -151,7 +168,7 @@ pub struct Options {
 /// # Errors
 /// Where neither tells, and where it is another kind of file: that, by name, and what can be done with it.
 pub fn tell_format(path: &Path, bytes: &[u8]) -> Result<Format, ImportError> {
-    if let Some(format) = format_of(path).or_else(|| Format::by_its_mark(bytes)) {
+    if let Some(format) = format_of(path).or_else(|| Format::told(bytes, Certainty::Mark)) {
         return Ok(format);
     }
     if let Some(foreign) = foreign::by_content(bytes).or_else(|| foreign::by_suffix(path)) {
@@ -166,7 +183,7 @@ pub fn tell_format(path: &Path, bytes: &[u8]) -> Result<Format, ImportError> {
 
 /// Refuses a file that is not of the format as which it is to be read, but of one that says so.
 fn refuse_other(bytes: &[u8], format: Format) -> Result<(), ImportError> {
-    let marked = Format::by_its_mark(bytes);
+    let marked = Format::told(bytes, Certainty::Mark);
     match marked {
         None => foreign::by_content(bytes).map_or(Ok(()), Err),
         Some(own) if own == format => Ok(()),
@@ -191,19 +208,5 @@ fn refuse_other(bytes: &[u8], format: Format) -> Result<(), ImportError> {
 /// [`ImportError`] with the line where the file breaks its format. Never panics, and takes memory in proportion to `bytes`.
 pub fn read(bytes: &[u8], format: Format, stem: &str, options: &Options) -> Result<Drawing, ImportError> {
     refuse_other(bytes, format)?;
-    match format {
-        Format::Airfoil => airfoil::read(bytes, stem, &options.airfoil),
-        Format::Poly => poly::read_poly(bytes, stem, options.nodes.as_deref()),
-        Format::Node => poly::read_node(bytes, stem),
-        Format::Outline => outline::read(bytes, stem),
-        Format::Dxf => dxf::read(bytes, stem, &options.dxf, &options.selection),
-        Format::Svg => svg::read(bytes, stem, &options.svg, &options.selection),
-        #[cfg(feature = "cad")]
-        Format::Step => step::read(bytes, stem, options.face.as_deref()),
-        #[cfg(not(feature = "cad"))]
-        Format::Step => {
-            let help = "build one that has: cargo install --locked --path . --features cad";
-            Err(ImportError::new("this build has no STEP reader", help))
-        }
-    }
+    (format.facts().read)(bytes, stem, options)
 }

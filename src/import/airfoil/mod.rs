@@ -28,7 +28,7 @@ mod far_field;
 mod rows;
 mod section;
 
-use super::ImportError;
+use super::{Certainty, Facts, ImportError, without_bom};
 use crate::curve::Curve;
 use crate::domain::{Drawing, FillRule, Seed, SeedKind, SizeRequest};
 use crate::geometry::{Point, Vec2, bounds_of};
@@ -77,10 +77,13 @@ impl Default for AirfoilOptions {
     }
 }
 
-/// Whether a file may be one of coordinates.
-pub(super) fn sniff(bytes: &[u8]) -> bool {
-    rows::has_coordinates(bytes)
-}
+pub(super) const FACTS: Facts = Facts {
+    name: "airfoil",
+    suffixes: &["dat", "txt"],
+    sign: |bytes| rows::has_coordinates(without_bom(bytes)),
+    certainty: Certainty::Numbers,
+    read: |bytes, stem, options| read(bytes, stem, &options.airfoil),
+};
 
 /// Reads an airfoil file.
 ///

@@ -25,16 +25,19 @@ mod sections;
 mod spline;
 mod text;
 
-use super::{ImportError, Selection};
+use super::{Certainty, Facts, ImportError, Selection};
 use crate::domain::Drawing;
 use blocks::Sketch;
 use header::Header;
 use sections::Sections;
 
-/// Whether the bytes start as a DXF file does.
-pub(super) fn sniff(bytes: &[u8]) -> bool {
-    pairs::sniff(bytes)
-}
+pub(super) const FACTS: Facts = Facts {
+    name: "dxf",
+    suffixes: &["dxf"],
+    sign: pairs::sniff,
+    certainty: Certainty::Mark,
+    read: |bytes, stem, options| read(bytes, stem, &options.dxf, &options.selection),
+};
 
 /// Which line types are read.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -5,9 +5,10 @@ pub mod sketch;
 use sketch::Sketch;
 use squinch::domain::{ArrangeOptions, Domain, Drawing, FillRule, Unarranged};
 use squinch::geometry::{magnitude, scaled};
-use squinch::import::{Format, mesh};
-use squinch::run::{self, Exit, Extent, Outcome, Plan, Source};
+use squinch::import::Format;
+use squinch::meshio;
 use squinch::run::request::{Keep, LineTypes, LooseEnds, NamesOf, Request, Strokes, Switch, TrailingEdge};
+use squinch::run::{self, Exit, Extent, Outcome, Plan, Source};
 use squinch::watch::{Progress, no_clock};
 use std::collections::BTreeMap;
 
@@ -69,12 +70,13 @@ pub fn read(bytes: &[u8], formats: &[Format]) {
 /// Reads bytes as a mesh file: of the format that they look like, else as the two that no first bytes tell. A byte 0xff parts a `.ele` file
 /// from the files beside it.
 pub fn read_mesh(bytes: &[u8]) {
-    let guessed = mesh::Format::sniff(bytes);
-    for format in guessed.map_or(vec![mesh::Format::Stl, mesh::Format::Triangle], |format| vec![format]) {
-        let mut files = bytes.split(|&b| b == 0xff && !format.beside().is_empty());
+    let guessed = meshio::Format::sniff(bytes);
+    for format in guessed.map_or(vec![meshio::Format::Stl, meshio::Format::Triangle], |format| vec![format]) {
+        let several = format.reading().is_some_and(|reading| !reading.beside.is_empty());
+        let mut files = bytes.split(|&b| b == 0xff && several);
         let main = files.next().unwrap_or_default();
         let beside: Vec<_> = files.map(|file| Some(file.to_vec())).collect();
-        match mesh::read(main, format, &beside) {
+        match meshio::read(main, format, &beside) {
             Ok(file) => {
                 // Whatever is read can be judged.
                 Plan::without_domain(&Request::default()).judge_file(None, &file.mesh);

@@ -6,11 +6,11 @@
 //! A file holds many faces and a drawing one plane, so one planar face is read: the largest, or the one that is asked for. Faces on
 //! other surfaces are counted as left out. Coordinates are those of the face's own part: the placements of an assembly are not applied.
 
-use super::ImportError;
 use crate::cad::{Edge, Face, FaceError, SpaceCurve};
 use crate::domain::{Drawing, FaceInfo, Skipped};
 use crate::geometry::space::{cross, dot, length, minus, plus, times, unit};
 use crate::geometry::{Frame, metres};
+use crate::import::ImportError;
 use std::collections::{BTreeMap, BTreeSet};
 use step_io::parser::{Attribute, Graph, RawEntity, Span, parse};
 
