@@ -44,6 +44,7 @@ pub mod prelude;
 pub mod promise;
 pub mod refine;
 pub mod run;
+pub mod section;
 pub mod size;
 pub mod threads;
 pub mod verify;

@@ -596,7 +596,8 @@ fn a_file_is_known_by_its_first_words_and_its_suffix() {
     let text = plate(Turned::default()).text();
     assert_eq!(Format::sniff(text.as_bytes()), Some(Format::Step));
     assert_eq!(import::format_of("a/part.STP".as_ref()), Some(Format::Step));
-    let drawing = import::read(text.as_bytes(), Format::Step, "part", &Options::default()).unwrap();
+    let found = import::read(text.as_bytes(), Format::Step, "part", &Options::default()).unwrap();
+    let import::Found::Drawing(drawing) = found else { panic!("a drawing") };
     assert_eq!((drawing.format.as_str(), drawing.title.as_str()), ("STEP", "part, plate"));
 }
 

@@ -2,12 +2,18 @@
 //!
 //! What a format says of its own broken files is tested beside the rest of it (`svg.rs`, `dxf.rs`, `import.rs`, `formats.rs`, `vtu.rs`); here is what is common.
 
+use squinch::domain::Drawing;
 use squinch::import::{self, Format, ImportError, Options};
 use squinch::meshio::{self, MeshFile};
 use squinch::run::request::{LineTypes, LooseEnds, Request, Strokes, Switch};
 use squinch::run::{Exit, Extent, Outcome, Source, run};
+use squinch::section;
 use squinch::watch::no_clock;
 use std::time::{Duration, Instant};
+
+fn read(bytes: &[u8], format: Format, stem: &str, options: &Options) -> Result<Drawing, ImportError> {
+    section::drawn(import::read(bytes, format, stem, options)?, &section::Options::default())
+}
 
 /// Far more than any of these files takes, on a slow machine and without optimisation.
 const PATIENCE: Duration = Duration::from_secs(20);
@@ -62,7 +68,7 @@ fn a_sample_cut_at_any_tenth_is_a_drawing_or_an_error_with_its_line() {
         let bytes = sample(name);
         for tenth in 0..10 {
             let cut = &bytes[..bytes.len() * tenth / 10];
-            let read = soon(name, || import::read(cut, format, "cut", &Options::default()));
+            let read = soon(name, || read(cut, format, "cut", &Options::default()));
             match (format, read) {
                 // Points of a section may end anywhere.
                 (Format::Airfoil, Ok(_)) => {}
@@ -108,7 +114,7 @@ fn other_files_are_refused_by_every_reader() {
     ];
     for (what, bytes) in others {
         for format in Format::ALL {
-            let error = soon(what, || import::read(bytes, format, "other", &Options::default()));
+            let error = soon(what, || read(bytes, format, "other", &Options::default()));
             let error = error.expect_err(&format!("{what} is no {}", format.name()));
             assert!(!error.what.is_empty() && !error.help.is_empty(), "{what} as {}: {error:?}", format.name());
         }
@@ -136,7 +142,7 @@ fn svg(body: &str) -> Vec<u8> {
 }
 
 fn refusal(what: &str, format: Format, bytes: &[u8]) -> ImportError {
-    let read = soon(what, || import::read(bytes, format, "broken", &Options::default()));
+    let read = soon(what, || read(bytes, format, "broken", &Options::default()));
     match read {
         Err(error) => error,
         Ok(drawing) => panic!("{what}: read as {} curves", drawing.curves.len()),
@@ -164,7 +170,7 @@ fn numbers_that_are_none_are_refused_with_their_line() {
         }
         // A path is drawn up to its first error, as SVG asks; a shape without a size is not drawn.
         let shapes = format!("<path d='M0 0L{number} 1 5 5z'/><circle r='{number}'/>");
-        if let Ok(drawing) = import::read(&svg(&shapes), Format::Svg, "broken", &Options::default()) {
+        if let Ok(drawing) = read(&svg(&shapes), Format::Svg, "broken", &Options::default()) {
             assert!(drawing.curves.iter().all(|c| c.curve.bounds().is_finite()), "{number}");
         }
     }
@@ -191,7 +197,7 @@ fn counts_beyond_the_file_are_refused() {
             assert!(error.line.is_some(), "{count} in {}: {error}", format.name());
         }
         // A count that other entities repeat by what they hold is not believed.
-        if let Ok(drawing) = import::read(&dxf_entities(&polyline), Format::Dxf, "broken", &Options::default()) {
+        if let Ok(drawing) = read(&dxf_entities(&polyline), Format::Dxf, "broken", &Options::default()) {
             assert_eq!(drawing.curves.len(), 3, "{count}");
         }
         let lednicer = format!("Section\n{count}. {count}.\n\n0 0\n0.5 0.1\n1 0\n\n0 0\n0.5 -0.1\n1 0\n");
@@ -220,7 +226,7 @@ fn what_unfolds_without_end_is_refused_or_left_out() {
         ("a grid", file(&block("B", circle), &grid)),
     ];
     for (what, bytes) in drawings {
-        match soon(what, || import::read(&bytes, Format::Dxf, "unfolding", &Options::default())) {
+        match soon(what, || read(&bytes, Format::Dxf, "unfolding", &Options::default())) {
             Err(error) => assert!(!error.what.is_empty() && !error.help.is_empty(), "{what}: {error:?}"),
             Ok(drawing) => {
                 assert!(drawing.curves.len() <= 1 && !drawing.skipped.is_empty(), "{what}: {:?}", drawing.skipped)
@@ -237,7 +243,7 @@ fn what_unfolds_without_end_is_refused_or_left_out() {
         ("deep paths", format!("<path d='M0 0{}'/>", "m1 1".repeat(100_000))),
     ];
     for (what, body) in pictures {
-        match soon(what, || import::read(&svg(&body), Format::Svg, "unfolding", &Options::default())) {
+        match soon(what, || read(&svg(&body), Format::Svg, "unfolding", &Options::default())) {
             Err(error) => assert!(!error.what.is_empty() && !error.help.is_empty(), "{what}: {error:?}"),
             Ok(drawing) => assert!(drawing.curves.len() <= 100_000, "{what}: {} curves", drawing.curves.len()),
         }

@@ -1,4 +1,5 @@
-//! Readers: files → [`Drawing`]. One file a format; nothing is welded, split or dropped here, that is
+//! Readers: files → [`Drawing`], or coordinates of sections. A file or a folder a format, with what there is to know of it (`Facts`); the list
+//! of formats below is the only one. Nothing is welded, split or dropped here, that is
 //! [`Drawing::arrange`]'s part. Every quirk that a reader met and every liberty that it took is a sentence in [`Drawing::notes`].
 
 pub mod airfoil;
@@ -10,7 +11,6 @@ mod selection;
 pub mod step;
 pub mod svg;
 
-pub use airfoil::{AirfoilOptions, TrailingEdge};
 pub use dxf::{DxfOptions, LineTypes};
 pub use selection::{Glob, Selection};
 pub use svg::{Strokes, SvgOptions};
@@ -42,11 +42,11 @@ fn place(line: &Option<usize>, column: &Option<usize>) -> String {
 }
 
 impl ImportError {
-    fn new(what: impl Into<String>, help: impl Into<String>) -> Self {
+    pub(crate) fn new(what: impl Into<String>, help: impl Into<String>) -> Self {
         Self { what: what.into(), line: None, column: None, help: help.into() }
     }
 
-    fn at(line: usize, what: impl Into<String>, help: impl Into<String>) -> Self {
+    pub(crate) fn at(line: usize, what: impl Into<String>, help: impl Into<String>) -> Self {
         Self { line: Some(line), ..Self::new(what, help) }
     }
 }
@@ -99,7 +99,7 @@ struct Facts {
     sign: fn(&[u8]) -> bool,
     certainty: Certainty,
     /// Reads a file; the text is its name without suffix, the title where the file gives none.
-    read: fn(&[u8], &str, &Options) -> Result<Drawing, ImportError>,
+    read: fn(&[u8], &str, &Options) -> Result<Found, ImportError>,
 }
 
 /// How surely first bytes tell a format.
@@ -149,10 +149,23 @@ pub fn format_of(path: &Path) -> Option<Format> {
     Format::ALL.into_iter().find(|f| f.suffixes().iter().any(|s| s.eq_ignore_ascii_case(suffix)))
 }
 
+/// What a file holds.
+#[derive(Clone, Debug)]
+pub enum Found {
+    Drawing(Box<Drawing>),
+    /// Coordinates of sections, of which a drawing is made as it is wanted: by [`crate::section`].
+    Section(airfoil::Coordinates),
+}
+
+impl From<Drawing> for Found {
+    fn from(drawing: Drawing) -> Self {
+        Self::Drawing(Box::new(drawing))
+    }
+}
+
 /// What a reader may be told.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Options {
-    pub airfoil: AirfoilOptions,
     /// The `.node` file beside a `.poly` file that holds no vertices of its own.
     pub nodes: Option<Vec<u8>>,
     pub svg: SvgOptions,
@@ -202,11 +215,11 @@ fn refuse_other(bytes: &[u8], format: Format) -> Result<(), ImportError> {
     }
 }
 
-/// Reads a drawing. `stem` (the file's name without its suffix) is the title where the file gives none.
+/// Reads a file. `stem` (the file's name without its suffix) is the title where the file gives none.
 ///
 /// # Errors
 /// [`ImportError`] with the line where the file breaks its format. Never panics, and takes memory in proportion to `bytes`.
-pub fn read(bytes: &[u8], format: Format, stem: &str, options: &Options) -> Result<Drawing, ImportError> {
+pub fn read(bytes: &[u8], format: Format, stem: &str, options: &Options) -> Result<Found, ImportError> {
     refuse_other(bytes, format)?;
     (format.facts().read)(bytes, stem, options)
 }

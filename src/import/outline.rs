@@ -44,7 +44,7 @@ pub(super) const FACTS: Facts = Facts {
     suffixes: &["json"],
     sign: |bytes| without_bom(bytes).trim_ascii_start().starts_with(b"{"),
     certainty: Certainty::Mark,
-    read: |bytes, stem, _| read(bytes, stem),
+    read: |bytes, stem, _| read(bytes, stem).map(Into::into),
 };
 
 // ---- reading ----

@@ -21,7 +21,7 @@ pub(super) const FACTS: Facts = Facts {
     suffixes: &["poly"],
     sign: |bytes| sniff(bytes) == Some(Holds::More),
     certainty: Certainty::Shape,
-    read: |bytes, stem, options| read_poly(bytes, stem, options.nodes.as_deref()),
+    read: |bytes, stem, options| read_poly(bytes, stem, options.nodes.as_deref()).map(Into::into),
 };
 
 pub(super) const FACTS_OF_NODE: Facts = Facts {
@@ -29,7 +29,7 @@ pub(super) const FACTS_OF_NODE: Facts = Facts {
     suffixes: &["node"],
     sign: |bytes| sniff(bytes) == Some(Holds::Vertices),
     certainty: Certainty::Shape,
-    read: |bytes, stem, _| read_node(bytes, stem),
+    read: |bytes, stem, _| read_node(bytes, stem).map(Into::into),
 };
 
 /// Lines that hold something, with their numbers; comments (`#` to the end of the line) are cut off.

@@ -79,6 +79,13 @@ formats! {
     Stl = stl::FACTS;
 }
 
+/// The bytes of each file of an output.
+type Files = Vec<Vec<u8>>;
+/// Keys and values that say how a mesh was made.
+type Stamps = [(String, String)];
+/// The files beside the one that is read, as far as there are any.
+type Beside = [Option<Vec<u8>>];
+
 /// What there is to know of a format.
 struct Facts {
     /// The name by which a user asks for the format.
@@ -92,7 +99,7 @@ struct Facts {
     choices: &'static [Choice],
     /// Where it has straight cells only, and refuses others: what can be done.
     straight_only: Option<&'static str>,
-    write: fn(&Mesh, &[(String, String)], &WriteOptions) -> io::Result<Vec<Vec<u8>>>,
+    write: fn(&Mesh, &Stamps, &WriteOptions) -> io::Result<Files>,
     /// Tells what of a mesh is not held, in the order in which people are told.
     losses: fn(&mut Losses),
     /// `None`: the format is only written.
@@ -108,7 +115,7 @@ pub struct Reading {
     /// Whether a file may be of this format, by its first bytes, blanks left out.
     begins: fn(&[u8]) -> bool,
     /// Reads the file, with those beside it as far as there are any.
-    read: fn(&[u8], &[Option<Vec<u8>>]) -> Result<MeshFile>,
+    read: fn(&[u8], &Beside) -> Result<MeshFile>,
 }
 
 /// A choice of [`WriteOptions`] that some formats leave.
@@ -249,7 +256,7 @@ pub fn encode(
 }
 
 /// An output of one file.
-fn one_file(write: impl FnOnce(&mut Vec<u8>) -> io::Result<()>) -> io::Result<Vec<Vec<u8>>> {
+fn one_file(write: impl FnOnce(&mut Vec<u8>) -> io::Result<()>) -> io::Result<Files> {
     Ok(vec![file(write)?])
 }
 

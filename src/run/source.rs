@@ -4,7 +4,8 @@ use super::report::{FailureKind, FailureReport};
 use super::request::{LineTypes, Request, Strokes, TrailingEdge};
 use crate::domain::{Drawing, DrawnCurve, SizeRequest, Unmatched};
 use crate::geometry::{Point, metres};
-use crate::import::{self, AirfoilOptions, DxfOptions, Format, Selection, SvgOptions};
+use crate::import::{self, DxfOptions, Format, Selection, SvgOptions};
+use crate::section;
 use kurbo::Affine;
 use std::path::Path;
 
@@ -27,17 +28,6 @@ pub fn read(source: &Source, request: &Request) -> Result<Drawing, FailureReport
     let format = source.format.map_or_else(|| import::tell_format(path, source.bytes), Ok)?;
     let stem = path.file_stem().map_or("", |s| s.to_str().unwrap_or(""));
     let options = import::Options {
-        airfoil: AirfoilOptions {
-            trailing_edge: match request.trailing_edge {
-                TrailingEdge::Keep => import::TrailingEdge::Keep,
-                TrailingEdge::Sharp => import::TrailingEdge::Sharp,
-                TrailingEdge::Blunt => import::TrailingEdge::Blunt,
-                TrailingEdge::Round => import::TrailingEdge::Round,
-            },
-            far_field: request.far_field,
-            incidence_deg: request.incidence,
-            chord: request.chord,
-        },
         nodes: source.nodes.map(<[u8]>::to_vec),
         svg: SvgOptions {
             strokes: match request.strokes {
@@ -58,13 +48,29 @@ pub fn read(source: &Source, request: &Request) -> Result<Drawing, FailureReport
         },
         selection: Selection { only: request.layers.clone(), skip: request.skip_layers.clone() },
     };
-    let mut drawing = import::read(source.bytes, format, stem, &options)?;
+    let found = import::read(source.bytes, format, stem, &options)?;
+    let mut drawing = section::drawn(found, &section_options(request))?;
     drawing.notes.extend(unused_options(format, request));
     drawing.notes.extend(unused_face(format, request));
     tell_unmatched(&mut drawing, source.of_many)?;
     let mut drawing = in_units(drawing, request)?;
     give_names(&mut drawing, request, source.of_many)?;
     Ok(drawing)
+}
+
+/// How sections of airfoils are drawn.
+fn section_options(request: &Request) -> section::Options {
+    section::Options {
+        trailing_edge: match request.trailing_edge {
+            TrailingEdge::Keep => section::TrailingEdge::Keep,
+            TrailingEdge::Sharp => section::TrailingEdge::Sharp,
+            TrailingEdge::Blunt => section::TrailingEdge::Blunt,
+            TrailingEdge::Round => section::TrailingEdge::Round,
+        },
+        far_field: request.far_field,
+        incidence_deg: request.incidence,
+        chord: request.chord,
+    }
 }
 
 /// Names that the request gives. What is not there is an error, or a note where the request is that of many inputs.

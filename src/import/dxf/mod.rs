@@ -36,7 +36,7 @@ pub(super) const FACTS: Facts = Facts {
     suffixes: &["dxf"],
     sign: pairs::sniff,
     certainty: Certainty::Mark,
-    read: |bytes, stem, options| read(bytes, stem, &options.dxf, &options.selection),
+    read: |bytes, stem, options| read(bytes, stem, &options.dxf, &options.selection).map(Into::into),
 };
 
 /// Which line types are read.

@@ -14,7 +14,7 @@ pub(super) const FACTS: Facts = Facts {
     sign: |bytes| without_bom(bytes).trim_ascii_start().starts_with(b"ISO-10303-21"),
     certainty: Certainty::Mark,
     #[cfg(feature = "cad")]
-    read: |bytes, stem, options| read(bytes, stem, options.face.as_deref()),
+    read: |bytes, stem, options| read(bytes, stem, options.face.as_deref()).map(Into::into),
     #[cfg(not(feature = "cad"))]
     read: |_, _, _| {
         let help = "build one that has: cargo install --locked --path . --features cad";

@@ -55,7 +55,7 @@ pub(super) const FACTS: Facts = Facts {
     suffixes: &["svg", "svgz"],
     sign: |bytes| sniff(without_bom(bytes)),
     certainty: Certainty::Mark,
-    read: |bytes, stem, options| read(bytes, stem, &options.svg, &options.selection),
+    read: |bytes, stem, options| read(bytes, stem, &options.svg, &options.selection).map(Into::into),
 };
 
 /// What becomes of strokes.

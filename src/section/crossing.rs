@@ -5,7 +5,7 @@ use crate::geometry::exact::{Orientation, orient};
 use crate::geometry::{Point, Rect, bounds_of, magnitude, scaled, unit_scale};
 
 /// A place where a ring crosses itself, and the two edges there: edge `i` leads from point `i` to the next.
-pub(super) fn first_crossing(ring: &[Point]) -> Option<(Point, [usize; 2])> {
+pub fn first_crossing(ring: &[Point]) -> Option<(Point, [usize; 2])> {
     let unit = unit_scale(magnitude(bounds_of(ring.iter().copied())?));
     let points: Vec<Point> = ring.iter().map(|&p| scaled(p, unit)).collect();
     let n = points.len();
@@ -27,7 +27,7 @@ pub(super) fn first_crossing(ring: &[Point]) -> Option<(Point, [usize; 2])> {
 }
 
 /// Where the surfaces of a contour meet before its trailing edge.
-pub(super) struct Meeting {
+pub struct Meeting {
     pub at: Point,
     /// The edges that meet, each by the point that it starts from.
     pub upper: usize,
@@ -37,7 +37,7 @@ pub(super) struct Meeting {
 }
 
 /// The foremost meeting of the edges near the two ends of a contour; `closed`: its ends are one point, and the edges there do not count.
-pub(super) fn meeting_at_tail(points: &[Point], closed: bool, wide: f64) -> Option<Meeting> {
+pub fn meeting_at_tail(points: &[Point], closed: bool, wide: f64) -> Option<Meeting> {
     // Surfaces may touch by the rounding of three decimals for two hundredths of the chord.
     let near = 0.02 * wide;
     // As many edges as are looked at on either side.

@@ -1,14 +1,14 @@
 //! The circle around a section, and the sizes of a mesh for the flow within.
 
-use super::super::ImportError;
-use super::HELP;
-use super::section::Section;
+use super::curves::Section;
 use crate::curve::Curve;
 use crate::domain::{Drawing, Seed, SeedKind, SizeRequest};
 use crate::geometry::{Point, Rect, Vec2};
+use crate::import::ImportError;
+use crate::import::airfoil::HELP;
 
 /// Adds the circle `farfield` and the region `fluid`, with sizes along the chord, in the wake and far away.
-pub(super) fn add_far_field(
+pub fn add_far_field(
     sections: &[Section],
     center: Point,
     radius: f64,

@@ -1,17 +1,16 @@
 //! The curves of one element: a spline through its contour, cut at the nose, and its trailing edge.
 
-use super::super::ImportError;
+use super::TrailingEdge;
 use super::contour::Contour;
 use super::crossing::first_crossing;
-use super::{HELP, TrailingEdge};
+use super::trailing_edge::{trailing_edge, truncation};
 use crate::curve::{Bezier, Curve, CurveError, Spline};
 use crate::geometry::{Point, Vec2};
-
-/// Where a sharp trailing edge is cut off for `blunt` and `round`, in chords.
-const TRUNCATION: f64 = 0.99;
+use crate::import::ImportError;
+use crate::import::airfoil::HELP;
 
 /// The curves of one element.
-pub(super) struct Section {
+pub struct Section {
     pub upper: Curve,
     pub lower: Curve,
     pub te: Vec<Curve>,
@@ -37,37 +36,6 @@ impl Section {
         let te = trailing_edge(first, last, contour, edge).map_err(failed)?;
         let (tail, nose) = (first.midpoint(last), contour.nose_point());
         Ok(Self { upper, lower, te, nose, tail, chord: contour.chord(), lines: contour.lines })
-    }
-}
-
-/// The curves that close the contour from its last point to its first.
-fn trailing_edge(first: Point, last: Point, contour: &Contour, edge: TrailingEdge) -> Result<Vec<Curve>, CurveError> {
-    if first == last {
-        return Ok(Vec::new());
-    }
-    if edge == TrailingEdge::Round {
-        // The bulge of a half circle is tan(π/4) = 1.
-        return Ok(vec![Curve::bulge(last, first, 1.0)?]);
-    }
-    let corners: Vec<Point> = [last].into_iter().chain(contour.base.iter().copied()).chain([first]).collect();
-    corners.windows(2).map(|w| Curve::line(w[0], w[1])).collect()
-}
-
-/// Parameters at which the upper and the lower surface pass 99 % chord.
-fn truncation(contour: &Contour, whole: &Curve, at_nose: f64) -> Result<(f64, f64), ImportError> {
-    let chord = contour.tail() - contour.nose_point();
-    let at = contour.nose_point() + TRUNCATION * chord;
-    let across = Vec2::new(-chord.y, chord.x);
-    let upper = whole.line_crossings(at, across, 0.0, at_nose).first().copied();
-    let lower = whole.line_crossings(at, across, at_nose, 1.0).last().copied();
-    match (upper, lower) {
-        (Some(upper), Some(lower)) if upper > 0.0 && upper < at_nose && lower > at_nose && lower < 1.0 => {
-            Ok((upper, lower))
-        }
-        _ => {
-            let what = "the surfaces do not both pass 99 % chord, so the trailing edge cannot be cut off there";
-            Err(ImportError::at(contour.lines[0], what, "keep the trailing edge as it is"))
-        }
     }
 }
 
@@ -167,7 +135,7 @@ fn outline(spline: &Curve, base: &[Point]) -> Vec<Point> {
 }
 
 /// A point inside the section: midway between its surfaces, where a line across the chord meets them, tried from mid-chord on.
-pub(super) fn inside(section: &Section) -> Option<Point> {
+pub fn inside(section: &Section) -> Option<Point> {
     let chord = section.tail - section.nose;
     let across = Vec2::new(-chord.y, chord.x);
     [0.5, 0.4, 0.3, 0.25, 0.2, 0.6, 0.1, 0.05].into_iter().find_map(|part| {
