@@ -4,7 +4,7 @@
 //! `cargo run --features cad --example truck_face -- face.vtu`
 
 use squinch::cad::truck::drawing_of_truck_face;
-use squinch::export::{Format, WriteOptions, encode};
+use squinch::meshio::{Format, WriteOptions, encode};
 use squinch::run::request::Request;
 use squinch::run::{Exit, Extent, run_drawing};
 use squinch::watch::no_clock;
@@ -20,7 +20,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let (Some(mesh), Exit::Done) = (&outcome.mesh, outcome.exit) else {
         return Err(format!("no mesh that keeps its promises: {:?}", outcome.report.failure).into());
     };
-    std::fs::write(&path, encode(mesh, outcome.domain.as_ref(), &[], Format::Vtu, &WriteOptions::default())?.concat())?;
+    std::fs::write(&path, encode(mesh, &[], Format::Vtu, &WriteOptions::default())?.concat())?;
     let names: Vec<_> = mesh.names.iter().map(|(_, name)| name).collect();
     println!("{path}: {} triangles, named {}; every promise kept", mesh.triangles.len(), names.join(", "));
     Ok(())

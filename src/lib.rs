@@ -30,21 +30,22 @@
 
 #[cfg(feature = "cad")]
 pub mod cad;
-pub mod canvas;
 pub mod curve;
 pub mod domain;
-pub mod export;
 pub mod generate;
 pub mod geometry;
 pub mod ids;
 pub mod import;
 pub mod mesh;
+pub mod meshio;
 pub mod options;
+pub mod picture;
 pub mod plane;
 pub mod prelude;
 pub mod promise;
 pub mod refine;
 pub mod run;
+pub mod section;
 pub mod size;
 pub mod threads;
 pub mod verify;

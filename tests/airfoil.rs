@@ -3,11 +3,16 @@
 use squinch::curve::Curve;
 use squinch::domain::Drawing;
 use squinch::geometry::Point;
-use squinch::import::{AirfoilOptions, Format, ImportError, Options, read, tell_format};
+use squinch::import::{self, Format, ImportError, tell_format};
+use squinch::section;
 use std::path::Path;
 
-fn options() -> Options {
-    Options { airfoil: AirfoilOptions { far_field: 0.0, ..AirfoilOptions::default() }, ..Options::default() }
+fn read(bytes: &[u8], format: Format, stem: &str, options: &section::Options) -> Result<Drawing, ImportError> {
+    section::drawn(import::read(bytes, format, stem, &import::Options::default())?, options)
+}
+
+fn options() -> section::Options {
+    section::Options { far_field: 0.0, ..section::Options::default() }
 }
 
 fn tried(text: &str) -> Result<Drawing, ImportError> {
@@ -203,8 +208,8 @@ fn only_a_chord_of_a_hundred_is_percent() {
     near(area(&dat(&format!("rib 7, mm\n{}", scaled(100.0)))), 1e4 * unit, 1e-5);
     // Scaled to a chord, whatever the file's.
     for text in [scaled(1.0), scaled(90.0), scaled(100.0)] {
-        let airfoil = AirfoilOptions { far_field: 0.0, chord: Some(250.0), ..AirfoilOptions::default() };
-        let drawing = read(text.as_bytes(), Format::Airfoil, "s", &Options { airfoil, ..Options::default() }).unwrap();
+        let options = section::Options { chord: Some(250.0), ..options() };
+        let drawing = read(text.as_bytes(), Format::Airfoil, "s", &options).unwrap();
         near(area(&drawing), 250.0 * 250.0 * unit, 1e-4);
         assert!(drawing.unit.is_none());
         noted(&drawing, "to one of 250");

@@ -4,12 +4,11 @@
 use approx::assert_relative_eq;
 use squinch::cad::truck::drawing_of_truck_face;
 use squinch::domain::{ArrangeOptions, Drawing};
-use squinch::export;
 use squinch::geometry::space::{cross, dot, minus, times, unit};
 use squinch::geometry::{Frame, Point};
-use squinch::import::mesh::vtu;
 use squinch::import::{self, Format, Options, step};
 use squinch::mesh::Mesh;
+use squinch::meshio;
 use squinch::run::request::Request;
 use squinch::run::{Exit, Extent, Outcome, Plan, Source, run, run_drawing};
 use squinch::watch::no_clock;
@@ -263,15 +262,8 @@ fn plate(turned: Turned) -> Step {
 }
 
 fn vtu_of(outcome: &Outcome) -> Vec<u8> {
-    let mut files = export::encode(
-        outcome.mesh.as_ref().unwrap(),
-        None,
-        &[],
-        export::Format::Vtu,
-        &export::WriteOptions::default(),
-    )
-    .unwrap();
-    files.remove(0)
+    let mesh = outcome.mesh.as_ref().unwrap();
+    meshio::encode(mesh, &[], meshio::Format::Vtu, &meshio::WriteOptions::default()).unwrap().concat()
 }
 
 fn names(mesh: &Mesh) -> Vec<&str> {
@@ -500,7 +492,7 @@ fn a_mesh_file_in_space_is_read_back_into_its_plane_and_judged() {
     let text = plate(Turned::default()).text();
     let outcome = meshed(&text, &Request::default());
     let mesh = outcome.mesh.as_ref().unwrap();
-    let back = vtu::read(&vtu_of(&outcome)).unwrap().mesh;
+    let back = meshio::read(&vtu_of(&outcome), meshio::Format::Vtu, &[]).unwrap().mesh;
     assert_eq!((&back.nodes, back.frame), (&mesh.nodes, mesh.frame));
     let drawing = read(&text);
     let arranged = drawing.arrange(&ArrangeOptions::default()).unwrap();
@@ -604,7 +596,8 @@ fn a_file_is_known_by_its_first_words_and_its_suffix() {
     let text = plate(Turned::default()).text();
     assert_eq!(Format::sniff(text.as_bytes()), Some(Format::Step));
     assert_eq!(import::format_of("a/part.STP".as_ref()), Some(Format::Step));
-    let drawing = import::read(text.as_bytes(), Format::Step, "part", &Options::default()).unwrap();
+    let found = import::read(text.as_bytes(), Format::Step, "part", &Options::default()).unwrap();
+    let import::Found::Drawing(drawing) = found else { panic!("a drawing") };
     assert_eq!((drawing.format.as_str(), drawing.title.as_str()), ("STEP", "part, plate"));
 }
 
@@ -791,7 +784,7 @@ mod truck {
         assert!(mesh.places().all(|p| frame.height(p).abs() < 1e-13));
         let names = names(mesh);
         assert!(names.contains(&"face") && names.contains(&"edge 1") && names.contains(&"edge 7"), "{names:?}");
-        assert_eq!(vtu::read(&vtu_of(&outcome)).unwrap().mesh.nodes, mesh.nodes);
+        assert_eq!(meshio::read(&vtu_of(&outcome), meshio::Format::Vtu, &[]).unwrap().mesh.nodes, mesh.nodes);
     }
 
     #[test]

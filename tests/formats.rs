@@ -2,11 +2,11 @@
 //! and no bytes do harm to any reader.
 
 use proptest::prelude::*;
-use squinch::export::{Format, WriteOptions, XdmfGrids, encode};
 use squinch::geometry::{Frame, Point};
 use squinch::ids::{Colour, Id, NameId, RegionId, VertexId};
-use squinch::import::mesh::{self as reader, MeshFile, read};
+use squinch::import;
 use squinch::mesh::{CurveEdge, Mesh};
+use squinch::meshio::{Format, MeshFile, WriteOptions, XdmfGrids, encode, read};
 use std::collections::BTreeMap;
 
 /// Three regions (two of one name) in a strip of n × 2 squares, its rim and the line between the rows named; far from the origin, with
@@ -112,46 +112,33 @@ fn turned_first(triangle: &mut [[u64; 3]]) {
     }
 }
 
-fn reader_of(format: Format) -> Option<reader::Format> {
-    let of = |suffix: &&str| reader::Format::ALL.into_iter().find(|f| f.suffix() == *suffix);
-    format.suffixes().iter().find_map(of)
-}
-
 /// Writes and reads back.
 fn around(mesh: &Mesh, format: Format) -> MeshFile {
     around_with(mesh, format, &WriteOptions::default())
 }
 
 fn around_with(mesh: &Mesh, format: Format, options: &WriteOptions) -> MeshFile {
-    let files = encode(mesh, None, &[], format, options).unwrap_or_else(|e| panic!("{format:?}: {e}"));
+    let files = encode(mesh, &[], format, options).unwrap_or_else(|e| panic!("{format:?}: {e}"));
     let of = |suffix: &str| {
         let place = format.suffixes().iter().position(|s| *s == suffix);
         place.and_then(|i| files.get(i).cloned())
     };
-    let reader = reader_of(format).expect("a format that is read");
-    let main = of(reader.suffix()).expect("the main file");
-    let beside: Vec<_> = reader.beside().iter().map(|suffix| of(suffix)).collect();
-    read(&main, reader, &beside).unwrap_or_else(|e| panic!("{format:?}: {e}"))
+    let reading = format.reading().expect("a format that is read");
+    let main = of(reading.suffix).expect("the main file");
+    let beside: Vec<_> = reading.beside.iter().map(|suffix| of(suffix)).collect();
+    read(&main, format, &beside).unwrap_or_else(|e| panic!("{format:?}: {e}"))
 }
 
-const READ_BACK: [Format; 10] = [
-    Format::Vtu,
-    Format::Vtk,
-    Format::VtkText,
-    Format::Msh,
-    Format::Msh22,
-    Format::Su2,
-    Format::Inp,
-    Format::Triangle,
-    Format::Obj,
-    Format::Stl,
-];
+/// The formats that are read, too: whatever is written of them comes back.
+fn read_back() -> impl Iterator<Item = Format> {
+    Format::ALL.into_iter().filter(|format| format.reading().is_some())
+}
 
 #[test]
 fn names_and_places_come_back() {
     for names in [PLAIN, ODD] {
         let mesh = strip(5, names);
-        for format in READ_BACK {
+        for format in read_back() {
             let MeshFile { mesh: back, notes, .. } = around(&mesh, format);
             assert_eq!(notes, [""; 0], "{format:?}");
             let (mut regions, mut boundaries) = counts(&mesh);
@@ -202,7 +189,7 @@ fn second_order_comes_back() {
         assert_eq!(back.edges.len(), halves, "{format:?}");
         assert!(format.losses(&mesh, &WriteOptions::default()).iter().any(|loss| loss.starts_with("order 2")));
     }
-    let refused = encode(&mesh, None, &[], Format::Su2, &WriteOptions::default()).expect_err("SU2 is straight");
+    let refused = encode(&mesh, &[], Format::Su2, &WriteOptions::default()).expect_err("SU2 is straight");
     assert_eq!(refused.kind(), std::io::ErrorKind::Unsupported);
 }
 
@@ -232,12 +219,12 @@ fn su2_has_each_rim_edge_in_one_marker() {
 
 #[test]
 fn empty_meshes_are_whole_files_or_refused() {
-    for format in READ_BACK {
+    for format in read_back() {
         assert!(around(&Mesh::default(), format).mesh.triangles.is_empty(), "{format:?}");
     }
     for format in [Format::Glb, Format::Gltf] {
         assert_eq!(
-            encode(&Mesh::default(), None, &[], format, &WriteOptions::default()).expect_err("none").kind(),
+            encode(&Mesh::default(), &[], format, &WriteOptions::default()).expect_err("none").kind(),
             std::io::ErrorKind::Unsupported
         );
     }
@@ -249,10 +236,9 @@ fn named_nodes_are_physical_points_of_gmsh_and_said_to_be_lost_elsewhere() {
     let [tip, sensor] = ["tip", "sensor"].map(|name| mesh.names.intern(name));
     // Inside a region, on a boundary, and two of one name.
     mesh.named_nodes = vec![(VertexId(0), tip), (VertexId(4), sensor), (VertexId(8), tip)];
-    let text = String::from_utf8(
-        encode(&mesh, None, &[], Format::Msh22, &WriteOptions::default()).expect("written").remove(0),
-    )
-    .expect("text");
+    let text =
+        String::from_utf8(encode(&mesh, &[], Format::Msh22, &WriteOptions::default()).expect("written").remove(0))
+            .expect("text");
     // Two regions and three boundaries come before.
     assert!(text.contains("0 6 \"tip\"") && text.contains("0 7 \"sensor\""), "{text}");
     let points: Vec<&str> = text.lines().filter(|line| line.split(' ').nth(1) == Some("15")).collect();
@@ -264,12 +250,12 @@ fn named_nodes_are_physical_points_of_gmsh_and_said_to_be_lost_elsewhere() {
         let back = around(&mesh, format).mesh;
         assert_eq!((shape(&back), back.nodes.len()), (shape(&mesh), mesh.nodes.len()), "{format:?}");
     }
-    for format in READ_BACK {
+    for format in read_back() {
         let told = format.losses(&mesh, &WriteOptions::default()).contains(&"names of points");
         assert_eq!(told, !matches!(format, Format::Msh | Format::Msh22), "{format:?}");
     }
     mesh.named_nodes = vec![(VertexId(999), tip)];
-    assert!(encode(&mesh, None, &[], Format::Msh, &WriteOptions::default()).is_err());
+    assert!(encode(&mesh, &[], Format::Msh, &WriteOptions::default()).is_err());
 }
 
 #[test]
@@ -281,9 +267,9 @@ fn lists_that_do_not_fit_are_refused() {
         Mesh { nodes: Vec::new().into(), ..right.clone() },
         Mesh { edge_mids: vec![VertexId(0)], ..right.clone() },
     ];
-    for format in Format::ALL.into_iter().filter(|f| !f.is_picture()) {
+    for format in Format::ALL {
         for mesh in &wrong {
-            let error = encode(mesh, None, &[], format, &WriteOptions::default()).expect_err("no mesh");
+            let error = encode(mesh, &[], format, &WriteOptions::default()).expect_err("no mesh");
             assert_eq!(error.kind(), std::io::ErrorKind::InvalidInput, "{format:?}");
         }
     }
@@ -293,7 +279,7 @@ fn lists_that_do_not_fit_are_refused() {
 fn gltf_has_a_node_and_a_mesh_for_every_name() {
     for (mesh, parts) in [(strip(5, ODD), [1, 1]), (second_order(strip(5, ODD)), [4, 2])] {
         for format in [Format::Glb, Format::Gltf] {
-            let file = encode(&mesh, None, &[], format, &WriteOptions::default()).expect("written").remove(0);
+            let file = encode(&mesh, &[], format, &WriteOptions::default()).expect("written").remove(0);
             let document = gltf::Gltf::from_slice(&file).expect("valid glTF");
             let blob = document.blob.clone().unwrap_or_else(|| {
                 use base64::Engine;
@@ -348,7 +334,7 @@ fn gltf_in_space_stands_where_it_was() {
     let axes = ([0.0, 0.6, 0.8], [1.0, 0.0, 0.0]);
     let frame = Frame { origin: [3000.0, -20000.0, 70000.0], x: axes.0, y: axes.1 };
     let mesh = Mesh { frame: Some(frame), ..strip(2, PLAIN) };
-    let file = encode(&mesh, None, &[], Format::Glb, &WriteOptions::default()).expect("written").remove(0);
+    let file = encode(&mesh, &[], Format::Glb, &WriteOptions::default()).expect("written").remove(0);
     let document = gltf::Gltf::from_slice(&file).expect("valid glTF");
     let root = document.default_scene().expect("a scene").nodes().next().expect("a node");
     let ([tx, ty, tz], _, [scale, ..]) = root.transform().decomposed();
@@ -366,7 +352,7 @@ fn obj_has_a_material_for_every_region() {
     let mut mesh = strip(2, ODD);
     let region = mesh.regions[RegionId(0)];
     mesh.colours.insert(region, Colour([255, 0, 51, 102]));
-    let files = encode(&mesh, None, &[], Format::Obj, &WriteOptions::default()).expect("written");
+    let files = encode(&mesh, &[], Format::Obj, &WriteOptions::default()).expect("written");
     let [obj, mtl] = [&files[0], &files[1]].map(|file| String::from_utf8(file.clone()).expect("text"));
     let words = |text: &str, first: &str| -> Vec<String> {
         text.lines().filter_map(|line| line.strip_prefix(first)).map(str::to_owned).collect()
@@ -378,7 +364,7 @@ fn obj_has_a_material_for_every_region() {
     assert_eq!(words(&obj, "g ")[..2], made[..2], "materials are called as the groups");
     assert_eq!((&words(&mtl, "Kd ")[0][..], &words(&mtl, "d ")[0][..]), ("1.000000 0.000000 0.200000", "0.400000"));
     let bare = WriteOptions { stem: None, ..WriteOptions::default() };
-    let files = encode(&mesh, None, &[], Format::Obj, &bare).expect("written");
+    let files = encode(&mesh, &[], Format::Obj, &bare).expect("written");
     assert_eq!(files.len(), 1);
     assert!(!String::from_utf8_lossy(&files[0]).contains("mtl "));
     assert!(Format::Obj.losses(&mesh, &bare).iter().any(|loss| loss.starts_with("colours")));
@@ -396,7 +382,7 @@ fn colours_come_back_from_vtu() {
 
 #[test]
 fn inp_names_are_legal_and_faces_are_right() {
-    let file = encode(&strip(2, ODD), None, &[], Format::Inp, &WriteOptions::default()).expect("written").remove(0);
+    let file = encode(&strip(2, ODD), &[], Format::Inp, &WriteOptions::default()).expect("written").remove(0);
     let text = String::from_utf8(file).expect("text");
     for line in [
         "*ELEMENT, TYPE=CPS3, ELSET=S_7",
@@ -410,16 +396,36 @@ fn inp_names_are_legal_and_faces_are_right() {
     assert!(text.lines().filter(|l| l.starts_with('*') && !l.starts_with("**")).all(str::is_ascii));
 }
 
+/// A mesh that is given as a drawing is refused with what can be done with it: a mesh that is read here by other verbs, one that is not by
+/// another program.
+#[test]
+fn a_mesh_is_no_drawing() {
+    let refused = |name: &str, bytes: &[u8]| import::tell_format(name.as_ref(), bytes).expect_err("no drawing").help;
+    for format in Format::ALL {
+        let way = if format.reading().is_some() { "`squinch check`" } else { "Gmsh or meshio" };
+        let suffix = format.reading().map_or(format.suffixes()[0], |reading| reading.suffix);
+        assert!(refused(&format!("mesh.{suffix}"), b"").contains(way), ".{suffix} is not in import/foreign.rs");
+        let file = encode(&strip(2, PLAIN), &[], format, &WriteOptions::default()).expect("written").remove(0);
+        if let Some(told) = Format::sniff(&file) {
+            assert_eq!(told.reading().map(|reading| reading.suffix), Some(suffix), "{format:?}");
+            assert!(
+                refused("mesh", &file).contains("`squinch check`"),
+                "{format:?} is not among the signs of import/foreign.rs"
+            );
+        }
+    }
+}
+
 // ---- for readers of others ----
 
 /// The text of a mesh in a format.
 fn text_of(mesh: &Mesh, format: Format, options: &WriteOptions) -> String {
-    String::from_utf8(encode(mesh, None, &[], format, options).expect("written").remove(0)).expect("text")
+    String::from_utf8(encode(mesh, &[], format, options).expect("written").remove(0)).expect("text")
 }
 
 #[test]
 fn the_names_of_vtk_stand_behind_its_cell_types() {
-    let binary = encode(&strip(2, PLAIN), None, &[], Format::Vtk, &WriteOptions::default()).expect("written").remove(0);
+    let binary = encode(&strip(2, PLAIN), &[], Format::Vtk, &WriteOptions::default()).expect("written").remove(0);
     let text = text_of(&strip(2, PLAIN), Format::VtkText, &WriteOptions::default());
     for bytes in [binary.as_slice(), text.as_bytes()] {
         let place = |word: &str| bytes.windows(word.len()).position(|w| w == word.as_bytes()).expect(word);
@@ -468,7 +474,7 @@ fn a_plain_vtu_has_no_field_data() {
 fn boundaries_within_can_be_left_out_of_every_format() {
     for (mesh, first) in [(strip(3, PLAIN), true), (second_order(strip(3, PLAIN)), false)] {
         let rim = WriteOptions { interior_lines: false, ..WriteOptions::default() };
-        for format in READ_BACK.into_iter().filter(|f| first || f.holds_order(2).is_ok()) {
+        for format in read_back().filter(|f| first || f.holds_order(2).is_ok()) {
             let (mut wanted, back) = (counts(&around(&mesh, format).mesh), around_with(&mesh, format, &rim).mesh);
             wanted.1.remove("interface");
             assert_eq!(counts(&back), wanted, "{format:?}");
@@ -485,7 +491,7 @@ fn pictures_of_space_can_do_without_lines() {
     let back = around_with(&mesh, Format::Obj, &none).mesh;
     assert_eq!((back.edges.len(), shape(&back).0), (0, shape(&mesh).0));
     for format in [Format::Glb, Format::Gltf] {
-        let file = encode(&mesh, None, &[], format, &none).expect("written").remove(0);
+        let file = encode(&mesh, &[], format, &none).expect("written").remove(0);
         let document = gltf::Gltf::from_slice(&file).expect("valid glTF");
         let primitives: Vec<_> = document.meshes().flat_map(|mesh| mesh.primitives()).collect();
         assert_eq!(primitives.len(), 2);
@@ -552,7 +558,7 @@ fn what_a_reader_of_a_format_lacks_is_said() {
 // ---- other writers ----
 
 /// A square of two triangles with its lower side, by hand, in each format's other forms.
-fn foreign() -> Vec<(&'static str, reader::Format, Vec<u8>)> {
+fn foreign() -> Vec<(&'static str, Format, Vec<u8>)> {
     let msh22 = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n1 7 \"low side\"\n2 1 \"all\"\n$EndPhysicalNames\n\
         $Nodes\n4\n1 0 0 0\n2 1 0 0\n5 1 1 0\n9 0 1 0\n$EndNodes\n$Elements\n4\n1 15 2 0 1 1\n2 1 2 7 1 1 2\n3 2 2 1 1 1 2 5\n4 2 2 1 1 1 5 9\n$EndElements\n";
     let msh41 = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n1 7 \"low side\"\n2 1 \"all\"\n$EndPhysicalNames\n\
@@ -594,27 +600,27 @@ fn foreign() -> Vec<(&'static str, reader::Format, Vec<u8>)> {
         NMARK= 1\nMARKER_TAG= low side\nMARKER_ELEMS= 1\n3 0 1\n";
     let obj = "# by hand\nvn 0 0 1\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\no all\nf 1//1 2//1 3//1\nf -4 -2 -1\n# name boundary l = low side\ng l\nl 1 2\n";
     vec![
-        ("MSH 2.2", reader::Format::Msh, msh22.into()),
-        ("MSH 4.1", reader::Format::Msh, msh41.into()),
-        ("binary MSH 2.2", reader::Format::Msh, binary),
-        ("VTK 4.2", reader::Format::Vtk, vtk4.into()),
-        ("parametric MSH 2.2", reader::Format::Msh, parametric.into()),
-        ("VTK 5.1", reader::Format::Vtk, vtk5.into()),
-        ("VTK 5.1 of meshio", reader::Format::Vtk, meshio.into()),
-        ("INP", reader::Format::Inp, inp.into()),
-        ("INP of Gmsh", reader::Format::Inp, gmsh.into()),
-        ("INP with ranges and sets of sets", reader::Format::Inp, generated.into()),
-        ("SU2", reader::Format::Su2, su2.into()),
-        ("OBJ", reader::Format::Obj, obj.into()),
+        ("MSH 2.2", Format::Msh, msh22.into()),
+        ("MSH 4.1", Format::Msh, msh41.into()),
+        ("binary MSH 2.2", Format::Msh, binary),
+        ("VTK 4.2", Format::Vtk, vtk4.into()),
+        ("parametric MSH 2.2", Format::Msh, parametric.into()),
+        ("VTK 5.1", Format::Vtk, vtk5.into()),
+        ("VTK 5.1 of meshio", Format::Vtk, meshio.into()),
+        ("INP", Format::Inp, inp.into()),
+        ("INP of Gmsh", Format::Inp, gmsh.into()),
+        ("INP with ranges and sets of sets", Format::Inp, generated.into()),
+        ("SU2", Format::Su2, su2.into()),
+        ("OBJ", Format::Obj, obj.into()),
     ]
 }
 
 #[test]
 fn other_writers_forms_are_read() {
     for (what, format, bytes) in foreign() {
-        assert_eq!(reader::Format::sniff(&bytes), Some(format), "{what}");
+        assert_eq!(Format::sniff(&bytes), Some(format), "{what}");
         let MeshFile { mesh, notes, .. } = read(&bytes, format, &[]).unwrap_or_else(|e| panic!("{what}: {e}"));
-        let all = if format == reader::Format::Su2 { "region" } else { "all" };
+        let all = if format == Format::Su2 { "region" } else { "all" };
         let expected = ([(all.to_owned(), 2)].into(), [("low side".to_owned(), 1)].into());
         assert_eq!(counts(&mesh), expected, "{what}");
         assert_eq!(mesh.nodes[VertexId(2)], Point::new(1.0, 1.0), "{what}");
@@ -630,7 +636,7 @@ fn element_sets_name_what_no_entity_names() {
             "*NODE\n1, 0, 0\n2, 1, 0\n5, 1, 1\n9, 0, 1\n*ELEMENT, TYPE=CPS3, ELSET=Surface1\n1, 1, 2, 5\n\
              *ELEMENT, TYPE=CPS3, ELSET=steel\n2, 1, 5, 9\n{sets}"
         );
-        read(text.as_bytes(), reader::Format::Inp, &[])
+        read(text.as_bytes(), Format::Inp, &[])
     };
     let regions = |sets: &str| {
         let file = deck(sets).expect("a deck");
@@ -648,20 +654,16 @@ fn element_sets_name_what_no_entity_names() {
 fn what_cannot_be_read_is_said() {
     let quad = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n1\n1 0 0 0\n$EndNodes\n$Elements\n1\n1 3 0 1 1 1 1\n$EndElements\n";
     for (bytes, format, what) in [
-        (quad, reader::Format::Msh, "an element is a quadrilateral (Gmsh type 3)"),
-        ("$MeshFormat\n4.0 0 8\n$EndMeshFormat\n", reader::Format::Msh, "this is MSH 4.0"),
-        ("NDIME= 3\n", reader::Format::Su2, "the mesh has 3 dimensions"),
-        ("NDIME= 2\nNELEM= 7\n5 0 1 2\n", reader::Format::Su2, "line 4: the file ends 6 lines too early"),
-        ("*ELEMENT, TYPE=C3D4\n", reader::Format::Inp, "line 1: elements of type 'C3D4'"),
-        ("v 0 0 0\nf 1 1 1 1\n", reader::Format::Obj, "line 2: a face has 4 corners"),
-        ("v 0 0 0\nf 1 2 3\n", reader::Format::Obj, "a cell has the node 1, but there are 1"),
-        (
-            "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\n",
-            reader::Format::Obj,
-            "the mesh is not flat: node 3 lies",
-        ),
-        ("1 3 0\n1 1 2 3\n", reader::Format::Triangle, "there is no .node file beside the .ele file"),
-        ("hello", reader::Format::Stl, "this is no STL"),
+        (quad, Format::Msh, "an element is a quadrilateral (Gmsh type 3)"),
+        ("$MeshFormat\n4.0 0 8\n$EndMeshFormat\n", Format::Msh, "this is MSH 4.0"),
+        ("NDIME= 3\n", Format::Su2, "the mesh has 3 dimensions"),
+        ("NDIME= 2\nNELEM= 7\n5 0 1 2\n", Format::Su2, "line 4: the file ends 6 lines too early"),
+        ("*ELEMENT, TYPE=C3D4\n", Format::Inp, "line 1: elements of type 'C3D4'"),
+        ("v 0 0 0\nf 1 1 1 1\n", Format::Obj, "line 2: a face has 4 corners"),
+        ("v 0 0 0\nf 1 2 3\n", Format::Obj, "a cell has the node 1, but there are 1"),
+        ("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\n", Format::Obj, "the mesh is not flat: node 3 lies"),
+        ("1 3 0\n1 1 2 3\n", Format::Triangle, "there is no .node file beside the .ele file"),
+        ("hello", Format::Stl, "this is no STL"),
     ] {
         let error = read(bytes.as_bytes(), format, &[]).expect_err(what);
         assert!(error.what.starts_with(what), "{} is not {what}", error.what);
@@ -670,21 +672,20 @@ fn what_cannot_be_read_is_said() {
 }
 
 /// A format, a file of it, and the files beside that.
-type Input = (reader::Format, Vec<u8>, Vec<Option<Vec<u8>>>);
+type Input = (Format, Vec<u8>, Vec<Option<Vec<u8>>>);
 
 /// Files of all readers: ours, of both orders, and others'.
 fn files() -> Vec<Input> {
     let mut files: Vec<_> = foreign().into_iter().map(|(_, format, bytes)| (format, bytes, Vec::new())).collect();
     for mesh in [strip(2, ODD), second_order(strip(2, PLAIN))] {
-        for format in READ_BACK {
-            let Ok(mut written) = encode(&mesh, None, &[], format, &WriteOptions::default()) else { continue };
-            let reader = reader_of(format).expect("a format that is read");
+        for format in read_back() {
+            let Ok(mut written) = encode(&mesh, &[], format, &WriteOptions::default()) else { continue };
             if format == Format::Triangle {
                 let [nodes, elements, segments] = <[_; 3]>::try_from(written).expect("three files");
                 // Each of the three in turn is the one to be changed: the first argument.
-                files.push((reader, elements, vec![Some(nodes), Some(segments)]));
+                files.push((format, elements, vec![Some(nodes), Some(segments)]));
             } else {
-                files.push((reader, written.remove(0), Vec::new()));
+                files.push((format, written.remove(0), Vec::new()));
             }
         }
     }
@@ -694,7 +695,7 @@ fn files() -> Vec<Input> {
 /// Whatever is read can be judged, drawn and written.
 fn sound(mesh: &Mesh) {
     for format in [Format::Vtk, Format::Inp] {
-        encode(mesh, None, &[], format, &WriteOptions::default()).expect("the lists fit");
+        encode(mesh, &[], format, &WriteOptions::default()).expect("the lists fit");
     }
 }
 
@@ -731,12 +732,12 @@ proptest! {
 
     #[test]
     fn any_bytes_are_an_error_or_a_mesh(
-        format in prop::sample::select(reader::Format::ALL.to_vec()),
+        format in prop::sample::select(read_back().collect::<Vec<_>>()),
         bytes in prop::collection::vec(any::<u8>(), 0..400),
         text in "[ -~\n]{0,200}",
     ) {
         for bytes in [bytes.as_slice(), text.as_bytes()] {
-            let _ = reader::Format::sniff(bytes);
+            let _ = Format::sniff(bytes);
             if let Ok(file) = read(bytes, format, &[Some(bytes.to_vec()), Some(bytes.to_vec())]) {
                 sound(&file.mesh);
             }

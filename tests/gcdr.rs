@@ -6,7 +6,7 @@ use plane_drawings::{assert_kept, boxed, domain_of, drawing_of, status, wedge};
 use squinch::domain::Drawing;
 use squinch::generate::curved_complex;
 use squinch::geometry::Point;
-use squinch::import::{self, Format};
+use squinch::import;
 use squinch::mesh::{InsertionKind, Mesh};
 use squinch::plane::gcdr::steiner::{
     BySize, Center, Encroached, Extreme, Grid, OffCenter, Optimal, Places, Random, Skinny,
@@ -311,7 +311,7 @@ fn curves_that_touch_end_and_verify() {
 fn curves_with_one_tangent_are_cut_at_one_distance_from_the_beginning() {
     // Cut apart at their bisectors they took 1240 triangles, 154 of them excused: 2697 and 247 at 30°.
     let bytes = std::fs::read("samples/tangent_curves.json").unwrap();
-    let drawing = import::read(&bytes, Format::Outline, "tangent_curves", &import::Options::default()).unwrap();
+    let drawing = import::outline::read(&bytes, "tangent_curves").unwrap();
     for (degrees, triangles, most) in [(20.7, 1100, 120), (30.0, 2000, 140)] {
         let (mesh, verdict) = kept(&drawing, &options(degrees, Regions::CENTERS), &mut Center);
         let found = (mesh.triangles.len(), excused(&verdict));

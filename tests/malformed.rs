@@ -2,14 +2,19 @@
 //!
 //! What a format says of its own broken files is tested beside the rest of it (`svg.rs`, `dxf.rs`, `import.rs`, `formats.rs`, `vtu.rs`); here is what is common.
 
-use squinch::domain::Loose;
-use squinch::import::mesh::{self, MeshFile};
-use squinch::import::{self, AirfoilOptions, DxfOptions, Format, ImportError, LineTypes, Options, Strokes};
+use squinch::domain::{Drawing, Loose};
+use squinch::import::{self, DxfOptions, Format, ImportError, LineTypes, Options, Strokes};
+use squinch::meshio::{self, MeshFile};
 use squinch::options::Switch;
 use squinch::run::request::Request;
 use squinch::run::{Exit, Extent, Outcome, Source, run};
+use squinch::section;
 use squinch::watch::no_clock;
 use std::time::{Duration, Instant};
+
+fn read(bytes: &[u8], format: Format, stem: &str, options: &Options) -> Result<Drawing, ImportError> {
+    section::drawn(import::read(bytes, format, stem, options)?, &section::Options::default())
+}
 
 /// Far more than any of these files takes, on a slow machine and without optimisation.
 const PATIENCE: Duration = Duration::from_secs(20);
@@ -42,7 +47,7 @@ fn meshed(name: &str, bytes: &[u8], format: Option<Format>) -> Outcome {
 }
 
 fn meshed_by(name: &str, bytes: &[u8], format: Option<Format>, request: Request) -> Outcome {
-    let airfoil = AirfoilOptions { far_field: 2.0, ..request.airfoil };
+    let airfoil = section::Options { far_field: 2.0, ..request.airfoil };
     let request = Request { max_vertices: 2000, timeout: Some(10.0), airfoil, ..request };
     let source = Source { path: name, bytes, format, nodes: None, of_many: false };
     soon(name, || run(&source, &request, Extent::Whole(&mut |_| true), &no_clock))
@@ -65,7 +70,7 @@ fn a_sample_cut_at_any_tenth_is_a_drawing_or_an_error_with_its_line() {
         let bytes = sample(name);
         for tenth in 0..10 {
             let cut = &bytes[..bytes.len() * tenth / 10];
-            let read = soon(name, || import::read(cut, format, "cut", &Options::default()));
+            let read = soon(name, || read(cut, format, "cut", &Options::default()));
             match (format, read) {
                 // Points of a section may end anywhere.
                 (Format::Airfoil, Ok(_)) => {}
@@ -111,13 +116,13 @@ fn other_files_are_refused_by_every_reader() {
     ];
     for (what, bytes) in others {
         for format in Format::ALL {
-            let error = soon(what, || import::read(bytes, format, "other", &Options::default()));
+            let error = soon(what, || read(bytes, format, "other", &Options::default()));
             let error = error.expect_err(&format!("{what} is no {}", format.name()));
             assert!(!error.what.is_empty() && !error.help.is_empty(), "{what} as {}: {error:?}", format.name());
         }
-        for format in mesh::Format::ALL {
-            if let Err(error) = soon(what, || mesh::read(bytes, format, &[])) {
-                assert!(!error.what.is_empty() && !error.help.is_empty(), "{what} as {}: {error:?}", format.suffix());
+        for format in meshio::Format::ALL {
+            if let Err(error) = soon(what, || meshio::read(bytes, format, &[])) {
+                assert!(!error.what.is_empty() && !error.help.is_empty(), "{what} as {}: {error:?}", format.name());
             }
         }
     }
@@ -139,7 +144,7 @@ fn svg(body: &str) -> Vec<u8> {
 }
 
 fn refusal(what: &str, format: Format, bytes: &[u8]) -> ImportError {
-    let read = soon(what, || import::read(bytes, format, "broken", &Options::default()));
+    let read = soon(what, || read(bytes, format, "broken", &Options::default()));
     match read {
         Err(error) => error,
         Ok(drawing) => panic!("{what}: read as {} curves", drawing.curves.len()),
@@ -167,7 +172,7 @@ fn numbers_that_are_none_are_refused_with_their_line() {
         }
         // A path is drawn up to its first error, as SVG asks; a shape without a size is not drawn.
         let shapes = format!("<path d='M0 0L{number} 1 5 5z'/><circle r='{number}'/>");
-        if let Ok(drawing) = import::read(&svg(&shapes), Format::Svg, "broken", &Options::default()) {
+        if let Ok(drawing) = read(&svg(&shapes), Format::Svg, "broken", &Options::default()) {
             assert!(drawing.curves.iter().all(|c| c.curve.bounds().is_finite()), "{number}");
         }
     }
@@ -194,7 +199,7 @@ fn counts_beyond_the_file_are_refused() {
             assert!(error.line.is_some(), "{count} in {}: {error}", format.name());
         }
         // A count that other entities repeat by what they hold is not believed.
-        if let Ok(drawing) = import::read(&dxf_entities(&polyline), Format::Dxf, "broken", &Options::default()) {
+        if let Ok(drawing) = read(&dxf_entities(&polyline), Format::Dxf, "broken", &Options::default()) {
             assert_eq!(drawing.curves.len(), 3, "{count}");
         }
         let lednicer = format!("Section\n{count}. {count}.\n\n0 0\n0.5 0.1\n1 0\n\n0 0\n0.5 -0.1\n1 0\n");
@@ -223,7 +228,7 @@ fn what_unfolds_without_end_is_refused_or_left_out() {
         ("a grid", file(&block("B", circle), &grid)),
     ];
     for (what, bytes) in drawings {
-        match soon(what, || import::read(&bytes, Format::Dxf, "unfolding", &Options::default())) {
+        match soon(what, || read(&bytes, Format::Dxf, "unfolding", &Options::default())) {
             Err(error) => assert!(!error.what.is_empty() && !error.help.is_empty(), "{what}: {error:?}"),
             Ok(drawing) => {
                 assert!(drawing.curves.len() <= 1 && !drawing.skipped.is_empty(), "{what}: {:?}", drawing.skipped)
@@ -240,7 +245,7 @@ fn what_unfolds_without_end_is_refused_or_left_out() {
         ("deep paths", format!("<path d='M0 0{}'/>", "m1 1".repeat(100_000))),
     ];
     for (what, body) in pictures {
-        match soon(what, || import::read(&svg(&body), Format::Svg, "unfolding", &Options::default())) {
+        match soon(what, || read(&svg(&body), Format::Svg, "unfolding", &Options::default())) {
             Err(error) => assert!(!error.what.is_empty() && !error.help.is_empty(), "{what}: {error:?}"),
             Ok(drawing) => assert!(drawing.curves.len() <= 100_000, "{what}: {} curves", drawing.curves.len()),
         }
@@ -423,7 +428,7 @@ fn tables_of_coordinates_that_are_none_are_sections_or_refusals() {
     ];
     for (what, text) in tables {
         for chord in [None, Some(1e-300), Some(1e300)] {
-            let airfoil = AirfoilOptions { chord, ..AirfoilOptions::default() };
+            let airfoil = section::Options { chord, ..section::Options::default() };
             let request = Request { airfoil, ..Request::default() };
             ends_well(&meshed_by(what, text.as_bytes(), Some(Format::Airfoil), request), what);
         }
@@ -452,13 +457,13 @@ fn gaps_are_closed_by_absurd_values_or_refused() {
 
 // ---- meshes ----
 
-fn read_mesh(what: &str, format: mesh::Format, text: &str) -> Result<MeshFile, mesh::MeshError> {
-    soon(what, || mesh::read(text.as_bytes(), format, &[]))
+fn read_mesh(what: &str, format: meshio::Format, text: &str) -> Result<MeshFile, meshio::MeshError> {
+    soon(what, || meshio::read(text.as_bytes(), format, &[]))
 }
 
 #[test]
 fn mesh_files_with_counts_beyond_the_file_are_refused() {
-    use mesh::Format::{Inp, Msh, Obj, Stl, Su2, Triangle, Vtk, Vtu};
+    use meshio::Format::{Inp, Msh, Obj, Stl, Su2, Triangle, Vtk, Vtu};
     for count in ["2000000000", "4294967295", "9223372036854775807", "18446744073709551615", "-1", "1e18", "nan"] {
         let vtu = format!(
             "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\"><UnstructuredGrid>\
@@ -494,12 +499,12 @@ fn mesh_files_with_counts_beyond_the_file_are_refused() {
             (Triangle, format!("{count} 3 0\n1 1 2 3\n")),
         ];
         for (format, text) in broken {
-            let error = read_mesh(count, format, &text).expect_err(&format!("{count} in {}: {text}", format.suffix()));
+            let error = read_mesh(count, format, &text).expect_err(&format!("{count} in {}: {text}", format.name()));
             assert!(!error.what.is_empty() && !error.help.is_empty(), "{error:?}");
         }
     }
     let stl = [&[b' '; 80][..], &u32::MAX.to_le_bytes(), &[0; 50]].concat();
-    soon("stl", || mesh::read(&stl, Stl, &[])).expect_err("4294967295 triangles in 134 bytes");
+    soon("stl", || meshio::read(&stl, Stl, &[])).expect_err("4294967295 triangles in 134 bytes");
     // Of a generated set the numbers are all in the file but for these three.
     let set = "*NODE\n1, 0, 0\n2, 1, 0\n3, 0, 1\n*ELEMENT, TYPE=CPS3\n1, 1, 2, 3\n*ELSET, ELSET=all, GENERATE\n1, 9000000000000000000, 1\n";
     let _ = read_mesh("a generated set", Inp, set);

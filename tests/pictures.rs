@@ -1,13 +1,12 @@
 //! Pictures as text: golden SVG files under `tests/pictures/`. `UPDATE_PICTURES=1 cargo test --test pictures` writes
 //! them anew, with a PNG of each under the target directory: look at it before committing.
 
-use squinch::canvas::Canvas;
 use squinch::curve::Curve;
 use squinch::domain::{ArrangeOptions, Drawing, Repair, RepairKind, Seed, SeedKind};
-use squinch::export::picture::{MeshColour, PictureOptions, picture_of_domain, picture_of_drawing, picture_of_mesh};
 use squinch::geometry::{Point, Rect};
 use squinch::ids::{CurveId, PointId, RegionId, VertexId};
 use squinch::mesh::{Ball, BallReason, CurveEdge, CurveLink, Mesh};
+use squinch::picture::{Canvas, MeshColour, PictureOptions, picture_of_domain, picture_of_drawing, picture_of_mesh};
 use std::path::Path;
 
 fn keep(name: &str, canvas: &Canvas) {

@@ -3,14 +3,14 @@
 mod record;
 
 use super::files::{Input, Staged};
-use super::mesh::{encode, hold_order, mesh_format};
+use super::mesh::stamps;
 use super::options::{Options, Resolved};
+use super::output::Output;
 use super::writing::Writing;
 use super::{Halt, Volume, clock};
 use clap::Args;
 pub use record::Line;
 use record::{Desk, Record};
-use squinch::export::Format;
 use squinch::import;
 use squinch::run::case;
 use squinch::run::report::{FailureKind, FailureReport};
@@ -32,8 +32,8 @@ pub struct Batch {
     #[arg(long, value_name = "DIR", help_heading = "Output")]
     out_dir: PathBuf,
     /// Formats of the outputs
-    #[arg(long, value_parser = mesh_format, value_name = "F[,F]", value_delimiter = ',', required = true, help_heading = "Output")]
-    format: Vec<Format>,
+    #[arg(long, value_parser = Output::named, value_name = "F[,F]", value_delimiter = ',', required = true, help_heading = "Output")]
+    format: Vec<Output>,
     /// Also the report of every input, as NAME.report.json
     #[arg(long, help_heading = "Output")]
     reports: bool,
@@ -112,7 +112,7 @@ impl Batch {
         let start = Instant::now();
         self.writing.check()?;
         let Resolved { request, input_format } = self.options.resolve()?;
-        self.format.iter().try_for_each(|format| hold_order(*format, &request))?;
+        self.format.iter().try_for_each(|format| format.hold_order(&request))?;
         self.writing.tell_unused(&self.format, volume);
         let mut jobs = jobs(&self.inputs)?;
         if request.face.as_deref() == Some(EVERY_FACE) {
@@ -196,8 +196,9 @@ impl Batch {
         }
         if let (Some(mesh), false) = (&outcome.mesh, outcome.exit == Exit::Bug) {
             for &format in &self.format {
-                let options = self.writing.options(&path(format.suffixes()[0]));
-                let encoded = encode(mesh, outcome, request, format, &options)?;
+                let stamps = stamps(outcome, request);
+                let first = path(format.suffixes()[0]);
+                let encoded = format.encode(mesh, outcome.domain.as_ref(), &stamps, &self.writing, &first)?;
                 for (suffix, bytes) in format.suffixes().iter().zip(encoded) {
                     staged.add(&path(suffix), &bytes)?;
                     names.push(path(suffix).display().to_string());

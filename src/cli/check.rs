@@ -5,8 +5,8 @@ use super::options::{Options, Resolved};
 use super::{Halt, Volume, clock, remember, say};
 use clap::Args;
 use squinch::domain::Domain;
-use squinch::import::mesh::{self, MeshFile};
 use squinch::mesh::quality::Quality;
+use squinch::meshio::{self, Format, MeshFile};
 use squinch::run::report::{FailureKind, FailureReport, MeshReport, PromiseReport, Report};
 use squinch::run::request::Request;
 use squinch::run::{self, Exit, Plan};
@@ -30,15 +30,15 @@ pub struct Check {
 }
 
 /// The mesh format of an input: by its suffix, or by its content.
-fn mesh_format(input: &Input) -> Option<mesh::Format> {
-    mesh::format_of(Path::new(&input.path)).or_else(|| mesh::Format::sniff(&input.bytes))
+fn mesh_format(input: &Input) -> Option<Format> {
+    Format::to_read(Path::new(&input.path)).or_else(|| Format::sniff(&input.bytes))
 }
 
 /// Whether an input is a mesh by its suffix, or without one by its content.
 pub fn is_mesh(input: &Input) -> bool {
     let path = Path::new(&input.path);
-    let by_content = || mesh::Format::sniff(&input.bytes).is_some_and(|format| format != mesh::Format::Obj);
-    input.format.is_none() && (mesh::format_of(path).is_some() || path.extension().is_none() && by_content())
+    let by_content = || Format::sniff(&input.bytes).is_some_and(|format| format != Format::Obj);
+    input.format.is_none() && (Format::to_read(path).is_some() || path.extension().is_none() && by_content())
 }
 
 /// Reads the mesh of an input.
@@ -50,8 +50,9 @@ pub fn read(input: &Input) -> Result<MeshFile, Halt> {
             input.path
         )));
     };
-    let beside: Vec<_> = format.beside().iter().map(|suffix| std::fs::read(path.with_extension(suffix)).ok()).collect();
-    mesh::read(&input.bytes, format, &beside).map_err(|error| {
+    let beside = format.reading().map_or(&[][..], |reading| reading.beside);
+    let beside: Vec<_> = beside.iter().map(|suffix| std::fs::read(path.with_extension(suffix)).ok()).collect();
+    meshio::read(&input.bytes, format, &beside).map_err(|error| {
         let failure = FailureReport::new(FailureKind::Unreadable, error.what, error.help);
         Halt::Failure(Box::new(failure), Some(Box::new(input.clone())))
     })

@@ -1,11 +1,10 @@
 //! `convert MESH OUT`: one mesh format to another, names kept.
 
 use super::files::{self, Input, Staged, unwritable};
-use super::mesh::mesh_format;
+use super::output::Output;
 use super::writing::Writing;
 use super::{Halt, Volume, check, say};
 use clap::Args;
-use squinch::export::{self, Format};
 use squinch::run::Exit;
 use std::path::PathBuf;
 
@@ -18,8 +17,8 @@ pub struct Convert {
     #[arg(value_name = "OUT")]
     output: PathBuf,
     /// The format of the output, where the suffix is not to tell
-    #[arg(long, value_parser = mesh_format, value_name = "FORMAT")]
-    format: Option<Format>,
+    #[arg(long, value_parser = Output::named, value_name = "FORMAT")]
+    format: Option<Output>,
     #[command(flatten)]
     writing: Writing,
 }
@@ -27,22 +26,21 @@ pub struct Convert {
 impl Convert {
     pub fn run(self, volume: Volume) -> Result<Exit, Halt> {
         self.writing.check()?;
-        let format = files::output_format(&self.output, self.format)?;
-        let outputs = files::of_output(&self.output, format);
+        let format = Output::of(&self.output, self.format)?;
+        let outputs = format.files(&self.output);
         files::each_once([self.mesh.clone()].into_iter().chain(outputs.clone()))?;
         files::can_be_written(&outputs)?;
         self.writing.tell_unused(&[format], volume);
-        let options = self.writing.options(&self.output);
         let input = Input::open(&self.mesh, None)?;
         let file = check::read(&input)?;
-        let encoded = export::encode(&file.mesh, None, &file.stamps, format, &options);
+        let encoded = format.encode(&file.mesh, None, &file.stamps, &self.writing, &self.output);
         let encoded = encoded.map_err(|e| Halt::Unwritable(format!("{}: {e}", self.output.display())))?;
         let mut staged = Staged::default();
         outputs.iter().zip(&encoded).try_for_each(|(path, bytes)| staged.add(path, bytes)).map_err(unwritable)?;
         staged.commit().map_err(unwritable)?;
         if volume > Volume::Quiet {
             file.notes.iter().for_each(|note| say::line(&format!("  {}: {note}", input.path)));
-            say::losses(format, &file.mesh, &options);
+            say::losses(format, &format.losses(&file.mesh, &self.writing, &self.output));
         }
         Ok(Exit::Done)
     }

@@ -5,11 +5,11 @@ use super::options::{Options, Resolved};
 use super::{Halt, Volume, check, clock, remember};
 use clap::{Args, ValueEnum};
 use serde::Serialize;
-use squinch::canvas::Canvas;
 use squinch::domain::{Domain, Drawing};
-use squinch::export::picture::{MeshColour, PictureOptions, picture_of_domain, picture_of_drawing, picture_of_mesh};
-use squinch::export::{Format, format_of};
 use squinch::geometry::{Point, Rect};
+use squinch::picture::{
+    Canvas, Format, MeshColour, PictureOptions, picture_of_domain, picture_of_drawing, picture_of_mesh,
+};
 use squinch::refine::Until;
 use squinch::run::report::FailureReport;
 use squinch::run::request::Request;
@@ -97,10 +97,10 @@ impl Draw {
             return Err(Halt::Usage("--colour layer: only with --stage drawing".into()));
         }
         let Resolved { request, input_format } = self.options.resolve()?;
-        let format = match format_of(&self.output) {
-            Some(format @ (Format::Svg | Format::Png)) => format,
+        let format = match Format::of(&self.output) {
+            Some(format) => format,
             None if self.output.as_os_str() == "-" => Format::Svg,
-            _ => return Err(Halt::Usage(format!("-o {}: pictures are .svg or .png", self.output.display()))),
+            None => return Err(Halt::Usage(format!("-o {}: pictures are .svg or .png", self.output.display()))),
         };
         files::can_be_written([&self.output])?;
         let input = Input::open(&self.input, input_format)?;
@@ -115,12 +115,12 @@ impl Draw {
             remember(&input, &request);
             self.stage(&input, &request).map_err(|failure| Halt::Failure(Box::new(failure), Some(Box::new(input))))?
         };
-        let bytes = match format {
-            Format::Png => canvas.png(1.0),
-            _ => canvas.svg().map(String::into_bytes),
-        };
         let mut staged = Staged::default();
-        bytes.and_then(|bytes| staged.add(&self.output, &bytes)).and_then(|()| staged.commit()).map_err(unwritable)?;
+        format
+            .encode(&canvas)
+            .and_then(|bytes| staged.add(&self.output, &bytes))
+            .and_then(|()| staged.commit())
+            .map_err(unwritable)?;
         Ok(Exit::Done)
     }
 

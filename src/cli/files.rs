@@ -1,7 +1,6 @@
 //! Files in and out: inputs with their bytes, outputs that are whole or not there.
 
 use super::Halt;
-use squinch::export;
 use squinch::import::Format;
 use squinch::run::Source;
 use squinch::run::case::Case;
@@ -58,41 +57,6 @@ pub fn read(path: &Path) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     io::stdin().lock().read_to_end(&mut bytes)?;
     Ok(bytes)
-}
-
-/// The format of an output: as asked for, else by its suffix.
-pub fn output_format(path: &Path, asked: Option<export::Format>) -> Result<export::Format, Halt> {
-    let format = asked.or_else(|| export::format_of(path)).ok_or_else(|| {
-        let names = export::Format::ALL.map(export::Format::name).join(", ");
-        Halt::Usage(format!("{}: say its format by --format: {names}", path.display()))
-    })?;
-    if path.as_os_str() == "-" && of_output(path, format).len() > 1 {
-        let files = format.suffixes().join(", .");
-        return Err(Halt::Usage(format!("-o -: {} is several files: .{files}", format.name())));
-    }
-    Ok(format)
-}
-
-/// The files that an output consists of: the one named, or of a format of several those beside it. OBJ is the one named, and its materials
-/// beside it where it has a [`stem`].
-pub fn of_output(path: &Path, format: export::Format) -> Vec<PathBuf> {
-    match (format, format.suffixes()) {
-        (export::Format::Obj, _) if stem(path).is_none() => vec![path.to_owned()],
-        (export::Format::Obj, [obj, mtl]) => {
-            let is_mtl = path.extension().is_some_and(|suffix| suffix.eq_ignore_ascii_case(mtl));
-            vec![if is_mtl { path.with_extension(obj) } else { path.to_owned() }, path.with_extension(mtl)]
-        }
-        (_, [_]) => vec![path.to_owned()],
-        (_, several) => several.iter().map(|suffix| path.with_extension(suffix)).collect(),
-    }
-}
-
-/// The name without suffix by which files beside an output call it; `None` of a stream, and of a name that no text can hold.
-pub fn stem(path: &Path) -> Option<String> {
-    let is_stream =
-        path.as_os_str() == "-" || fs::metadata(path).is_ok_and(|there| !there.is_file() && !there.is_dir());
-    let stem = path.file_stem()?.to_str()?;
-    (!is_stream && !stem.contains(char::is_control)).then(|| stem.to_owned())
 }
 
 /// Every output has a folder that takes it: said before the work, not after.

@@ -3,16 +3,14 @@
 use super::check::REQUEST_STAMP;
 use super::files::{self, Input, Staged, unwritable};
 use super::options::{Options, Resolved};
+use super::output::Output;
 use super::writing::Writing;
 use super::{Halt, Volume, clock, remember, say, write_case};
 use clap::Args;
 use squinch::domain::RepairKind;
-use squinch::export::{self, Format, WriteOptions};
-use squinch::mesh;
 use squinch::run::request::Request;
 use squinch::run::{self, Exit, Extent, Outcome};
 use squinch::watch::Progress;
-use std::io;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -43,8 +41,8 @@ pub struct Mesh {
     output: Vec<PathBuf>,
     /// Formats of the outputs, in their order, where the suffix is not to tell (msh22 is Gmsh 2.2; vtk-text is VTK as text; triangle is
     /// .node/.ele/.poly)
-    #[arg(long, value_parser = mesh_format, value_name = "FORMAT", value_delimiter = ',', help_heading = "Output")]
-    format: Vec<Format>,
+    #[arg(long, value_parser = Output::named, value_name = "FORMAT", value_delimiter = ',', help_heading = "Output")]
+    format: Vec<Output>,
     /// The report as JSON; - for standard output
     #[arg(long, value_name = "FILE.json", help_heading = "Output")]
     report: Option<PathBuf>,
@@ -61,13 +59,13 @@ impl Mesh {
     pub fn run(self, volume: Volume) -> Result<Exit, Halt> {
         self.writing.check()?;
         let outputs = self.outputs()?;
-        let files = outputs.iter().flat_map(|(path, format)| files::of_output(path, *format));
+        let files = outputs.iter().flat_map(|(path, format)| format.files(path));
         let files: Vec<PathBuf> = self.report.iter().chain(&self.case).cloned().chain(files).collect();
         files::each_once([self.input.clone()].into_iter().chain(files.clone()))?;
         let Resolved { request, input_format } = self.options.resolve()?;
-        outputs.iter().try_for_each(|(_, format)| hold_order(*format, &request))?;
+        outputs.iter().try_for_each(|(_, format)| format.hold_order(&request))?;
         files::can_be_written(&files)?;
-        let formats: Vec<Format> = outputs.iter().map(|(_, format)| *format).collect();
+        let formats: Vec<Output> = outputs.iter().map(|(_, format)| *format).collect();
         self.writing.tell_unused(&formats, volume);
         let input = Input::open(&self.input, input_format)?;
         remember(&input, &request);
@@ -81,8 +79,8 @@ impl Mesh {
         say::summary(&outcome, &wrote, volume);
         if let (Some(mesh), false, Volume::Verbose) = (&outcome.mesh, wrote.is_empty(), volume) {
             // That a picture holds no mesh goes without saying.
-            let files = outputs.iter().filter(|(_, format)| !format.is_picture());
-            files.for_each(|(path, format)| say::losses(*format, mesh, &self.writing.options(path)));
+            let files = outputs.iter().filter(|(_, format)| matches!(format, Output::Mesh(_)));
+            files.for_each(|(path, format)| say::losses(*format, &format.losses(mesh, &self.writing, path)));
         }
         if outcome.exit == Exit::Bug {
             write_case(&run::ending(&outcome), "broken");
@@ -91,7 +89,7 @@ impl Mesh {
     }
 
     /// Every output with its format.
-    fn outputs(&self) -> Result<Vec<(&Path, Format)>, Halt> {
+    fn outputs(&self) -> Result<Vec<(&Path, Output)>, Halt> {
         let to_stdout =
             self.output.iter().chain(&self.report).chain(&self.case).filter(|p| p.as_os_str() == "-").count();
         if to_stdout > 1 {
@@ -102,7 +100,7 @@ impl Mesh {
             return Err(Halt::Usage(format!("--format names {formats} formats for {outputs} outputs")));
         }
         let formats = self.output.iter().enumerate().map(|(i, path)| {
-            let format = files::output_format(path, self.format.get(i).copied())?;
+            let format = Output::of(path, self.format.get(i).copied())?;
             Ok((path.as_path(), format))
         });
         formats.collect()
@@ -111,7 +109,7 @@ impl Mesh {
     /// Writes what there is to write; the names of the mesh files.
     fn write(
         &self,
-        outputs: &[(&Path, Format)],
+        outputs: &[(&Path, Output)],
         input: &Input,
         request: &Request,
         outcome: &mut Outcome,
@@ -122,9 +120,10 @@ impl Mesh {
         // A mesh that broke down in our hands must not reach a solver.
         if let (Some(mesh), false) = (&outcome.mesh, outcome.exit == Exit::Bug) {
             for (path, format) in outputs {
-                let encoded = encode(mesh, outcome, request, *format, &self.writing.options(path));
+                let stamps = stamps(outcome, request);
+                let encoded = format.encode(mesh, outcome.domain.as_ref(), &stamps, &self.writing, path);
                 let encoded = encoded.map_err(|e| Halt::Unwritable(format!("{}: {e}", path.display())))?;
-                for (file, bytes) in files::of_output(path, *format).iter().zip(encoded) {
+                for (file, bytes) in format.files(path).iter().zip(encoded) {
                     staged.add(file, &bytes).map_err(unwritable)?;
                     wrote.push(file.display().to_string());
                 }
@@ -156,31 +155,13 @@ pub fn mesh_with_progress(input: &Input, request: &Request, volume: Volume) -> O
     run::run(&input.source(), request, Extent::Whole(&mut watch), &clock())
 }
 
-/// A mesh as the bytes of its files, stamped with what it was asked for, and the tolerance where that had to be raised.
-pub fn encode(
-    mesh: &mesh::Mesh,
-    outcome: &Outcome,
-    request: &Request,
-    format: Format,
-    options: &WriteOptions,
-) -> io::Result<Vec<Vec<u8>>> {
+/// What a mesh file is stamped with: what it was asked for, and the tolerance where that had to be raised.
+pub fn stamps(outcome: &Outcome, request: &Request) -> [(String, String); 2] {
     let raised = outcome.report.input.repairs.first().filter(|repair| repair.kind == RepairKind::ToleranceRaised);
     let tolerance = raised.map(|repair| repair.size).or(request.tolerance);
     let request = toml::to_string(&Request { tolerance, ..request.clone() })
         .expect("a request holds only words, numbers and lists of them");
-    let stamps =
-        [("program".to_owned(), format!("squinch {}", env!("CARGO_PKG_VERSION"))), (REQUEST_STAMP.to_owned(), request)];
-    export::encode(mesh, outcome.domain.as_ref(), &stamps, format, options)
-}
-
-/// A format that cannot hold what is asked for is refused before there is a mesh.
-pub fn hold_order(format: Format, request: &Request) -> Result<(), Halt> {
-    let refused = |e: io::Error| Halt::Usage(format!("--order {}: {e}", u64::from(request.order)));
-    format.holds_order(u64::from(request.order) as u8).map_err(refused)
-}
-
-pub fn mesh_format(name: &str) -> Result<Format, String> {
-    Format::named(name).ok_or_else(|| format!("one of {}", Format::ALL.map(Format::name).join(", ")))
+    [("program".to_owned(), format!("squinch {}", env!("CARGO_PKG_VERSION"))), (REQUEST_STAMP.to_owned(), request)]
 }
 
 /// Largest resident memory of this process, where the system tells it.

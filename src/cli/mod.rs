@@ -8,6 +8,7 @@ mod files;
 mod inspect;
 mod mesh;
 mod options;
+mod output;
 mod reduce;
 mod replay;
 mod say;

@@ -1,12 +1,11 @@
 //! What people read on stderr: errors that point at the input, the summary, the progress.
 
 use super::files::Input;
+use super::output::Output;
 use super::{Halt, Volume};
 use indicatif::{ProgressBar, ProgressStyle};
 use miette::{LabeledSpan, MietteDiagnostic, NamedSource};
 use squinch::domain::{Repair, RepairKind};
-use squinch::export::{Format, WriteOptions};
-use squinch::mesh::Mesh;
 use squinch::refine::StopReason;
 use squinch::run::report::{FailureReport, InputReport, Report};
 use squinch::run::{Exit, Outcome};
@@ -116,10 +115,9 @@ pub fn remarks(input: &InputReport, volume: Volume) {
     repair_rows(&[], &input.unhealed, volume, &mut |name, text| row(name, text));
 }
 
-/// What of a mesh a format does not hold.
-pub fn losses(format: Format, mesh: &Mesh, options: &WriteOptions) {
-    let losses = format.losses(mesh, options);
-    losses.iter().for_each(|loss| line(&format!("  not kept by {}: {loss}", format.name())));
+/// What of a mesh an output does not hold.
+pub fn losses(output: Output, losses: &[&str]) {
+    losses.iter().for_each(|loss| line(&format!("  not kept by {}: {loss}", output.name())));
 }
 
 /// A message that points into a text.

@@ -1,12 +1,14 @@
 //! The options of writing, shared by the verbs that write meshes.
 
 use super::draw::{Colour, window};
-use super::{Halt, Volume, files, say};
+use super::output::{Output, stem};
+use super::{Halt, Volume, say};
 use clap::{Args, ValueEnum};
 use serde::Serialize;
-use squinch::export::{Format, WriteOptions, XdmfGrids};
 use squinch::geometry::Rect;
+use squinch::meshio::{Choice, WriteOptions, XdmfGrids};
 use squinch::options::Switch;
+use squinch::picture::{MeshColour, PictureOptions};
 use std::path::Path;
 
 /// How meshes are written where a format, or a reader of it, leaves a choice.
@@ -67,26 +69,28 @@ impl Writing {
                 Grids::Single => XdmfGrids::Single,
                 Grids::Double => XdmfGrids::Double,
             },
-            colour: self.colour.of_mesh(),
-            view: self.view,
-            stem: files::stem(path),
+            stem: stem(path),
         }
     }
 
+    /// What triangles of a picture are coloured by, and how it is made.
+    pub fn picture(&self) -> (MeshColour, PictureOptions) {
+        (self.colour.of_mesh(), PictureOptions { view: self.view, ..PictureOptions::default() })
+    }
+
     /// Says which of the options given none of the outputs has a use for.
-    pub fn tell_unused(&self, formats: &[Format], volume: Volume) {
-        let any = |of: &[Format]| formats.iter().any(|format| of.contains(format));
-        let lined = [Format::Glb, Format::Gltf, Format::Obj, Format::VtkText];
-        let pictures = [Format::Svg, Format::Png];
+    pub fn tell_unused(&self, outputs: &[Output], volume: Volume) {
+        let leaves = |choice| outputs.iter().any(|output| matches!(output, Output::Mesh(f) if f.leaves(choice)));
+        let pictures = outputs.iter().any(|output| matches!(output, Output::Picture(_)));
         let unused = [
-            (self.plain && !any(&[Format::Vtu]), "--plain: only for VTU"),
+            (self.plain && !leaves(Choice::Plain), "--plain: only for VTU"),
             (
-                self.lines.is_some() && !any(&lined) && !(self.plain && any(&[Format::Vtu])),
+                self.lines.is_some() && !leaves(Choice::Lines) && !(self.plain && leaves(Choice::PlainLines)),
                 "--lines: only for glTF, OBJ, vtk-text and plain VTU",
             ),
-            (self.xdmf == Grids::Single && !any(&[Format::Xdmf]), "--xdmf: only for XDMF"),
-            (self.colour != Colour::Quality && !any(&pictures), "--colour: only for pictures"),
-            (self.view.is_some() && !any(&pictures), "--view: only for pictures"),
+            (self.xdmf == Grids::Single && !leaves(Choice::Grids), "--xdmf: only for XDMF"),
+            (self.colour != Colour::Quality && !pictures, "--colour: only for pictures"),
+            (self.view.is_some() && !pictures, "--view: only for pictures"),
         ];
         if volume > Volume::Quiet {
             unused.iter().filter(|(unused, _)| *unused).for_each(|(_, what)| say::line(&format!("  {what}")));

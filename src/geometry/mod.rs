@@ -1,4 +1,4 @@
-//! Ground floor: points and vectors, exact signs, insertion order, box hierarchy, planes in space. Numbers only, nothing of meshes.
+//! Ground floor: points and vectors, exact signs, insertion order, box hierarchy, planes in space, numbers as text has them. Numbers only, nothing of meshes.
 
 pub mod boxes;
 pub mod dice;
@@ -6,6 +6,7 @@ pub mod exact;
 pub mod order;
 pub mod space;
 pub mod triangle;
+pub mod written;
 
 pub use kurbo::{Point, Rect, Vec2};
 

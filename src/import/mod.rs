@@ -1,23 +1,22 @@
-//! Readers: files → [`Drawing`]. One file a format; nothing is welded, split or dropped here, that is
+//! Readers: files → [`Drawing`], or coordinates of sections. A file or a folder a format, with what there is to know of it (`Facts`); the list
+//! of formats below is the only one. Nothing is welded, split or dropped here, that is
 //! [`Drawing::arrange`]'s part. Every quirk that a reader met and every liberty that it took is a sentence in [`Drawing::notes`].
 
 pub mod airfoil;
 pub mod dxf;
 mod foreign;
-pub mod mesh;
 pub mod outline;
 pub mod poly;
 mod selection;
-#[cfg(feature = "cad")]
 pub mod step;
 pub mod svg;
 
-pub use airfoil::{AirfoilOptions, TrailingEdge};
 pub use dxf::{DxfOptions, LineTypes};
 pub use selection::{Glob, Selection};
 pub use svg::{Strokes, SvgOptions};
 
 use crate::domain::Drawing;
+use crate::geometry::written::{number, numbers, tokens};
 use std::path::Path;
 
 /// Why a file cannot be read, where, and the way out.
@@ -43,48 +42,86 @@ fn place(line: &Option<usize>, column: &Option<usize>) -> String {
 }
 
 impl ImportError {
-    fn new(what: impl Into<String>, help: impl Into<String>) -> Self {
+    pub(crate) fn new(what: impl Into<String>, help: impl Into<String>) -> Self {
         Self { what: what.into(), line: None, column: None, help: help.into() }
     }
 
-    fn at(line: usize, what: impl Into<String>, help: impl Into<String>) -> Self {
+    pub(crate) fn at(line: usize, what: impl Into<String>, help: impl Into<String>) -> Self {
         Self { line: Some(line), ..Self::new(what, help) }
     }
 }
 
-/// A format that can be read.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Format {
+/// The formats: the enum, [`Format::ALL`] and the way to their facts.
+macro_rules! formats {
+    ($($(#[doc = $doc:literal])* $format:ident = $facts:path;)*) => {
+        /// A format of drawings.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum Format {
+            $($(#[doc = $doc])* $format,)*
+        }
+
+        impl Format {
+            pub const ALL: [Self; [$(Self::$format),*].len()] = [$(Self::$format),*];
+
+            const fn facts(self) -> &'static Facts {
+                match self {
+                    $(Self::$format => &$facts,)*
+                }
+            }
+        }
+    };
+}
+
+formats! {
     /// Airfoil coordinates: Selig, Lednicer, MSES/XFOIL blade files.
-    Airfoil,
+    Airfoil = airfoil::FACTS;
     /// Triangle's planar straight-line graph.
-    Poly,
+    Poly = poly::FACTS;
     /// Triangle's vertices alone.
-    Node,
+    Node = poly::FACTS_OF_NODE;
     /// Our own curves, as JSON.
-    Outline,
+    Outline = outline::FACTS;
     /// Drawings of CAD systems.
-    Dxf,
+    Dxf = dxf::FACTS;
     /// Scalable Vector Graphics, plain or compressed.
-    Svg,
+    Svg = svg::FACTS;
     /// STEP (ISO 10303-21): one planar face of a solid. Read where the feature `cad` is on.
-    Step,
+    Step = step::FACTS;
+}
+
+/// What there is to know of a format.
+struct Facts {
+    /// The name by which a user asks for the format.
+    name: &'static str,
+    /// Suffixes of its files, the usual one first.
+    suffixes: &'static [&'static str],
+    /// Whether the first bytes of a file are as this format has them, and how surely that tells.
+    sign: fn(&[u8]) -> bool,
+    certainty: Certainty,
+    /// Reads a file; the text is its name without suffix, the title where the file gives none.
+    read: fn(&[u8], &str, &Options) -> Result<Found, ImportError>,
+}
+
+/// How surely first bytes tell a format.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Certainty {
+    /// They say which it is: JSON starts with a brace, DXF with its sentinel or a section, XML and gzip each in their own way.
+    Mark,
+    /// They have a shape of their own, which no mark contradicts.
+    Shape,
+    /// They hold lines of numbers, as many files do: of the format, if of none above.
+    Numbers,
 }
 
 impl Format {
-    pub const ALL: [Self; 7] = [Self::Airfoil, Self::Poly, Self::Node, Self::Outline, Self::Dxf, Self::Svg, Self::Step];
-
     /// The name by which a user asks for the format.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Airfoil => "airfoil",
-            Self::Poly => "poly",
-            Self::Node => "node",
-            Self::Outline => "outline",
-            Self::Dxf => "dxf",
-            Self::Svg => "svg",
-            Self::Step => "step",
-        }
+    pub const fn name(self) -> &'static str {
+        self.facts().name
+    }
+
+    /// Suffixes of its files, the usual one first.
+    pub const fn suffixes(self) -> &'static [&'static str] {
+        self.facts().suffixes
     }
 
     /// The format of this name, as [`Format::name`] gives it.
@@ -92,50 +129,43 @@ impl Format {
         Self::ALL.into_iter().find(|f| f.name() == name)
     }
 
-    /// A guess from the first bytes, for files whose suffix says nothing.
-    ///
-    /// STEP says so, JSON starts with a brace, DXF with its sentinel or a section, XML and gzip each in their own way. Triangle's first line
-    /// holds whole numbers of which the second, the dimension, is 2; with one line of
-    /// that shape more, the segment header, it is a `.poly`. Anything else that has lines of two numbers may be an airfoil.
+    /// A guess from the first bytes, for files whose suffix says nothing: what says its format, else what has the shape of one, else numbers.
     pub fn sniff(bytes: &[u8]) -> Option<Self> {
-        let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-        Self::by_its_mark(bytes).or_else(|| poly::sniff(text)).or_else(|| airfoil::sniff(text).then_some(Self::Airfoil))
+        [Certainty::Mark, Certainty::Shape, Certainty::Numbers].into_iter().find_map(|by| Self::told(bytes, by))
     }
 
-    /// A format that says in its first bytes what it is.
-    fn by_its_mark(bytes: &[u8]) -> Option<Self> {
-        let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-        if text.trim_ascii_start().starts_with(b"ISO-10303-21") {
-            return Some(Self::Step);
-        }
-        if text.iter().find(|b| !b.is_ascii_whitespace()) == Some(&b'{') {
-            return Some(Self::Outline);
-        }
-        if dxf::sniff(bytes) {
-            return Some(Self::Dxf);
-        }
-        svg::sniff(text).then_some(Self::Svg)
+    fn told(bytes: &[u8], by: Certainty) -> Option<Self> {
+        Self::ALL.into_iter().find(|f| f.facts().certainty == by && (f.facts().sign)(bytes))
     }
+}
+
+fn without_bom(bytes: &[u8]) -> &[u8] {
+    bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)
 }
 
 /// The format that a file's suffix names; `None` where it names none.
 pub fn format_of(path: &Path) -> Option<Format> {
-    match path.extension()?.to_str()?.to_ascii_lowercase().as_str() {
-        "dat" | "txt" => Some(Format::Airfoil),
-        "poly" => Some(Format::Poly),
-        "node" => Some(Format::Node),
-        "json" => Some(Format::Outline),
-        "dxf" => Some(Format::Dxf),
-        "svg" | "svgz" => Some(Format::Svg),
-        "step" | "stp" => Some(Format::Step),
-        _ => None,
+    let suffix = path.extension()?.to_str()?;
+    Format::ALL.into_iter().find(|f| f.suffixes().iter().any(|s| s.eq_ignore_ascii_case(suffix)))
+}
+
+/// What a file holds.
+#[derive(Clone, Debug)]
+pub enum Found {
+    Drawing(Box<Drawing>),
+    /// Coordinates of sections, of which a drawing is made as it is wanted: by [`crate::section`].
+    Section(airfoil::Coordinates),
+}
+
+impl From<Drawing> for Found {
+    fn from(drawing: Drawing) -> Self {
+        Self::Drawing(Box::new(drawing))
     }
 }
 
 /// What a reader may be told.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Options {
-    pub airfoil: AirfoilOptions,
     /// The `.node` file beside a `.poly` file that holds no vertices of its own.
     pub nodes: Option<Vec<u8>>,
     pub svg: SvgOptions,
@@ -151,7 +181,7 @@ pub struct Options {
 /// # Errors
 /// Where neither tells, and where it is another kind of file: that, by name, and what can be done with it.
 pub fn tell_format(path: &Path, bytes: &[u8]) -> Result<Format, ImportError> {
-    if let Some(format) = format_of(path).or_else(|| Format::by_its_mark(bytes)) {
+    if let Some(format) = format_of(path).or_else(|| Format::told(bytes, Certainty::Mark)) {
         return Ok(format);
     }
     if let Some(foreign) = foreign::by_content(bytes).or_else(|| foreign::by_suffix(path)) {
@@ -166,7 +196,7 @@ pub fn tell_format(path: &Path, bytes: &[u8]) -> Result<Format, ImportError> {
 
 /// Refuses a file that is not of the format as which it is to be read, but of one that says so.
 fn refuse_other(bytes: &[u8], format: Format) -> Result<(), ImportError> {
-    let marked = Format::by_its_mark(bytes);
+    let marked = Format::told(bytes, Certainty::Mark);
     match marked {
         None => foreign::by_content(bytes).map_or(Ok(()), Err),
         Some(own) if own == format => Ok(()),
@@ -185,48 +215,11 @@ fn refuse_other(bytes: &[u8], format: Format) -> Result<(), ImportError> {
     }
 }
 
-/// Reads a drawing. `stem` (the file's name without its suffix) is the title where the file gives none.
+/// Reads a file. `stem` (the file's name without its suffix) is the title where the file gives none.
 ///
 /// # Errors
 /// [`ImportError`] with the line where the file breaks its format. Never panics, and takes memory in proportion to `bytes`.
-pub fn read(bytes: &[u8], format: Format, stem: &str, options: &Options) -> Result<Drawing, ImportError> {
+pub fn read(bytes: &[u8], format: Format, stem: &str, options: &Options) -> Result<Found, ImportError> {
     refuse_other(bytes, format)?;
-    match format {
-        Format::Airfoil => airfoil::read(bytes, stem, &options.airfoil),
-        Format::Poly => poly::read_poly(bytes, stem, options.nodes.as_deref()),
-        Format::Node => poly::read_node(bytes, stem),
-        Format::Outline => outline::read(bytes, stem),
-        Format::Dxf => dxf::read(bytes, stem, &options.dxf, &options.selection),
-        Format::Svg => svg::read(bytes, stem, &options.svg, &options.selection),
-        #[cfg(feature = "cad")]
-        Format::Step => step::read(bytes, stem, options.face.as_deref()),
-        #[cfg(not(feature = "cad"))]
-        Format::Step => {
-            let help = "build one that has: cargo install --locked --path . --features cad";
-            Err(ImportError::new("this build has no STEP reader", help))
-        }
-    }
-}
-
-/// A finite number as Fortran, C and spreadsheets write it (`.5`, `1.`, `-1.5D-03`); words such as `nan` are none.
-fn number(token: &[u8]) -> Option<f64> {
-    let text = std::str::from_utf8(token).ok()?;
-    if !text.starts_with(|c: char| c.is_ascii_digit() || matches!(c, '+' | '-' | '.')) {
-        return None;
-    }
-    let value = match text.parse::<f64>() {
-        Ok(value) => value,
-        Err(_) => text.replace(['d', 'D'], "e").parse().ok()?,
-    };
-    value.is_finite().then_some(value)
-}
-
-/// The tokens of a line between blanks, commas and semicolons.
-fn tokens(line: &[u8]) -> impl Iterator<Item = &[u8]> {
-    line.split(|b| b.is_ascii_whitespace() || matches!(b, b',' | b';')).filter(|t| !t.is_empty())
-}
-
-/// The tokens of a line, each as a number where it is one.
-fn numbers(line: &[u8]) -> impl Iterator<Item = Option<f64>> {
-    tokens(line).map(number)
+    (format.facts().read)(bytes, stem, options)
 }

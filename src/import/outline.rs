@@ -13,7 +13,7 @@
 //! # Ok::<(), squinch::import::ImportError>(())
 //! ```
 
-use super::ImportError;
+use super::{Certainty, Facts, ImportError, without_bom};
 use crate::curve::{Bezier, CircularArc, Curve, CurveError, EllipticArc, Spline};
 use crate::domain::{Clip, Drawing, DrawnCurve, DrawnPoint, FillRule, Seed, SeedKind, Shape, SizeRequest, Skipped};
 use crate::geometry::{Point, Vec2};
@@ -38,6 +38,14 @@ const END_SLACK: f64 = 1e-5;
 const HELP: &str = "`squinch schema outline` prints what the format holds";
 
 type Pair = [f64; 2];
+
+pub(super) const FACTS: Facts = Facts {
+    name: "outline",
+    suffixes: &["json"],
+    sign: |bytes| without_bom(bytes).trim_ascii_start().starts_with(b"{"),
+    certainty: Certainty::Mark,
+    read: |bytes, stem, _| read(bytes, stem).map(Into::into),
+};
 
 // ---- reading ----
 

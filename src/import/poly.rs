@@ -4,7 +4,7 @@
 //! Vertices that no segment uses are kept as points. As in Triangle every bounded face is meshed, but those reached from a hole
 //! point ([`FillRule::Regions`]), and where there are no segments the domain is the convex hull, whose lines are named `hull`.
 
-use super::{Format, ImportError, number, numbers, tokens};
+use super::{Certainty, Facts, ImportError, number, numbers, tokens, without_bom};
 use crate::curve::Curve;
 use crate::domain::{Drawing, DrawnCurve, DrawnPoint, FillRule, Seed, SeedKind, Skipped};
 use crate::geometry::exact::{Orientation, orient};
@@ -15,6 +15,22 @@ use std::collections::BTreeMap;
 /// Name of the boundary whose segments carry marker 0 or none.
 const UNMARKED: &str = "boundary";
 const FORMAT_HELP: &str = "see https://www.cs.cmu.edu/~quake/triangle.poly.html for the format";
+
+pub(super) const FACTS: Facts = Facts {
+    name: "poly",
+    suffixes: &["poly"],
+    sign: |bytes| sniff(bytes) == Some(Holds::More),
+    certainty: Certainty::Shape,
+    read: |bytes, stem, options| read_poly(bytes, stem, options.nodes.as_deref()).map(Into::into),
+};
+
+pub(super) const FACTS_OF_NODE: Facts = Facts {
+    name: "node",
+    suffixes: &["node"],
+    sign: |bytes| sniff(bytes) == Some(Holds::Vertices),
+    certainty: Certainty::Shape,
+    read: |bytes, stem, _| read_node(bytes, stem).map(Into::into),
+};
 
 /// Lines that hold something, with their numbers; comments (`#` to the end of the line) are cut off.
 struct Rows<'a> {
@@ -385,9 +401,17 @@ fn convex_hull(points: &[Point]) -> Vec<usize> {
     hull
 }
 
-/// Whether the text starts as Triangle's files do.
-pub(super) fn sniff(bytes: &[u8]) -> Option<Format> {
-    let mut rows = Rows::new(bytes);
+/// What a file of Triangle's holds.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Holds {
+    Vertices,
+    More,
+}
+
+/// What the text holds if it starts as Triangle's files do: the first line holds whole numbers of which the second, the dimension, is 2; with
+/// one line of that shape more, the segment header, it is a `.poly`.
+fn sniff(bytes: &[u8]) -> Option<Holds> {
+    let mut rows = Rows::new(without_bom(bytes));
     let header = rows.next()?;
     let mut head = numbers(header.text);
     let (count, dimension) = (whole(head.next()??)?, head.next()??);
@@ -396,5 +420,5 @@ pub(super) fn sniff(bytes: &[u8]) -> Option<Format> {
         return None;
     }
     let after = rows.nth(usize::try_from(count).ok()?);
-    Some(if after.is_some() || count == 0 { Format::Poly } else { Format::Node })
+    Some(if after.is_some() || count == 0 { Holds::More } else { Holds::Vertices })
 }

@@ -5,11 +5,12 @@
 
 use crate::curve::Curve;
 use crate::domain::{FillRule, Loose, NameBy, Naming};
-use crate::import::{AirfoilOptions, DxfOptions, Selection, Strokes};
+use crate::import::{DxfOptions, Selection, Strokes};
 use crate::options::{Described, OutOfBounds, Switch, described, number, scalar};
 use crate::plane::gcdr::{self, Regions};
 use crate::plane::lopping::Rules;
 use crate::promise::guaranteed_angle;
+use crate::section;
 use crate::size::Limits;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -106,7 +107,7 @@ pub struct Request {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub timeout: Option<f64>,
     #[serde(flatten)]
-    pub airfoil: AirfoilOptions,
+    pub airfoil: section::Options,
     /// The planar face to mesh, by its entity number or name, or largest; with batch, all gives each a mesh of its own [default: largest]
     #[schemars(extend("group" = "solids", "value" = "ID|NAME|largest|all"))]
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -140,7 +141,7 @@ impl Default for Request {
             gcdr: gcdr::Choices::default(),
             max_vertices: 5_000_000,
             timeout: None,
-            airfoil: AirfoilOptions::default(),
+            airfoil: section::Options::default(),
             face: None,
         }
     }

@@ -4,7 +4,8 @@ use super::report::{FailureKind, FailureReport};
 use super::request::Request;
 use crate::domain::{Drawing, DrawnCurve, SizeRequest, Unmatched};
 use crate::geometry::{Point, metres};
-use crate::import::{self, AirfoilOptions, Format, SvgOptions};
+use crate::import::{self, Format, SvgOptions};
+use crate::section;
 use kurbo::Affine;
 use std::path::Path;
 
@@ -27,14 +28,14 @@ pub fn read(source: &Source, request: &Request) -> Result<Drawing, FailureReport
     let format = source.format.map_or_else(|| import::tell_format(path, source.bytes), Ok)?;
     let stem = path.file_stem().map_or("", |s| s.to_str().unwrap_or(""));
     let options = import::Options {
-        airfoil: request.airfoil.clone(),
         nodes: source.nodes.map(<[u8]>::to_vec),
         svg: SvgOptions { strokes: request.strokes, dpi: request.dpi },
         face: request.face.clone(),
         dxf: request.dxf,
         selection: request.selection.clone(),
     };
-    let mut drawing = import::read(source.bytes, format, stem, &options)?;
+    let found = import::read(source.bytes, format, stem, &options)?;
+    let mut drawing = section::drawn(found, &request.airfoil)?;
     drawing.notes.extend(unused_options(format, request));
     drawing.notes.extend(unused_face(format, request));
     tell_unmatched(&mut drawing, source.of_many)?;
@@ -61,7 +62,7 @@ fn give_names(drawing: &mut Drawing, request: &Request, of_many: bool) -> Result
 
 /// Says which options a drawing of this format has no use for.
 fn unused_options(format: Format, request: &Request) -> Option<String> {
-    let (asked, default) = (&request.airfoil, AirfoilOptions::default());
+    let (asked, default) = (&request.airfoil, section::Options::default());
     let of_airfoils = [
         ("--trailing-edge", asked.trailing_edge != default.trailing_edge),
         ("--far-field", asked.far_field != default.far_field),

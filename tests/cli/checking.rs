@@ -58,10 +58,14 @@ fn rewritten(mesh: &Mesh) -> Vec<(&'static str, Mesh)> {
     ]
 }
 
+fn read_vtu(bytes: &[u8]) -> Result<meshio::MeshFile, meshio::MeshError> {
+    meshio::read(bytes, meshio::Format::Vtu, &[])
+}
+
 fn write_mesh(bench: &Bench, file: &str, mesh: &Mesh) {
-    let mut bytes = Vec::new();
-    export::vtu::write(mesh, &[], &mut bytes).expect("a vector takes everything");
-    fs::write(bench.0.join(file), bytes).expect("a mesh is written");
+    let bytes =
+        meshio::encode(mesh, &[], meshio::Format::Vtu, &meshio::WriteOptions::default()).expect("the lists fit");
+    fs::write(bench.0.join(file), bytes.concat()).expect("a mesh is written");
 }
 
 #[test]
@@ -71,7 +75,7 @@ fn a_mesh_that_another_program_rewrote_is_judged_by_where_its_nodes_lie() {
     fs::copy(plate, bench.0.join("plate.json")).expect("a sample");
     for (drawing, edge) in [("lens.json", "0.3"), ("square.poly", "0.3"), ("plate.json", "2")] {
         bench.ends(0, &["mesh", drawing, "-o", "a.vtu", "--max-edge", edge]);
-        let ours = vtu::read(&fs::read(bench.0.join("a.vtu")).unwrap()).expect("our own mesh").mesh;
+        let ours = read_vtu(&fs::read(bench.0.join("a.vtu")).unwrap()).expect("our own mesh").mesh;
         for (what, mesh) in rewritten(&ours) {
             write_mesh(&bench, "b.vtu", &mesh);
             let check = ["check", "b.vtu", "--against", drawing, "--report", "r.json"];
@@ -110,7 +114,7 @@ fn is_on_rim(mesh: &Mesh, v: VertexId) -> bool {
 fn a_rewritten_mesh_with_wrong_names_is_broken() {
     let bench = Bench::new("misnamed");
     bench.ends(0, &["mesh", "lens.json", "-o", "a.vtu", "--max-edge", "0.2"]);
-    let ours = vtu::read(&fs::read(bench.0.join("a.vtu")).unwrap()).expect("our own mesh").mesh;
+    let ours = read_vtu(&fs::read(bench.0.join("a.vtu")).unwrap()).expect("our own mesh").mesh;
     let mut swapped = ours.clone().untied();
     let other = swapped.names.find("above").expect("a boundary");
     swapped.edges[0].name = other;

@@ -10,11 +10,11 @@ mod healing;
 mod meshing;
 mod usage;
 
-use squinch::export;
 use squinch::geometry::{Point, Vec2};
 use squinch::ids::{IdVec, NameId, VertexId};
-use squinch::import::mesh::vtu;
+use squinch::import;
 use squinch::mesh::Mesh;
+use squinch::{meshio, picture};
 use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};

@@ -168,6 +168,44 @@ fn short_help_is_for_jobs_and_long_help_for_all() {
     assert!(!printed(&bench.ends(0, &["-h"])).contains("130"), "exit codes are in the long help");
 }
 
+/// Every format is in the lists that people read, on the command line and in the README.
+#[test]
+fn help_lists_every_format() {
+    let bench = Bench::new("help-formats");
+    let help = |verb| printed(&bench.ends(0, &[verb, "--help"])).split_whitespace().collect::<Vec<_>>().join(" ");
+    let [mesh, convert, check] = ["mesh", "convert", "check"].map(help);
+    let all = format!("{} {}", meshio::Format::ALL.map(|f| f.name()).join(" "), "svg png");
+    let refused = printed(&bench.ends(2, &["mesh", "square.poly", "-o", "square.vtu", "--format", "none"]));
+    for name in all.split(' ') {
+        assert!(refused.contains(name), "{name} is not offered: {refused}");
+    }
+    for format in meshio::Format::ALL {
+        let main = format.suffixes()[0];
+        assert!(mesh.contains(&format!(".{main}")), "{main} is not among the outputs of `squinch mesh`");
+        if let Some(reading) = format.reading() {
+            let suffix = format!(".{}", reading.suffix);
+            assert!(convert.contains(&suffix) && check.contains(&suffix), "{suffix} is not among the meshes read");
+        }
+    }
+    for format in picture::Format::ALL {
+        assert!(mesh.contains(&format!(".{}", format.name())), "{format:?} is not among the outputs");
+    }
+    let names = import::Format::ALL.map(|f| f.name()).join(", ");
+    assert!(mesh.contains(&names), "--input-format names {names}");
+    for format in import::Format::ALL {
+        let suffix = format!(".{}", format.suffixes()[0]);
+        assert!(mesh.contains(&suffix), "{suffix} is not among the drawings of `squinch mesh`");
+    }
+    let readme = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/README.md")).expect("a README");
+    let bullet = |word: &str| {
+        let from = readme.split_once(&format!("- **{word}**")).expect(word).1;
+        from.split("\n- **").next().unwrap_or(from).to_lowercase()
+    };
+    let (reads, writes) = (bullet("Reads"), bullet("Writes"));
+    import::Format::ALL.iter().for_each(|f| assert!(reads.contains(f.name()), "{f:?} is not in the README"));
+    meshio::Format::ALL.iter().for_each(|f| assert!(writes.contains(f.name()), "{f:?} is not in the README"));
+}
+
 /// The commands that a help text shows.
 fn shown_in(help: &str) -> Vec<Vec<String>> {
     let commands = help.lines().filter_map(|line| line.split_once("  squinch "));

@@ -12,8 +12,13 @@ use proptest::prelude::*;
 use squinch::curve::{Curve, End};
 use squinch::domain::{ArrangeOptions, Drawing, FillRule, SeedKind};
 use squinch::geometry::{Point, Vec2};
-use squinch::import::{DxfOptions, Format, ImportError, LineTypes, Options, Selection, read};
+use squinch::import::{self, DxfOptions, Format, ImportError, LineTypes, Options, Selection};
+use squinch::section;
 use std::f64::consts::{FRAC_PI_2, PI};
+
+fn read(bytes: &[u8], format: Format, stem: &str, options: &Options) -> Result<Drawing, ImportError> {
+    section::drawn(import::read(bytes, format, stem, options)?, &section::Options::default())
+}
 
 fn pairs(short: &str) -> Vec<(i32, &str)> {
     short

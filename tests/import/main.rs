@@ -9,15 +9,28 @@ use proptest::prelude::*;
 use squinch::curve::{Curve, End};
 use squinch::domain::{Drawing, DrawnCurve, FillRule, SeedKind, SizeRequest};
 use squinch::geometry::Point;
-use squinch::import::{AirfoilOptions, Format, ImportError, Options, TrailingEdge, format_of, outline, read};
+use squinch::import::{self, Format, ImportError, format_of, outline};
+use squinch::section::{self, TrailingEdge};
 use std::path::{Path, PathBuf};
+
+/// How a file is read, and a section drawn.
+#[derive(Default)]
+struct Options {
+    airfoil: section::Options,
+    nodes: Option<Vec<u8>>,
+}
+
+fn read(bytes: &[u8], format: Format, stem: &str, options: &Options) -> Result<Drawing, ImportError> {
+    let told = import::Options { nodes: options.nodes.clone(), ..import::Options::default() };
+    section::drawn(import::read(bytes, format, stem, &told)?, &options.airfoil)
+}
 
 fn section_only() -> Options {
     airfoil(TrailingEdge::Keep, 0.0, 0.0)
 }
 
 fn airfoil(trailing_edge: TrailingEdge, far_field: f64, incidence_deg: f64) -> Options {
-    Options { airfoil: AirfoilOptions { trailing_edge, far_field, incidence_deg, chord: None }, ..Options::default() }
+    Options { airfoil: section::Options { trailing_edge, far_field, incidence_deg, chord: None }, ..Options::default() }
 }
 
 fn dat(text: &str) -> Drawing {

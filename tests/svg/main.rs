@@ -13,12 +13,18 @@ use proptest::prelude::*;
 use squinch::curve::Curve;
 use squinch::domain::{ArrangeOptions, Drawing, FillRule};
 use squinch::geometry::Point;
-use squinch::import::{Format, ImportError, Options, Selection, Strokes, SvgOptions, format_of, read};
+use squinch::import::{self, Format, ImportError, Options, Selection, Strokes, SvgOptions, format_of};
+use squinch::meshio::{self, WriteOptions, encode};
 use squinch::plane::lopping::{self, refine};
 use squinch::refine::Until;
+use squinch::section;
 use std::f64::consts::PI;
 use std::io::Write;
 use std::path::Path;
+
+fn read(bytes: &[u8], format: Format, stem: &str, options: &Options) -> Result<Drawing, ImportError> {
+    section::drawn(import::read(bytes, format, stem, options)?, &section::Options::default())
+}
 
 const OPEN: &str = r#"<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink"
  xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape" viewBox="0 0 100 100">"#;

@@ -125,8 +125,8 @@ fn colours_reach_gltf_and_vtu() {
     let drawing = svg(r##"<rect id="a" width="5" height="5" fill="#ff8000" fill-opacity=".5"/>"##);
     let domain = drawing.arrange(&ArrangeOptions::default()).unwrap().split_to_turning(0.5);
     let mesh = refine(&domain, &lopping::Options::default(), Until::End, &mut |_| true).unwrap().mesh.unwrap();
-    let mut text = Vec::new();
-    squinch::export::gltf::write_gltf(&mesh, true, &mut text).unwrap();
+    let written = |format| encode(&mesh, &[], format, &WriteOptions::default()).unwrap().concat();
+    let text = written(meshio::Format::Gltf);
     let document: serde_json::Value = serde_json::from_slice(&text).unwrap();
     let material = document["materials"].as_array().unwrap().iter().find(|m| m["name"] == "a").unwrap();
     let factor = &material["pbrMetallicRoughness"]["baseColorFactor"];
@@ -137,9 +137,7 @@ fn colours_reach_gltf_and_vtu() {
         .enumerate()
         .for_each(|(k, part)| assert!((factor[k].as_f64().unwrap_or(0.0) - part).abs() < 1e-3, "{factor}"));
     assert_eq!(material["alphaMode"], "BLEND");
-    let mut text = Vec::new();
-    squinch::export::vtu::write(&mesh, &[], &mut text).unwrap();
-    assert!(String::from_utf8_lossy(&text).contains(r#"Name="colour" NumberOfComponents="4""#));
+    assert!(String::from_utf8_lossy(&written(meshio::Format::Vtu)).contains(r#"Name="colour" NumberOfComponents="4""#));
 }
 
 #[test]

@@ -5,11 +5,11 @@
 //! done is there, and the rest is done by `--resume`.
 
 use crate::cli::files;
+use crate::cli::output::Output;
 use crate::cli::writing::Writing;
 use crate::cli::{Halt, Volume, say};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use squinch::export::Format;
 use squinch::run::report::{FailureKind, FailureReport};
 use squinch::run::request::Request;
 use squinch::run::{self, Exit, Outcome};
@@ -116,7 +116,7 @@ impl Record {
         path: &Path,
         resume: bool,
         request: &Request,
-        formats: &[Format],
+        formats: &[Output],
         writing: &Writing,
     ) -> Result<Self, Halt> {
         let shown = path.display().to_string();

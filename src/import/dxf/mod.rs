@@ -29,7 +29,7 @@ mod sections;
 mod spline;
 mod text;
 
-use super::{ImportError, Selection};
+use super::{Certainty, Facts, ImportError, Selection};
 use crate::domain::Drawing;
 use crate::options::Switch;
 use blocks::Sketch;
@@ -38,10 +38,13 @@ use schemars::JsonSchema;
 use sections::Sections;
 use serde::{Deserialize, Serialize};
 
-/// Whether the bytes start as a DXF file does.
-pub(super) fn sniff(bytes: &[u8]) -> bool {
-    pairs::sniff(bytes)
-}
+pub(super) const FACTS: Facts = Facts {
+    name: "dxf",
+    suffixes: &["dxf"],
+    sign: pairs::sniff,
+    certainty: Certainty::Mark,
+    read: |bytes, stem, options| read(bytes, stem, &options.dxf, &options.selection).map(Into::into),
+};
 
 /// Which line types are read.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]

@@ -23,8 +23,8 @@ mod units;
 mod walk;
 mod xml;
 
-use super::ImportError;
 use super::selection::{Chooser, Selection};
+use super::{Certainty, Facts, ImportError, without_bom};
 use crate::curve::Curve;
 use crate::domain::{Drawing, Skipped};
 use crate::geometry::Rect;
@@ -52,6 +52,14 @@ const MASK: &str = "masks are not applied";
 const BACKGROUND: &str = "background";
 /// How far such a rectangle may stay inside the page, as a part of its diagonal: programs round.
 const BACKGROUND_SLACK: f64 = 1e-3;
+
+pub(super) const FACTS: Facts = Facts {
+    name: "svg",
+    suffixes: &["svg", "svgz"],
+    sign: |bytes| sniff(without_bom(bytes)),
+    certainty: Certainty::Mark,
+    read: |bytes, stem, options| read(bytes, stem, &options.svg, &options.selection).map(Into::into),
+};
 
 /// What becomes of strokes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]

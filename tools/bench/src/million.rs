@@ -1,7 +1,7 @@
 //! About 10⁶ triangles on a curved sample.
 
 use crate::run;
-use squinch::export::vtu;
+use squinch::meshio::{Format, WriteOptions, encode};
 use squinch::plane::lopping::Options;
 use squinch::size::Sizing;
 use std::time::Instant;
@@ -14,8 +14,7 @@ pub fn print() {
     let options = Options { sizing, ..run::unsized_options(20.7f64.to_radians()) };
     let r = run::run(&drawing, 0.5, &options).expect("the sample meshes");
     let start = Instant::now();
-    let mut bytes = Vec::new();
-    vtu::write(&r.mesh, &[], &mut bytes).expect("memory holds the file");
+    let bytes = encode(&r.mesh, &[], Format::Vtu, &WriteOptions::default()).expect("memory holds the file").concat();
     let write = start.elapsed().as_secs_f64();
     let n = r.mesh.triangles.len();
     println!("{n} triangles, kept: {}", r.verdict.kept());

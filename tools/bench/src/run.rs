@@ -5,6 +5,7 @@ use squinch::import::{self, Format};
 use squinch::mesh::{Mesh, quality};
 use squinch::plane::lopping::{self, Options};
 use squinch::refine::{Counters, Stop, Until};
+use squinch::section;
 use squinch::size::Sizing;
 use squinch::verify::{self, Status, Verdict};
 use std::time::Instant;
@@ -32,7 +33,8 @@ pub struct Seconds {
 pub fn read(path: &str) -> Result<Drawing, String> {
     let bytes = std::fs::read(path).map_err(|e| format!("{path}: {e}"))?;
     let format = import::format_of(path.as_ref()).unwrap_or(Format::Outline);
-    import::read(&bytes, format, path, &import::Options::default()).map_err(|e| format!("{path}: {e}"))
+    let found = import::read(&bytes, format, path, &import::Options::default());
+    found.and_then(|found| section::drawn(found, &section::Options::default())).map_err(|e| format!("{path}: {e}"))
 }
 
 /// Meshes and judges a drawing.

@@ -5,10 +5,12 @@ pub mod sketch;
 use sketch::Sketch;
 use squinch::domain::{ArrangeOptions, Domain, Drawing, FillRule, Loose, Naming, Unarranged};
 use squinch::geometry::{magnitude, scaled};
-use squinch::import::{AirfoilOptions, DxfOptions, Format, LineTypes, Strokes, TrailingEdge, mesh};
+use squinch::import::{DxfOptions, Format, LineTypes, Strokes};
+use squinch::meshio;
 use squinch::options::Switch;
-use squinch::run::{self, Exit, Extent, Outcome, Plan, Source};
 use squinch::run::request::{Keep, Request};
+use squinch::run::{self, Exit, Extent, Outcome, Plan, Source};
+use squinch::section::{self, TrailingEdge};
 use squinch::watch::{Progress, no_clock};
 use std::collections::BTreeMap;
 
@@ -38,11 +40,11 @@ fn file_and_request(bytes: &[u8]) -> (&[u8], Request) {
     let chosen = |bit: u8| choice & (1 << bit) != 0;
     let request = Request {
         max_vertices: VERTICES,
-        airfoil: AirfoilOptions {
+        airfoil: section::Options {
             far_field: if chosen(0) { 0.0 } else { 2.0 },
             trailing_edge: if chosen(1) { TrailingEdge::Sharp } else { TrailingEdge::Keep },
             chord: chosen(2).then_some(3.0),
-            ..AirfoilOptions::default()
+            ..section::Options::default()
         },
         strokes: if chosen(0) { Strokes::Area } else { Strokes::Auto },
         dxf: DxfOptions {
@@ -75,12 +77,13 @@ pub fn read(bytes: &[u8], formats: &[Format]) {
 /// Reads bytes as a mesh file: of the format that they look like, else as the two that no first bytes tell. A byte 0xff parts a `.ele` file
 /// from the files beside it.
 pub fn read_mesh(bytes: &[u8]) {
-    let guessed = mesh::Format::sniff(bytes);
-    for format in guessed.map_or(vec![mesh::Format::Stl, mesh::Format::Triangle], |format| vec![format]) {
-        let mut files = bytes.split(|&b| b == 0xff && !format.beside().is_empty());
+    let guessed = meshio::Format::sniff(bytes);
+    for format in guessed.map_or(vec![meshio::Format::Stl, meshio::Format::Triangle], |format| vec![format]) {
+        let several = format.reading().is_some_and(|reading| !reading.beside.is_empty());
+        let mut files = bytes.split(|&b| b == 0xff && several);
         let main = files.next().unwrap_or_default();
         let beside: Vec<_> = files.map(|file| Some(file.to_vec())).collect();
-        match mesh::read(main, format, &beside) {
+        match meshio::read(main, format, &beside) {
             Ok(file) => {
                 // Whatever is read can be judged.
                 Plan::without_domain(&Request::default()).judge_file(None, &file.mesh);

@@ -4,7 +4,8 @@
 //! a time: the module has one thread, and one buffer either way. `unsafe` is said of the exported names alone, which no other symbol may have;
 //! no memory is touched by pointers here.
 
-use squinch::export::{self, WriteOptions};
+use squinch::meshio::{self, WriteOptions};
+use squinch::picture::{self, MeshColour, PictureOptions, picture_of_mesh};
 use squinch::prelude::*;
 use std::sync::{Mutex, PoisonError};
 
@@ -30,7 +31,8 @@ pub extern "C" fn output() -> *const u8 {
 #[unsafe(no_mangle)]
 pub extern "C" fn mesh(name: usize, format: usize) -> isize {
     let input = INPUT.lock().unwrap_or_else(PoisonError::into_inner);
-    let (sign, bytes) = match parts(&input, name, format).and_then(|(name, format, bytes)| meshed(name, format, bytes)) {
+    let (sign, bytes) = match parts(&input, name, format).and_then(|(name, format, bytes)| meshed(name, format, bytes))
+    {
         Ok(bytes) => (1, bytes),
         Err(message) => (-1, message.into_bytes()),
     };
@@ -46,18 +48,28 @@ fn parts(input: &[u8], name: usize, format: usize) -> Result<(&str, &str, &[u8])
     Ok((name?, format?, bytes))
 }
 
-/// The mesh of a drawing by the defaults, as a file of one part.
+/// The mesh of a drawing by the defaults, or a picture of it, as a file of one part.
 ///
 /// # Errors
 /// What is wrong, and the way out.
 pub fn meshed(name: &str, format: &str, bytes: &[u8]) -> Result<Vec<u8>, String> {
     let source = Source { path: name, bytes, format: None, nodes: None, of_many: false };
-    let format = export::Format::named(format).ok_or_else(|| format!("{format}: no format of meshes"))?;
+    let (file, picture) = (meshio::Format::named(format), picture::Format::named(format));
+    if file.is_none() && picture.is_none() {
+        return Err(format!("{format}: no format of meshes"));
+    }
     let outcome = run(&source, &Request::default(), Extent::Whole(&mut |_progress| true), &no_clock);
     if let Some(failure) = outcome.report.failure {
         return Err(format!("{}: {}", failure.what, failure.help));
     }
     let mesh = outcome.mesh.ok_or("no mesh")?;
-    let files = export::encode(&mesh, outcome.domain.as_ref(), &[], format, &WriteOptions::default());
-    files.map_err(|e| e.to_string())?.into_iter().next().ok_or_else(|| "nothing was written".to_owned())
+    let draw = |format: picture::Format| {
+        let options = PictureOptions::default();
+        format.encode(&picture_of_mesh(&mesh, outcome.domain.as_ref(), MeshColour::Quality, &options))
+    };
+    let write = |format| {
+        Ok(meshio::encode(&mesh, &[], format, &WriteOptions::default())?.into_iter().next().unwrap_or_default())
+    };
+    let written = file.map(write).or_else(|| picture.map(draw));
+    written.ok_or("nothing was written")?.map_err(|e: std::io::Error| e.to_string())
 }

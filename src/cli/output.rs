@@ -1,0 +1,138 @@
+//! What an output is: a mesh file or a picture of the mesh, by which name it is asked for, and the files that it consists of.
+
+use super::Halt;
+use super::writing::Writing;
+use squinch::domain::Domain;
+use squinch::mesh::Mesh;
+use squinch::meshio;
+use squinch::picture::{self, picture_of_mesh};
+use squinch::run::request::Request;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// The format of an output.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Output {
+    Mesh(meshio::Format),
+    /// Holds no mesh.
+    Picture(picture::Format),
+}
+
+impl Output {
+    fn all() -> impl Iterator<Item = Self> {
+        meshio::Format::ALL.into_iter().map(Self::Mesh).chain(picture::Format::ALL.into_iter().map(Self::Picture))
+    }
+
+    /// The names of all formats, for people.
+    fn names() -> String {
+        Self::all().map(Self::name).collect::<Vec<_>>().join(", ")
+    }
+
+    /// The name by which a user asks for the format.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Mesh(format) => format.name(),
+            Self::Picture(format) => format.name(),
+        }
+    }
+
+    /// Suffixes of the files that an output consists of, in the order of [`Output::encode`].
+    pub fn suffixes(self) -> &'static [&'static str] {
+        match self {
+            Self::Mesh(format) => format.suffixes(),
+            Self::Picture(format) => format.suffixes(),
+        }
+    }
+
+    /// The format of this name, for options.
+    pub fn named(name: &str) -> Result<Self, String> {
+        let found = Self::all().find(|output| output.name().eq_ignore_ascii_case(name));
+        found.ok_or_else(|| format!("one of {}", Self::names()))
+    }
+
+    /// The format of an output: as asked for, else by its suffix.
+    pub fn of(path: &Path, asked: Option<Self>) -> Result<Self, Halt> {
+        let by_suffix = || {
+            let mesh = meshio::Format::to_write(path).map(Self::Mesh);
+            mesh.or_else(|| picture::Format::of(path).map(Self::Picture))
+        };
+        let output = asked
+            .or_else(by_suffix)
+            .ok_or_else(|| Halt::Usage(format!("{}: say its format by --format: {}", path.display(), Self::names())))?;
+        if path.as_os_str() == "-" && output.files(path).len() > 1 {
+            let files = output.suffixes().join(", .");
+            return Err(Halt::Usage(format!("-o -: {} is several files: .{files}", output.name())));
+        }
+        Ok(output)
+    }
+
+    /// The files that an output consists of: the one named, or of a format of several those beside it. Where the first keeps the name that was
+    /// given, there is nothing beside it without a [`stem`].
+    pub fn files(self, path: &Path) -> Vec<PathBuf> {
+        let several = self.suffixes();
+        let as_named = match self {
+            Self::Mesh(format) => format.first_as_named(),
+            Self::Picture(_) => true,
+        };
+        let by_suffix = || several.iter().map(|suffix| path.with_extension(suffix));
+        let is_beside = |suffix: &&str| path.extension().is_some_and(|given| given.eq_ignore_ascii_case(suffix));
+        match several {
+            [_, beside @ ..] if as_named => {
+                if beside.is_empty() || stem(path).is_none() {
+                    return vec![path.to_owned()];
+                }
+                if beside.iter().any(is_beside) {
+                    return by_suffix().collect();
+                }
+                [path.to_owned()].into_iter().chain(by_suffix().skip(1)).collect()
+            }
+            _ => by_suffix().collect(),
+        }
+    }
+
+    /// A format that cannot hold what is asked for is refused before there is a mesh.
+    pub fn hold_order(self, request: &Request) -> Result<(), Halt> {
+        let order = u64::from(request.order);
+        match self {
+            Self::Mesh(format) => {
+                format.holds_order(order as u8).map_err(|e| Halt::Usage(format!("--order {order}: {e}")))
+            }
+            Self::Picture(_) => Ok(()),
+        }
+    }
+
+    /// What of this mesh the output does not hold.
+    pub fn losses(self, mesh: &Mesh, writing: &Writing, path: &Path) -> Vec<&'static str> {
+        match self {
+            Self::Mesh(format) => format.losses(mesh, &writing.options(path)),
+            Self::Picture(_) => vec!["the mesh: a picture shows it"],
+        }
+    }
+
+    /// The bytes of each file. Pictures have the exact curves where the domain is given.
+    pub fn encode(
+        self,
+        mesh: &Mesh,
+        domain: Option<&Domain>,
+        stamps: &[(String, String)],
+        writing: &Writing,
+        path: &Path,
+    ) -> io::Result<Vec<Vec<u8>>> {
+        match self {
+            Self::Mesh(format) => meshio::encode(mesh, stamps, format, &writing.options(path)),
+            Self::Picture(format) => {
+                let (colour, options) = writing.picture();
+                Ok(vec![format.encode(&picture_of_mesh(mesh, domain, colour, &options))?])
+            }
+        }
+    }
+}
+
+/// The name without suffix by which files beside an output call it; `None` of a stream, and of a name that no text can hold.
+pub fn stem(path: &Path) -> Option<String> {
+    let is_stream =
+        path.as_os_str() == "-" || fs::metadata(path).is_ok_and(|there| !there.is_file() && !there.is_dir());
+    let stem = path.file_stem()?.to_str()?;
+    (!is_stream && !stem.contains(char::is_control)).then(|| stem.to_owned())
+}

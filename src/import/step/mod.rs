@@ -1,0 +1,23 @@
+//! STEP (ISO 10303-21): one planar face of a solid, read where the feature `cad` is on.
+
+#[cfg(feature = "cad")]
+mod read;
+
+#[cfg(feature = "cad")]
+pub use read::{faces, read};
+
+use super::{Certainty, Facts, without_bom};
+
+pub(super) const FACTS: Facts = Facts {
+    name: "step",
+    suffixes: &["step", "stp"],
+    sign: |bytes| without_bom(bytes).trim_ascii_start().starts_with(b"ISO-10303-21"),
+    certainty: Certainty::Mark,
+    #[cfg(feature = "cad")]
+    read: |bytes, stem, options| read(bytes, stem, options.face.as_deref()).map(Into::into),
+    #[cfg(not(feature = "cad"))]
+    read: |_, _, _| {
+        let help = "build one that has: cargo install --locked --path . --features cad";
+        Err(super::ImportError::new("this build has no STEP reader", help))
+    },
+};

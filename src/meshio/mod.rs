@@ -1,0 +1,327 @@
+//! Mesh files: [`Mesh`] → files, and files, ours or not, → [`Mesh`], with the names that the format has.
+//!
+//! A format is a file, or a folder with `write.rs` and `read.rs`. What there is to know of it is said once, in its `Facts`, and the list of
+//! formats below is the only one: the enum, its names and suffixes, the writer, the reader and what the writer loses are all made from that line.
+//!
+//! Written is all that a format can hold; [`Format::losses`] tells the rest. Read are triangles and lines, straight ones or of second order
+//! (all of one kind), in a plane. Vertices as cells are left out and counted; any other cell is an error. Nothing is believed: every count is
+//! held against the bytes at hand.
+
+mod colours;
+mod draft;
+mod gltf;
+mod groups;
+mod inp;
+mod losses;
+mod msh;
+mod names;
+mod obj;
+mod stl;
+mod su2;
+mod triangle;
+mod vtk;
+mod vtu;
+mod xdmf;
+
+use crate::mesh::Mesh;
+use losses::Losses;
+use std::io;
+use std::path::Path;
+
+/// The formats, in the order in which they are listed and in which their marks are looked for: the enum, [`Format::ALL`] and the way to
+/// their facts.
+macro_rules! formats {
+    ($($(#[doc = $doc:literal])* $format:ident = $facts:path;)*) => {
+        /// A format of mesh files.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+        pub enum Format {
+            $($(#[doc = $doc])* $format,)*
+        }
+
+        impl Format {
+            pub const ALL: [Self; [$(Self::$format),*].len()] = [$(Self::$format),*];
+
+            const fn facts(self) -> &'static Facts {
+                match self {
+                    $(Self::$format => &$facts,)*
+                }
+            }
+        }
+    };
+}
+
+formats! {
+    /// VTK XML unstructured grid: all that a mesh holds.
+    Vtu = vtu::FACTS;
+    /// Legacy VTK, written in binary.
+    Vtk = vtk::FACTS;
+    /// Legacy VTK as text, for readers that know no other (MFEM, deal.II, Gmsh).
+    VtkText = vtk::FACTS_OF_TEXT;
+    /// Gmsh, written as 4.1 in binary.
+    Msh = msh::FACTS;
+    /// Gmsh 2.2, text.
+    Msh22 = msh::FACTS_OF_22;
+    /// SU2, of two dimensions.
+    Su2 = su2::FACTS;
+    /// Abaqus and CalculiX.
+    Inp = inp::FACTS;
+    /// XDMF 3, text.
+    Xdmf = xdmf::FACTS;
+    /// Triangle's `.node`, `.ele` and `.poly`.
+    Triangle = triangle::FACTS;
+    /// glTF 2.0, binary.
+    Glb = gltf::FACTS_OF_GLB;
+    /// glTF 2.0, text.
+    Gltf = gltf::FACTS;
+    /// Wavefront, with its materials.
+    Obj = obj::FACTS;
+    /// STL, written as text.
+    Stl = stl::FACTS;
+}
+
+/// The bytes of each file of an output.
+type Files = Vec<Vec<u8>>;
+/// Keys and values that say how a mesh was made.
+type Stamps = [(String, String)];
+/// The files beside the one that is read, as far as there are any.
+type Beside = [Option<Vec<u8>>];
+
+/// What there is to know of a format.
+struct Facts {
+    /// The name by which a user asks for the format.
+    name: &'static str,
+    /// Suffixes of the files of one output, in the order of [`encode`].
+    suffixes: &'static [&'static str],
+    /// Whether the first file keeps the name that the user gave and the others stand beside it, where the output has a name at all.
+    /// Otherwise each file has its own suffix, whatever the user's.
+    first_as_named: bool,
+    /// What the format leaves to choose.
+    choices: &'static [Choice],
+    /// Where it has straight cells only, and refuses others: what can be done.
+    straight_only: Option<&'static str>,
+    write: fn(&Mesh, &Stamps, &WriteOptions) -> io::Result<Files>,
+    /// Tells what of a mesh is not held, in the order in which people are told.
+    losses: fn(&mut Losses),
+    /// `None`: the format is only written.
+    reading: Option<Reading>,
+}
+
+/// How a format is read.
+pub struct Reading {
+    /// The suffix of the file that is read.
+    pub suffix: &'static str,
+    /// Suffixes of files that are read beside it.
+    pub beside: &'static [&'static str],
+    /// Whether a file may be of this format, by its first bytes, blanks left out.
+    begins: fn(&[u8]) -> bool,
+    /// Reads the file, with those beside it as far as there are any.
+    read: fn(&[u8], &Beside) -> Result<MeshFile>,
+}
+
+/// A choice of [`WriteOptions`] that some formats leave.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Choice {
+    /// [`WriteOptions::plain`].
+    Plain,
+    /// [`WriteOptions::lines`].
+    Lines,
+    /// The same, of what [`WriteOptions::plain`] writes.
+    PlainLines,
+    /// [`WriteOptions::xdmf`].
+    Grids,
+}
+
+impl Format {
+    /// The name by which a user asks for the format.
+    pub const fn name(self) -> &'static str {
+        self.facts().name
+    }
+
+    /// Suffixes of the files that one output consists of: of most formats one, in the order of [`encode`].
+    pub const fn suffixes(self) -> &'static [&'static str] {
+        self.facts().suffixes
+    }
+
+    /// Whether the first file of an output keeps the name that a user gave, whatever its suffix, and the others stand beside it, where the
+    /// output has a name ([`WriteOptions::stem`]); otherwise every file has its own suffix.
+    pub const fn first_as_named(self) -> bool {
+        self.facts().first_as_named
+    }
+
+    /// Whether the format leaves a choice.
+    pub fn leaves(self, choice: Choice) -> bool {
+        self.facts().choices.contains(&choice)
+    }
+
+    /// How the format is read; `None`: it is only written.
+    pub fn reading(self) -> Option<&'static Reading> {
+        self.facts().reading.as_ref()
+    }
+
+    /// The format of this name, in any case.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|f| f.name().eq_ignore_ascii_case(name))
+    }
+
+    /// The format in which a path's suffix asks to be written.
+    pub fn to_write(path: &Path) -> Option<Self> {
+        let suffix = path.extension()?.to_str()?;
+        Self::ALL.into_iter().find(|f| f.suffixes().iter().any(|s| s.eq_ignore_ascii_case(suffix)))
+    }
+
+    /// The format as which a path's suffix asks to be read; `None` where it names none that is read.
+    pub fn to_read(path: &Path) -> Option<Self> {
+        let suffix = path.extension()?.to_str()?;
+        Self::ALL.into_iter().find(|f| f.reading().is_some_and(|r| r.suffix.eq_ignore_ascii_case(suffix)))
+    }
+
+    /// A guess from the first bytes, for standard input and strange suffixes.
+    pub fn sniff(bytes: &[u8]) -> Option<Self> {
+        let start = bytes.trim_ascii_start();
+        Self::ALL.into_iter().find(|f| f.reading().is_some_and(|r| (r.begins)(start)))
+    }
+
+    /// Whether cells of this order can be written at all; where they are written as straight ones, [`Format::losses`] says so.
+    ///
+    /// # Errors
+    /// `Unsupported`, with the way out.
+    pub fn holds_order(self, order: u8) -> io::Result<()> {
+        match self.facts().straight_only.filter(|_| order > 1) {
+            Some(what) => Err(io::Error::new(io::ErrorKind::Unsupported, what)),
+            None => Ok(()),
+        }
+    }
+
+    /// What of this mesh the format does not hold, or holds as something else, written so: a phrase each, for people.
+    pub fn losses(self, mesh: &Mesh, options: &WriteOptions) -> Vec<&'static str> {
+        let mut losses = Losses::new(mesh, options);
+        (self.facts().losses)(&mut losses);
+        losses.told()
+    }
+}
+
+// ---- writing ----
+
+/// How XDMF holds triangles and lines.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum XdmfGrids {
+    /// One grid of both kinds of cells, as meshio and ParaView take them.
+    Single,
+    /// A grid of triangles and one of lines, as FEniCSx takes them.
+    #[default]
+    Double,
+}
+
+/// How a mesh is written where a format, or a reader of it, leaves a choice.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WriteOptions {
+    /// VTU without field data, and so without names.
+    pub plain: bool,
+    /// Whether boundaries with triangles on both sides are written: interfaces, and lines within a region.
+    pub interior_lines: bool,
+    /// Whether the boundaries are written as lines, in formats that have readers who go wrong beside lines: glTF, OBJ, text VTK and
+    /// plain VTU. `None`: in the first two.
+    pub lines: Option<bool>,
+    pub xdmf: XdmfGrids,
+    /// The name without suffix by which the files of one output speak of each other: OBJ's of its `.mtl`. `None`: an output that is a
+    /// stream, and its first file alone.
+    pub stem: Option<String>,
+}
+
+impl Default for WriteOptions {
+    fn default() -> Self {
+        Self { plain: false, interior_lines: true, lines: None, xdmf: XdmfGrids::Double, stem: Some("mesh".into()) }
+    }
+}
+
+/// A mesh in a format: the bytes of each file of [`Format::suffixes`], of an OBJ without a stem those of the first. `stamps` (key and value)
+/// say how the mesh was made, where the format has a place for them (VTU). The same mesh gives the same bytes.
+///
+/// # Errors
+/// `Unsupported` where the format cannot hold such a mesh at all; `InvalidInput` where the mesh's lists do not fit together or it
+/// is too large for the format.
+pub fn encode(
+    mesh: &Mesh,
+    stamps: &[(String, String)],
+    format: Format,
+    options: &WriteOptions,
+) -> io::Result<Vec<Vec<u8>>> {
+    format.holds_order(mesh.order())?;
+    let write = format.facts().write;
+    if options.interior_lines {
+        return write(mesh, stamps, options);
+    }
+    groups::check(mesh)?;
+    write(&groups::without_interior(mesh), stamps, options)
+}
+
+/// An output of one file.
+fn one_file(write: impl FnOnce(&mut Vec<u8>) -> io::Result<()>) -> io::Result<Files> {
+    Ok(vec![file(write)?])
+}
+
+fn file(write: impl FnOnce(&mut Vec<u8>) -> io::Result<()>) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    write(&mut bytes)?;
+    Ok(bytes)
+}
+
+// ---- reading ----
+
+/// A mesh as read, with what was said of it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct MeshFile {
+    pub mesh: Mesh,
+    /// Keys and values that our writer was given; empty of a foreign file.
+    pub stamps: Vec<(String, String)>,
+    /// What was left out, one sentence each.
+    pub notes: Vec<String>,
+}
+
+/// Why a file holds no mesh that can be read, and what can be done.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{what}")]
+pub struct MeshError {
+    pub what: String,
+    pub help: String,
+}
+
+type Result<T> = std::result::Result<T, MeshError>;
+
+/// Reads a mesh; `beside` are the files of [`Reading::beside`], in its order, as far as there are any.
+///
+/// # Errors
+/// [`MeshError`] with the place where the file breaks its format, or what in it cannot be read, or that the format is only written. Never
+/// panics, and takes memory in proportion to the bytes.
+pub fn read(bytes: &[u8], format: Format, beside: &[Option<Vec<u8>>]) -> Result<MeshFile> {
+    match format.reading() {
+        Some(reading) => (reading.read)(bytes, beside),
+        None => Err(unsupported(format!("{} is only written", format.name()), "give the mesh in another format")),
+    }
+}
+
+fn broken(what: impl Into<String>) -> MeshError {
+    MeshError { what: what.into(), help: "the file is damaged or of another format: write it anew".into() }
+}
+
+fn broken_at(line: usize, what: impl std::fmt::Display) -> MeshError {
+    broken(format!("line {line}: {what}"))
+}
+
+fn unsupported(what: impl Into<String>, help: &str) -> MeshError {
+    MeshError { what: what.into(), help: help.into() }
+}
+
+/// Whether a file starts with one of these words, whatever the case.
+fn begins(start: &[u8], words: &[&str]) -> bool {
+    words.iter().any(|word| start.get(..word.len()).is_some_and(|s| s.eq_ignore_ascii_case(word.as_bytes())))
+}
+
+/// Lines of a text with their numbers from 1.
+fn lines(bytes: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
+    bytes.split(|&b| b == b'\n').enumerate().map(|(i, line)| (i + 1, line.trim_ascii()))
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}

@@ -1,0 +1,32 @@
+//! Gmsh's MSH: written as 4.1 or 2.2, read from both.
+
+mod read;
+mod write;
+
+use super::losses::Losses;
+use super::{Facts, Reading, begins, one_file};
+
+pub(super) const FACTS: Facts = Facts {
+    name: "msh",
+    suffixes: &["msh"],
+    first_as_named: true,
+    choices: &[],
+    straight_only: None,
+    write: |mesh, _, _| one_file(|out| write::write_41(mesh, out)),
+    losses,
+    reading: Some(Reading {
+        suffix: "msh",
+        beside: &[],
+        begins: |start| begins(start, &["$MeshFormat", "$Comments"]),
+        read: |bytes, _| read::read(bytes),
+    }),
+};
+
+pub(super) const FACTS_OF_22: Facts =
+    Facts { name: "msh22", write: |mesh, _, _| one_file(|out| write::write_22(mesh, out)), ..FACTS };
+
+fn losses(losses: &mut Losses) {
+    losses.interior_lines();
+    losses.unit();
+    losses.links();
+}

@@ -1,0 +1,41 @@
+//! Triangle's files (Shewchuk): `.node`, `.ele` and `.poly`.
+
+mod read;
+mod write;
+
+use super::losses::Losses;
+use super::{Facts, Reading, file};
+
+pub(super) const FACTS: Facts = Facts {
+    name: "triangle",
+    suffixes: &["node", "ele", "poly"],
+    first_as_named: false,
+    choices: &[],
+    straight_only: None,
+    write: |mesh, _, _| {
+        Ok(vec![
+            file(|out| write::write_nodes(mesh, out))?,
+            file(|out| write::write_elements(mesh, out))?,
+            file(|out| write::write_segments(mesh, out))?,
+        ])
+    },
+    losses,
+    reading: Some(Reading {
+        suffix: "ele",
+        beside: &["node", "poly"],
+        // Rows of numbers, as many files have.
+        begins: |_| false,
+        read: |bytes, beside| {
+            let [nodes, segments] = [0, 1].map(|i| beside.get(i).and_then(Option::as_deref));
+            read::read(bytes, nodes, segments)
+        },
+    }),
+};
+
+fn losses(losses: &mut Losses) {
+    losses.interior_lines();
+    losses.plane();
+    losses.names_of_points();
+    losses.unit();
+    losses.links();
+}

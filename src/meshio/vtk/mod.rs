@@ -1,0 +1,50 @@
+//! Legacy VTK: written in binary or as text, read from both.
+
+mod read;
+mod write;
+
+use super::losses::Losses;
+use super::{Choice, Facts, Reading, WriteOptions, begins, one_file};
+
+pub(super) const FACTS: Facts = Facts {
+    name: "vtk",
+    suffixes: &["vtk"],
+    first_as_named: true,
+    choices: &[],
+    straight_only: None,
+    write: |mesh, _, _| one_file(|out| write::write(mesh, out)),
+    losses: |losses| {
+        losses.interior_lines();
+        losses_of_both(losses);
+    },
+    reading: Some(Reading {
+        suffix: "vtk",
+        beside: &[],
+        begins: |start| begins(start, &["# vtk"]),
+        read: |bytes, _| read::read(bytes),
+    }),
+};
+
+pub(super) const FACTS_OF_TEXT: Facts = Facts {
+    name: "vtk-text",
+    choices: &[Choice::Lines],
+    write: |mesh, _, options| one_file(|out| write::write_text(mesh, has_lines(options), out)),
+    losses: |losses| {
+        losses.interior_lines();
+        let lineless = !losses.mesh.edges.is_empty() && !has_lines(losses.options);
+        losses.tell(lineless, "boundaries as cells: they are field data; --lines on makes them lines");
+        losses_of_both(losses);
+    },
+    ..FACTS
+};
+
+/// Whether text has the boundaries as lines.
+fn has_lines(options: &WriteOptions) -> bool {
+    options.lines.unwrap_or(false)
+}
+
+fn losses_of_both(losses: &mut Losses) {
+    losses.names_of_points();
+    losses.unit();
+    losses.links();
+}

@@ -1,0 +1,155 @@
+//! Repairs in a picture: a shape a kind around every place, the same size whatever the repair's own. Where shapes would crowd, one stands for
+//! several, and has their number beside it.
+
+use super::PictureOptions;
+use super::canvas::{Colour, Paint, Stroke};
+use super::frame::{Frame, Pixel, px};
+use super::legend::Legend;
+use super::path::Path;
+use super::sheet::Sheet;
+use super::words::counted_words;
+use crate::domain::{Repair, RepairKind};
+use crate::geometry::Point;
+use std::collections::BTreeMap;
+
+/// More markers than this would drown the drawing.
+const MARKERS_MAX: usize = 250;
+/// Half a marker's height, in pixels at a width of 1200.
+const RADIUS: f64 = 8.0;
+const REPAIRED: Colour = Colour::hex(0x7a1fa2);
+const LEFT: Colour = Colour::hex(0xc2187e);
+
+/// What a marker stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Mended {
+    /// Found, but left as it is.
+    left: bool,
+    kind: RepairKind,
+}
+
+impl Mended {
+    fn colour(self) -> Colour {
+        if self.left { LEFT } else { REPAIRED }
+    }
+
+    /// The marker around a place, as a polyline, and whether it closes. Every kind has a shape of its own.
+    fn shape(self, at: Pixel, radius: f64) -> (Vec<Pixel>, bool) {
+        let corners = |turns: &[f64], reach: &[f64]| -> Vec<Pixel> {
+            let corner = |(k, turn): (usize, &f64)| {
+                let (sin, cos) = libm::sincos(turn * std::f64::consts::TAU);
+                let r = radius * reach[k % reach.len()];
+                px(at.x + r * cos, at.y + r * sin)
+            };
+            turns.iter().enumerate().map(corner).collect()
+        };
+        // Corners from the top on, clockwise as seen.
+        let regular = |n: u32, first: f64, reach: &[f64]| {
+            corners(&(0..n).map(|k| first + f64::from(k) / f64::from(n)).collect::<Vec<_>>(), reach)
+        };
+        let boxed = |places: &[[f64; 2]]| -> Vec<Pixel> {
+            places.iter().map(|[x, y]| px(at.x + radius * x, at.y + radius * y)).collect()
+        };
+        match self.kind {
+            RepairKind::ToleranceRaised => (regular(10, -0.25, &[1.3, 0.55]), true),
+            RepairKind::Weld => (regular(24, 0.0, &[0.9]), true),
+            RepairKind::GapClosed => (regular(4, 0.125, &[1.15]), true),
+            RepairKind::Split => (regular(3, -0.25, &[1.1]), true),
+            RepairKind::SelfSplit => (regular(3, 0.25, &[1.1]), true),
+            RepairKind::Corner => (regular(4, 0.0, &[1.1]), true),
+            RepairKind::Duplicate => (boxed(&[[-1.2, -0.5], [1.2, -0.5], [1.2, 0.5], [-1.2, 0.5]]), true),
+            RepairKind::Overlap => (boxed(&[[-1.2, 0.5], [-0.4, -0.5], [1.2, -0.5], [0.4, 0.5]]), true),
+            RepairKind::ZeroLength => (boxed(&[[-0.8, -1.0], [0.8, 1.0], [0.8, -1.0], [-0.8, 1.0]]), true),
+            RepairKind::Collapsed => (regular(6, 0.0, &[1.0]), true),
+            RepairKind::Hidden => (boxed(&[[-1.2, 0.0], [1.2, 0.0]]), false),
+            RepairKind::Seed => (boxed(&[[0.0, -1.1], [0.0, 1.1], [0.0, 0.0], [-1.1, 0.0], [1.1, 0.0]]), false),
+        }
+    }
+}
+
+/// A marker, and how many repairs it stands for.
+#[derive(Clone, Copy)]
+struct Marker {
+    mended: Mended,
+    at: Point,
+    count: usize,
+}
+
+/// Legend entries of what `options` point at: every kind with its number.
+fn entries(options: &PictureOptions) -> Vec<(Mended, String)> {
+    let mut counts: BTreeMap<Mended, usize> = BTreeMap::new();
+    mended(options).for_each(|(mended, _)| *counts.entry(mended).or_default() += 1);
+    let entry = |(mended, count): (Mended, usize)| {
+        let words = counted_words(count, mended.kind.words());
+        (mended, if mended.left { format!("left as it is: {words}") } else { words })
+    };
+    counts.into_iter().map(entry).collect()
+}
+
+fn mended(options: &PictureOptions) -> impl Iterator<Item = (Mended, &Repair)> {
+    let of = |repairs, left| <[Repair]>::iter(repairs).map(move |r| (Mended { left, kind: r.kind }, r));
+    of(&options.repairs, false).chain(of(&options.unhealed, true))
+}
+
+/// Markers of what is in sight: all that falls into one cell of a grid has one, of the rarest kind and at the place of that. The cells are as
+/// wide as a marker and the gap beside it, or as many times that as it takes.
+fn markers(frame: &Frame, options: &PictureOptions, width: f64) -> Vec<Marker> {
+    let seen: Vec<(Mended, Point, Pixel)> = mended(options)
+        .map(|(mended, repair)| (mended, Point::new(repair.at[0], repair.at[1])))
+        .map(|(mended, at)| (mended, at, frame.pixel(at)))
+        .filter(|(_, _, pixel)| frame.sees(&[*pixel]))
+        .collect();
+    let mut totals: BTreeMap<Mended, usize> = BTreeMap::new();
+    seen.iter().for_each(|(mended, ..)| *totals.entry(*mended).or_default() += 1);
+    let mut cell = width;
+    loop {
+        let mut cells: BTreeMap<[i64; 2], Marker> = BTreeMap::new();
+        for &(mended, at, pixel) in &seen {
+            let place = [pixel.x, pixel.y].map(|x| (x / cell).floor() as i64);
+            let marker = cells.entry(place).or_insert(Marker { mended, at, count: 0 });
+            let count = marker.count + 1;
+            let rarer = totals[&mended] < totals[&marker.mended];
+            *marker = if rarer { Marker { mended, at, count } } else { Marker { count, ..*marker } };
+        }
+        // A cell as wide as any picture holds all there is.
+        if cells.len() <= MARKERS_MAX || cell > 1e4 {
+            return cells.into_values().collect();
+        }
+        cell *= 1.5;
+    }
+}
+
+impl Sheet {
+    /// Marks every repair that is in sight.
+    pub fn repairs(&mut self, options: &PictureOptions) {
+        let radius = self.pen(RADIUS);
+        let markers = markers(self.canvas.frame(), options, 3.0 * radius);
+        if markers.is_empty() {
+            return;
+        }
+        self.canvas.layer("repairs", true);
+        for marker in &markers {
+            self.marker(marker.mended, self.pixel(marker.at), radius);
+        }
+        for marker in markers.iter().filter(|marker| marker.count > 1) {
+            self.label(marker.at, &format!("×{}", marker.count), marker.mended.colour(), false);
+        }
+    }
+
+    /// On a white rim, to be seen on lines of any colour; dashed where nothing was mended.
+    pub fn marker(&mut self, mended: Mended, at: Pixel, radius: f64) {
+        let (shape, closed) = mended.shape(at, radius);
+        let mut outline = Path::default();
+        outline.add(shape, closed);
+        let (rim, pen) =
+            (Stroke::new(Colour::hex(0xffffff), self.pen(4.2)), Stroke::new(mended.colour(), self.pen(1.9)));
+        let pen = if mended.left { pen.dashed(self.pen(3.2), self.pen(1.6)) } else { pen };
+        self.canvas.path(outline.clone(), Paint::stroke(rim));
+        self.canvas.path(outline, Paint::stroke(pen));
+    }
+}
+
+impl Legend {
+    pub fn with_markers(self, options: &PictureOptions) -> Self {
+        Self { markers: entries(options), crowded: mended(options).count() > 1, ..self }
+    }
+}

@@ -1,0 +1,133 @@
+//! Pictures of a drawing, a domain and a mesh: curves by the name of their boundary, cells by quality, region or size.
+//!
+//! `scene.rs` says what is drawn of each, on a `sheet.rs` with its `legend.rs`; that is a [`Canvas`] of pixels, written as SVG or painted as PNG.
+
+mod canvas;
+mod cells;
+mod frame;
+mod glyphs;
+mod legend;
+mod markers;
+mod palette;
+mod path;
+mod scene;
+mod sheet;
+mod words;
+
+pub use canvas::Canvas;
+pub use scene::{picture_of_domain, picture_of_drawing, picture_of_mesh};
+
+use crate::domain::Repair;
+use crate::geometry::{Point, Rect};
+use std::io;
+use std::path::Path;
+
+/// A format of pictures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// As text.
+    Svg,
+    /// In pixels.
+    Png,
+}
+
+impl Format {
+    pub const ALL: [Self; 2] = [Self::Svg, Self::Png];
+
+    /// The name by which a user asks for the format, which is the suffix of its files.
+    pub const fn name(self) -> &'static str {
+        self.suffixes()[0]
+    }
+
+    /// The suffix of its file.
+    pub const fn suffixes(self) -> &'static [&'static str] {
+        match self {
+            Self::Svg => &["svg"],
+            Self::Png => &["png"],
+        }
+    }
+
+    /// The format of this name, in any case.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|f| f.name().eq_ignore_ascii_case(name))
+    }
+
+    /// The format that a path's suffix asks for.
+    pub fn of(path: &Path) -> Option<Self> {
+        Self::named(path.extension()?.to_str()?)
+    }
+
+    /// A picture as the bytes of a file.
+    ///
+    /// # Errors
+    /// Where the picture is larger than memory.
+    pub fn encode(self, canvas: &Canvas) -> io::Result<Vec<u8>> {
+        match self {
+            Self::Svg => canvas.svg().map(String::into_bytes),
+            Self::Png => canvas.png(1.0),
+        }
+    }
+}
+
+/// What the triangles of a mesh are coloured by.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum MeshColour {
+    /// The smallest angle, 0–60°.
+    #[default]
+    Quality,
+    Region,
+    /// The colour of the region in the drawing; that of `Region` where it has none.
+    Paint,
+    /// The root of the area, on a logarithmic scale.
+    Size,
+}
+
+/// How a picture is made.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PictureOptions {
+    pub width_px: u32,
+    /// The window to show, in the drawing's units; `None`: all of it.
+    pub view: Option<Rect>,
+    /// Protecting balls as dashed circles.
+    pub balls: bool,
+    /// Of a drawing: curves by their layers, not by their names.
+    pub layers: bool,
+    /// Places to point at, each with a label: flaws.
+    pub marks: Vec<(Point, String)>,
+    /// What was mended, marked by kind; where many crowd, one marker has their number beside it.
+    pub repairs: Vec<Repair>,
+    /// What was found and left as it is, marked likewise.
+    pub unhealed: Vec<Repair>,
+    /// First words of the caption.
+    pub title: String,
+}
+
+impl Default for PictureOptions {
+    fn default() -> Self {
+        Self {
+            width_px: 1200,
+            view: None,
+            balls: true,
+            layers: false,
+            marks: Vec::new(),
+            repairs: Vec::new(),
+            unhealed: Vec::new(),
+            title: String::new(),
+        }
+    }
+}
+
+/// Names of the colour classes, for options: "quality", "region", "paint", "size".
+impl std::str::FromStr for MeshColour {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match text {
+            "quality" => Ok(Self::Quality),
+            "region" => Ok(Self::Region),
+            "paint" => Ok(Self::Paint),
+            "size" => Ok(Self::Size),
+            _ => Err(format!("'{text}' is no colouring: quality, region, paint or size")),
+        }
+    }
+}
