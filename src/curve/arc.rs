@@ -195,6 +195,9 @@ impl Kind for CircularArc {
     fn spans(&self, t0: f64, t1: f64) -> Vec<Span<'_>> {
         ellipse::conic_spans(&self.elliptic(), t0, t1)
     }
+    fn control_count(&self) -> usize {
+        1
+    }
     fn may_meet_itself(&self) -> bool {
         false
     }
@@ -227,8 +230,8 @@ impl Kind for CircularArc {
     fn spread(&self, moves: [Vec2; 2], ends: [Point; 2]) -> Curve {
         Curve::Arc(CircularArc { center: self.center + spread_to(moves, 0.5), ends, ..*self })
     }
-    fn as_arc(&self) -> Option<&CircularArc> {
-        Some(self)
+    fn is_round(&self) -> bool {
+        true
     }
     fn as_ellipse(&self) -> Option<EllipticArc> {
         Some(self.elliptic())

@@ -314,6 +314,9 @@ impl Kind for Bezier {
     fn spans(&self, t0: f64, t1: f64) -> Vec<Span<'_>> {
         vec![Span::even(Cow::Borrowed(self), [t0, t1], [t0, t1])]
     }
+    fn control_count(&self) -> usize {
+        self.points.len()
+    }
     fn may_meet_itself(&self) -> bool {
         true
     }

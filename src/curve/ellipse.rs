@@ -98,6 +98,9 @@ impl Kind for EllipticArc {
     fn spans(&self, t0: f64, t1: f64) -> Vec<Span<'_>> {
         conic_spans(self, t0, t1)
     }
+    fn control_count(&self) -> usize {
+        1
+    }
     fn may_meet_itself(&self) -> bool {
         false
     }

@@ -14,7 +14,7 @@
 
 use super::spans::{self, Span};
 use super::weld::Similarity;
-use super::{Break, CircularArc, Cone, Curve, EllipticArc, End, Line, turning, unit};
+use super::{Break, Cone, Curve, EllipticArc, End, turning, unit};
 use crate::geometry::{Point, Vec2};
 use std::f64::consts::PI;
 
@@ -32,6 +32,8 @@ pub(super) trait Kind {
     fn second_derivative(&self, t: f64) -> Vec2;
     /// The Bézier pieces of t0..t1, in order.
     fn spans(&self, t0: f64, t1: f64) -> Vec<Span<'_>>;
+    /// How many points it takes to keep: what it costs in memory.
+    fn control_count(&self) -> usize;
     /// Whether it may cross or touch itself other than by closing.
     fn may_meet_itself(&self) -> bool;
     /// The part t0..t1, of the same kind, with its exact ends.
@@ -48,14 +50,6 @@ pub(super) trait Kind {
 
     // ---- what some kinds are besides ----
 
-    /// The line that it is.
-    fn as_line(&self) -> Option<&Line> {
-        None
-    }
-    /// The circular arc that it is.
-    fn as_arc(&self) -> Option<&CircularArc> {
-        None
-    }
     /// The part of an ellipse that it is.
     fn as_ellipse(&self) -> Option<EllipticArc> {
         None
@@ -63,6 +57,10 @@ pub(super) trait Kind {
     /// The largest length that its points are computed from, where its points do not show it; else 0.
     fn hidden_reach(&self) -> f64 {
         0.0
+    }
+    /// Whether its curvature is the same everywhere, and its parameter runs evenly: a line or a circular arc.
+    fn is_round(&self) -> bool {
+        false
     }
     /// 0, the parameters at which one formula ends and the next begins, and 1.
     fn knots(&self) -> Vec<f64> {

@@ -38,6 +38,9 @@ impl Kind for Line {
         let bezier = Bezier { points: vec![self.start, self.end], weights: None };
         vec![Span::even(Cow::Owned(bezier), [t0, t1], [t0, t1])]
     }
+    fn control_count(&self) -> usize {
+        1
+    }
     fn may_meet_itself(&self) -> bool {
         false
     }
@@ -59,8 +62,8 @@ impl Kind for Line {
     fn spread(&self, _moves: [Vec2; 2], ends: [Point; 2]) -> Curve {
         Self::over(ends)
     }
-    fn as_line(&self) -> Option<&Line> {
-        Some(self)
+    fn is_round(&self) -> bool {
+        true
     }
 
     fn tangent(&self, _t: f64, _side: End) -> Vec2 {

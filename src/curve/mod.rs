@@ -233,11 +233,23 @@ impl Curve {
     }
     /// The segment, where it is one by kind (a Bézier that is straight is not: [`Curve::is_straight`]).
     pub fn as_line(&self) -> Option<&Line> {
-        self.as_kind().as_line()
+        if let Curve::Line(line) = self { Some(line) } else { None }
     }
     /// The circular arc, where it is one by kind.
     pub fn as_arc(&self) -> Option<&CircularArc> {
-        self.as_kind().as_arc()
+        if let Curve::Arc(arc) = self { Some(arc) } else { None }
+    }
+    /// Whether its curvature is the same everywhere, and its parameter runs evenly along it: a line or a circular arc.
+    pub fn is_round(&self) -> bool {
+        self.as_kind().is_round()
+    }
+    /// How many points it takes to keep, where a line, an arc or an ellipse counts as one.
+    pub fn control_count(&self) -> usize {
+        self.as_kind().control_count()
+    }
+    /// 0, the parameters at which one formula ends and the next begins (the knots of a spline), and 1.
+    pub fn knots(&self) -> Vec<f64> {
+        self.as_kind().knots()
     }
     /// The field's name of the kind: "line", "arc", "ellipse", "bezier", "rational bezier", "spline", "nurbs".
     pub fn kind(&self) -> &'static str {

@@ -253,6 +253,9 @@ impl Kind for Spline {
         };
         self.spans_in(t0, t1).map(span).collect()
     }
+    fn control_count(&self) -> usize {
+        self.spans.iter().map(|span| span.points.len()).sum()
+    }
     fn may_meet_itself(&self) -> bool {
         true
     }

@@ -29,7 +29,7 @@ pub(super) struct Track<'c> {
 
 impl<'c> Track<'c> {
     pub fn new(curve: &'c Curve, degree: usize, size: f64) -> Self {
-        Self { curve, knots: curve.as_kind().knots(), degree, size }
+        Self { curve, knots: curve.knots(), degree, size }
     }
 
     /// Width of the span at t.

@@ -285,7 +285,7 @@ impl<'f, 'a> Sketch<'f, 'a> {
         let curve = match setting.map {
             None => curve.clone(),
             Some(map) => {
-                self.spend(weight(curve), label)?;
+                self.spend(curve.control_count(), label)?;
                 curve.transformed(map)
             }
         };
@@ -396,15 +396,6 @@ impl<'f, 'a> Sketch<'f, 'a> {
         let entities = Rc::new(self.entities(&file.blocks[place].1.records)?);
         self.read.insert(place, Rc::clone(&entities));
         Ok(entities)
-    }
-}
-
-/// What a curve costs in memory, where a line costs 1.
-fn weight(curve: &Curve) -> usize {
-    match curve {
-        Curve::Line(_) | Curve::Arc(_) | Curve::Ellipse(_) => 1,
-        Curve::Bezier(bezier) => bezier.points.len(),
-        Curve::Spline(spline) => spline.spans.iter().map(|span| span.points.len()).sum(),
     }
 }
 
