@@ -40,6 +40,30 @@ pub(super) fn passages(start_rad: f64, sweep_rad: f64, angle: f64, period: f64, 
     found
 }
 
+/// What an affine map does that is a similarity.
+pub(super) struct SimilarityOf {
+    pub scale: f64,
+    /// Where the x axis is turned to.
+    pub turn_rad: f64,
+    /// 1, or −1 where it mirrors.
+    pub hand: f64,
+}
+
+/// The similarity that a map is, up to 4 ulp; `None` where it is none.
+pub(super) fn similarity_of(map: kurbo::Affine) -> Option<SimilarityOf> {
+    let [a, b, c, d, _, _] = map.as_coeffs();
+    let scale = length(Vec2::new(a, b));
+    let slack = 4.0 * f64::EPSILON * scale;
+    let hand = if (a - d).abs() <= slack && (b + c).abs() <= slack {
+        1.0
+    } else if (a + d).abs() <= slack && (b - c).abs() <= slack {
+        -1.0
+    } else {
+        return None;
+    };
+    Some(SimilarityOf { scale, turn_rad: libm::atan2(b, a), hand })
+}
+
 /// φ − sin φ without cancellation.
 pub(super) fn angle_minus_sine(phi: f64) -> f64 {
     if phi.abs() > 1.0 {
@@ -106,18 +130,10 @@ impl CircularArc {
 
     /// The image under a similarity (up to 4 ulp); `None` where the map is none.
     fn image(&self, map: kurbo::Affine) -> Option<Self> {
-        let [a, b, c, d, _, _] = map.as_coeffs();
-        let slack = 4.0 * f64::EPSILON * length(Vec2::new(a, b));
-        let turn = libm::atan2(b, a);
-        let (start_rad, sweep_rad) = if (a - d).abs() <= slack && (b + c).abs() <= slack {
-            (self.start_rad + turn, self.sweep_rad)
-        } else if (a + d).abs() <= slack && (b - c).abs() <= slack {
-            (turn - self.start_rad, -self.sweep_rad)
-        } else {
-            return None;
-        };
-        let radius = self.radius * length(Vec2::new(a, b));
-        Some(CircularArc { center: map * self.center, radius, start_rad, sweep_rad, ends: self.ends.map(|p| map * p) })
+        let SimilarityOf { scale, turn_rad, hand } = similarity_of(map)?;
+        let (start_rad, sweep_rad) = (turn_rad + self.start_rad * hand, self.sweep_rad * hand);
+        let (center, radius) = (map * self.center, self.radius * scale);
+        Some(CircularArc { center, radius, start_rad, sweep_rad, ends: self.ends.map(|p| map * p) })
     }
 
     /// The unit tangent at t.

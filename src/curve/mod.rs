@@ -1,4 +1,4 @@
-//! One curve and its questions: an exact line, arc, Bézier or spline, never flattened.
+//! One curve and its questions: an exact line, arc, Bézier, spline or clothoid, never flattened.
 //!
 //! Every kind runs over t ∈ [0, 1], and `point(0)` and `point(1)` are *exactly* its end points: a curve of a domain interpolates its
 //! vertices bit for bit ([`Curve::with_ends`]). Questions about a part of a curve take a range `t0..t1` with `t0 < t1`.
@@ -9,6 +9,7 @@
 mod arc;
 mod bernstein;
 mod bezier;
+mod clothoid;
 mod ellipse;
 mod enclosure;
 mod kind;
@@ -60,6 +61,7 @@ pub enum Curve {
     Ellipse(Box<EllipticArc>),
     Bezier(Box<Bezier>),
     Spline(Box<Spline>),
+    Clothoid(Box<Clothoid>),
 }
 
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -105,6 +107,16 @@ pub struct Spline {
     pub spans: Vec<Bezier>,
 }
 
+/// A clothoid, or Euler spiral: its curvature changes evenly along it.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Clothoid {
+    heading_rad: f64,
+    curvatures: [f64; 2],
+    length: f64,
+    /// What follows it to rounding; its ends are the clothoid's.
+    chain: Spline,
+}
+
 /// Why a curve cannot be built.
 #[derive(Clone, PartialEq, Debug, thiserror::Error)]
 pub enum CurveError {
@@ -120,6 +132,10 @@ pub enum CurveError {
     Radius { radius: f64 },
     #[error("the sweep {sweep_rad} (radians) is zero or more than once around")]
     Sweep { sweep_rad: f64 },
+    #[error("the length {length} is not positive")]
+    Length { length: f64 },
+    #[error("the curve turns {turns} times around, and {most} is the most; shorter ones can follow each other")]
+    Turns { turns: f64, most: f64 },
 }
 
 pub(crate) fn length(v: Vec2) -> f64 {
@@ -204,6 +220,12 @@ impl Curve {
     pub fn nurbs(degree: usize, knots: &[f64], points: &[Point], weights: Option<&[f64]>) -> Result<Self, CurveError> {
         Spline::from_knots(degree, knots, points, weights).map(|s| Curve::Spline(Box::new(s)))
     }
+    /// The clothoid (Euler spiral) of a length, from a point with a heading (from the x axis to the left), of which the curvature changes
+    /// evenly from the first to the last of two, each 1/radius and positive where the curve turns left. Equal ones make it an arc, and
+    /// zeros a line, of this kind still. It may turn at most 100 times around.
+    pub fn clothoid(start: Point, heading_rad: f64, curvatures: [f64; 2], length: f64) -> Result<Self, CurveError> {
+        Clothoid::new(start, heading_rad, curvatures, length, None).map(|c| Curve::Clothoid(Box::new(c)))
+    }
     /// The natural cubic spline through ≥ 2 points (centripetal parameters; exact repeats are skipped).
     pub fn natural_spline(points: &[Point]) -> Result<Self, CurveError> {
         Spline::natural(points).map(|s| Curve::Spline(Box::new(s)))
@@ -229,6 +251,7 @@ impl Curve {
             Curve::Ellipse(arc) => &**arc,
             Curve::Bezier(bezier) => &**bezier,
             Curve::Spline(spline) => &**spline,
+            Curve::Clothoid(clothoid) => &**clothoid,
         }
     }
     /// The segment, where it is one by kind (a Bézier that is straight is not: [`Curve::is_straight`]).
@@ -251,7 +274,7 @@ impl Curve {
     pub fn knots(&self) -> Vec<f64> {
         self.as_kind().knots()
     }
-    /// The field's name of the kind: "line", "arc", "ellipse", "bezier", "rational bezier", "spline", "nurbs".
+    /// The field's name of the kind: "line", "arc", "ellipse", "bezier", "rational bezier", "spline", "nurbs", "clothoid".
     pub fn kind(&self) -> &'static str {
         self.as_kind().name()
     }
@@ -374,9 +397,14 @@ impl Curve {
     pub fn reversed(&self) -> Self {
         self.as_kind().reversed()
     }
+    /// A clothoid with this very end, if that is its own up to rounding; `None` where it is not, and of other kinds.
+    pub(crate) fn with_rounded_end(&self, end: Point) -> Option<Self> {
+        let Curve::Clothoid(clothoid) = self else { return None };
+        clothoid.with_end(end).map(|c| Curve::Clothoid(Box::new(c)))
+    }
     /// The curve moved by the similarity that takes its ends to `start` and `end` (exactly those bits). For a small move: welding.
     /// A closed curve is translated. Where the similarity would move other points much farther than the ends (a curve that nearly
-    /// closes), and where a curve closes or opens, the moves of the ends are spread along the curve instead.
+    /// closes), and where a curve closes or opens, the moves of the ends are spread along the curve instead; a clothoid then becomes the spline that follows it.
     pub fn with_ends(&self, start: Point, end: Point) -> Self {
         weld::with_ends(self, start, end)
     }
@@ -384,7 +412,8 @@ impl Curve {
     pub fn scaled(&self, factor: f64) -> Self {
         self.as_kind().scaled(factor)
     }
-    /// Any non-degenerate affine image, exact in kind (a circle under a skew becomes an ellipse).
+    /// Any non-degenerate affine image, exact in kind; under a map that is no similarity a circle becomes an ellipse, and a clothoid, which has
+    /// no such image, the spline that follows it to rounding.
     pub fn transformed(&self, map: kurbo::Affine) -> Self {
         self.as_kind().transformed(map)
     }

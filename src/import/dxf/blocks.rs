@@ -292,6 +292,7 @@ impl<'f, 'a> Sketch<'f, 'a> {
         let is_sound = match &curve {
             Curve::Arc(arc) => arc.radius > 0.0,
             Curve::Ellipse(ellipse) => ellipse.u.cross(ellipse.v) != 0.0,
+            Curve::Clothoid(clothoid) => clothoid.length() > 0.0,
             Curve::Line(_) | Curve::Bezier(_) | Curve::Spline(_) => true,
         };
         Ok(is_sound.then_some(curve))

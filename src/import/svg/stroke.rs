@@ -151,7 +151,7 @@ impl Pen {
                     }
                 }
             }
-            Curve::Ellipse(_) | Curve::Bezier(_) | Curve::Spline(_) => {
+            Curve::Ellipse(_) | Curve::Bezier(_) | Curve::Spline(_) | Curve::Clothoid(_) => {
                 covered.is_inexact = true;
                 let style = kurbo::Stroke::new(self.width).with_caps(kurbo::Cap::Butt).with_join(kurbo::Join::Round);
                 let tolerance = OFFSET_ERROR * self.width;
@@ -309,7 +309,7 @@ fn kurbo_path(curve: &Curve, tolerance: f64) -> BezPath {
                 path.push(map * element);
             }
         }
-        Curve::Line(_) | Curve::Arc(_) | Curve::Bezier(_) | Curve::Spline(_) => {
+        Curve::Line(_) | Curve::Arc(_) | Curve::Bezier(_) | Curve::Spline(_) | Curve::Clothoid(_) => {
             // No other kind comes out of SVG.
             path.line_to(curve.end());
         }
