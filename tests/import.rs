@@ -675,7 +675,9 @@ const EVERYTHING: &str = r#"{
     { "name": "n", "nurbs": { "degree": 2, "knots": [0, 0, 0, 0.3, 1, 1, 1], "points": [[0, 0], [1, 1], [2, 0], [3, 1]] } },
     { "name": "n", "nurbs": { "degree": 1, "knots": [0, 0, 1, 2, 2], "points": [[0, 0], [1, 1], [2, 0]], "weights": [1, 2, 1] } },
     { "name": "s", "spline": [[0, 0], [1, 0.7], [2, 0], [3, 0.1]] },
-    { "name": "s", "closed_spline": [[0, 0], [1, 0.1], [1.1, 1], [0.2, 1]] }
+    { "name": "s", "closed_spline": [[0, 0], [1, 0.1], [1.1, 1], [0.2, 1]] },
+    { "name": "k", "clothoid": { "from": [1, 0.5], "heading_deg": 30, "curvature": [0, -0.7], "length": 2 } },
+    { "name": "k", "clothoid": { "from": [1, 0.5], "heading_rad": 2.5, "curvature": [-3, 2], "length": 3.1 } }
   ],
   "points": [{ "at": [0.5, 0.5] }, { "at": [0.25, 0.5], "name": "probe", "entity": "p" }],
   "seeds": [{ "at": [0.1, 0.1], "hole": true }, { "at": [0.2, 0.1], "region": "steel", "max_area": 0.3, "entity": "r" }],
@@ -709,7 +711,7 @@ fn round_trips(drawing: &Drawing) {
 #[test]
 fn an_outline_holds_every_kind_and_round_trips() {
     let drawing = json(EVERYTHING);
-    assert_eq!(drawing.curves.len(), 20);
+    assert_eq!(drawing.curves.len(), 22);
     assert_eq!(drawing.names.iter().map(|(_, n)| n).take(3).collect::<Vec<_>>(), ["second", "first", "boundary"]);
     assert_eq!(drawing.curves[2].entity, "steps, edge 1");
     assert_eq!((drawing.sizes.len(), drawing.seeds.len(), drawing.points.len()), (4, 2, 2));
@@ -875,7 +877,7 @@ fn read_file(path: &Path, options: &Options) -> Result<Drawing, ImportError> {
 
 #[test]
 fn samples_read_without_a_note() {
-    for name in ["naca4412.dat", "two_element.dat", "tangent_curves.json", "plate.json"] {
+    for name in ["naca4412.dat", "two_element.dat", "tangent_curves.json", "plate.json", "transition.json"] {
         let path = samples().join(name);
         let drawing = read_file(&path, &Options::default()).unwrap();
         assert!(drawing.notes.is_empty() && drawing.skipped.is_empty(), "{name}: {:?}", drawing.notes);
