@@ -443,7 +443,9 @@ fn breaks_and_inflections_are_where_they_are_known_to_be() {
         assert!(by_name(name).breaks().is_empty() && by_name(name).inflections().is_empty(), "{name}");
     }
     for (name, curve) in samples() {
-        let straight = ["line", "degree 1", "straight cubic", "double ends", "quadratic of one handle", "clothoid of a line"].contains(&name);
+        let straight =
+            ["line", "degree 1", "straight cubic", "double ends", "quadratic of one handle", "clothoid of a line"]
+                .contains(&name);
         assert_eq!(curve.is_straight(), straight, "{name}");
     }
     // Collinear, with a derivative that vanishes in the middle but does not reverse.

@@ -173,7 +173,11 @@ impl Clothoid {
         }
         let shape = shape_of(curvatures, length);
         let turns = shape.turning(0.0, 1.0) / TAU;
-        // Not less: no number of turns is one too many.
+        if curvatures[0] == curvatures[1] && turns != 0.0 {
+            // A circle is followed once at most.
+            super::arc::checked_sweep(turns * TAU)?;
+        }
+        // No number of turns is one too many.
         if turns.is_nan() || turns > TURNS_MAX {
             return Err(CurveError::Turns { turns, most: TURNS_MAX });
         }
@@ -298,7 +302,7 @@ impl Kind for Clothoid {
     fn control_count(&self) -> usize {
         self.chain.control_count()
     }
-    /// A clothoid does not cross itself; where its curvature hardly changes, it may come back to within a tolerance.
+    /// Its circles of curvature lie in each other, so that it does not cross itself (Kneser); where its curvature hardly changes, it may come back to within a tolerance.
     fn may_meet_itself(&self) -> bool {
         self.turning(0.0, 1.0) > PI
     }
@@ -333,7 +337,7 @@ impl Kind for Clothoid {
         self.chain.spread(moves, ends)
     }
     /// Points come of what is run to them along it, which may be much longer than it is across.
-    fn hidden_reach(&self) -> f64 {
+    fn reach(&self) -> f64 {
         self.length
     }
     fn knots(&self) -> Vec<f64> {
@@ -360,4 +364,3 @@ impl Kind for Clothoid {
         turning::shares(shape.turning(0.0, 1.0), tau).map(|share| shape.at_turning(share)).collect()
     }
 }
-

@@ -4,9 +4,7 @@ use super::arc::{checked_sweep, passages};
 use super::kind::Kind;
 use super::spans::Span;
 use super::weld::{Similarity, spread_to};
-use super::{
-    Bezier, Break, Cone, Curve, CurveError, EllipticArc, End, arc, check_finite, length, quadrature, turning,
-};
+use super::{Bezier, Break, Cone, Curve, CurveError, EllipticArc, End, arc, check_finite, length, quadrature, turning};
 use crate::geometry::{Point, Vec2, scaled};
 use std::borrow::Cow;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
@@ -136,7 +134,7 @@ impl Kind for EllipticArc {
         Some(*self)
     }
     /// Points are measured from the start by the axes, which may be long beside a short arc.
-    fn hidden_reach(&self) -> f64 {
+    fn reach(&self) -> f64 {
         self.u.hypot2().sqrt() + self.v.hypot2().sqrt()
     }
 

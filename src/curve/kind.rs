@@ -1,16 +1,17 @@
 //! What every kind of curve answers: one private trait, one implementation a file.
 //!
 //! A kind says what only it knows: its ends, points and derivatives, its Bézier pieces ([`Kind::spans`]), and its images. Every other
-//! question has an answer here that goes span by span; kinds that know a closed form (lines, arcs) give theirs instead. Kinds that are no
-//! rational curves have no exact pieces: theirs say how far they are off ([`Span::error`]), which is to be no more than rounding.
+//! question has an answer here that goes span by span; kinds that know a closed form (lines, arcs) give theirs instead. A kind that is no
+//! rational curve has no exact pieces: its own follow it to a few units in the last place of its coordinates and of [`Kind::reach`], and its
+//! points are theirs.
 //!
 //! ```text
-//!   Curve ──▶ &dyn Kind ──┬─▶ line.rs  arc.rs  ellipse.rs  bezier.rs  spline.rs     what only the kind knows
-//!   (mod.rs, one match)   └─▶ spans.rs  turning.rs                                  the rest, by its pieces
+//!   Curve ──▶ &dyn Kind ──┬─▶ line.rs  arc.rs  ellipse.rs  bezier.rs  spline.rs  clothoid.rs     what only the kind knows
+//!   (mod.rs, one match)   └─▶ spans.rs  turning.rs                                               the rest, by its pieces
 //! ```
 //!
 //! *A new kind*: a file with its type and `impl Kind`, a variant of [`Curve`] and its arm in `Curve::as_kind`. The compiler then names each
-//! place outside of this folder that reads or writes kinds.
+//! place outside of this folder that tells kinds apart.
 
 use super::spans::{self, Span};
 use super::weld::Similarity;
@@ -30,7 +31,7 @@ pub(super) trait Kind {
     fn inner_point(&self, t: f64) -> Point;
     fn derivative(&self, t: f64) -> Vec2;
     fn second_derivative(&self, t: f64) -> Vec2;
-    /// The Bézier pieces of t0..t1, in order.
+    /// The Bézier pieces of t0..t1, in order; what they are off by, see [`Kind::reach`].
     fn spans(&self, t0: f64, t1: f64) -> Vec<Span<'_>>;
     /// How many points it takes to keep: what it costs in memory.
     fn control_count(&self) -> usize;
@@ -54,8 +55,9 @@ pub(super) trait Kind {
     fn as_ellipse(&self) -> Option<EllipticArc> {
         None
     }
-    /// The largest length that its points are computed from, where its points do not show it; else 0.
-    fn hidden_reach(&self) -> f64 {
+    /// The largest length that its points are computed from, where its coordinates do not show it; else 0. Points and pieces are good for a
+    /// few units in its last place.
+    fn reach(&self) -> f64 {
         0.0
     }
     /// Whether its curvature is the same everywhere, and its parameter runs evenly: a line or a circular arc.

@@ -221,8 +221,11 @@ impl Curve {
         Spline::from_knots(degree, knots, points, weights).map(|s| Curve::Spline(Box::new(s)))
     }
     /// The clothoid (Euler spiral) of a length, from a point with a heading (from the x axis to the left), of which the curvature changes
-    /// evenly from the first to the last of two, each 1/radius and positive where the curve turns left. Equal ones make it an arc, and
-    /// zeros a line, of this kind still. It may turn at most 100 times around.
+    /// evenly from the first to the last of two, each 1/radius and positive where the curve turns left. Equal ones make it an arc, of at most
+    /// once around, and zeros a line, of this kind still. Points are right to three roundings of the length and the coordinates.
+    ///
+    /// # Errors
+    /// Where a number is not finite, the length is not positive, or the curve turns more than 100 times around.
     pub fn clothoid(start: Point, heading_rad: f64, curvatures: [f64; 2], length: f64) -> Result<Self, CurveError> {
         Clothoid::new(start, heading_rad, curvatures, length, None).map(|c| Curve::Clothoid(Box::new(c)))
     }

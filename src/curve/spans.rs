@@ -5,8 +5,8 @@
 use super::bernstein::{self, SignChange, crossing};
 use super::bezier::Polygon;
 use super::ellipse::conic_parameter;
-use super::quadrature::integral;
 use super::kind::Kind;
+use super::quadrature::integral;
 use super::{Bezier, Cone, End, length};
 use crate::geometry::{Point, Rect, Vec2, boxes::distance_to_box, turn_from};
 use std::borrow::Cow;
@@ -138,12 +138,7 @@ pub(super) fn nearest(curve: &(impl Kind + ?Sized), p: Point, t0: f64, t1: f64) 
 
 /// From an end that seems nearest to p along the curve, as far as it comes nearer: where it sets out slowly, the noise of the slope's
 /// coefficients hides that. Newton's steps, of Gauss's kind where the distance is not convex; each is halved until it helps.
-fn descended(
-    curve: &(impl Kind + ?Sized),
-    p: Point,
-    (mut distance, mut t): (f64, f64),
-    [t0, t1]: [f64; 2],
-) -> f64 {
+fn descended(curve: &(impl Kind + ?Sized), p: Point, (mut distance, mut t): (f64, f64), [t0, t1]: [f64; 2]) -> f64 {
     const BUDGET: usize = 40;
     let mut share = 1.0;
     for _ in 0..BUDGET {

@@ -13,10 +13,11 @@ use std::f64::consts::TAU;
 /// A contact holds a crossing, a place where the curves come closest (on the line of centers), or an end.
 pub(super) fn guesses(contacts: &Contacts) -> Option<Vec<Guess>> {
     let (a, b) = (contacts.a.curve, contacts.b.curve);
-    let places = match ((a.as_arc(), a.as_line()), (b.as_arc(), b.as_line())) {
-        ((Some(p), _), (Some(q), _)) => circle_with_circle(p, q),
-        ((_, Some(p)), (Some(q), _)) | ((Some(q), _), (_, Some(p))) => line_with_circle(p, q),
-        _ => return None,
+    let places = match (a.as_arc(), b.as_arc()) {
+        (Some(p), Some(q)) => circle_with_circle(p, q),
+        (None, Some(q)) => line_with_circle(a.as_line()?, q),
+        (Some(p), None) => line_with_circle(b.as_line()?, p),
+        (None, None) => return None,
     };
     // A few units of rounding in each of some ten operations.
     let rounding = 64.0 * f64::EPSILON * reach_of(a).max(reach_of(b));

@@ -120,7 +120,7 @@ impl Hulls {
                 }
             }
         }
-        hulls.magnitude = curve.as_kind().hidden_reach();
+        hulls.magnitude = curve.as_kind().reach();
         hulls.group();
         hulls.magnitude = hulls.magnitude.max(magnitude(hulls[hulls.root].bounds));
         hulls

@@ -13,7 +13,6 @@
 //! # Ok::<(), squinch::import::ImportError>(())
 //! ```
 
-
 mod curves;
 mod read;
 mod write;

@@ -81,7 +81,6 @@ struct ClipForm {
 /// Clips whose parts are cut by clips whose parts are cut: as deep as drawings may nest them.
 const CLIP_DEPTH_MAX: usize = 64;
 
-
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct PointForm {
