@@ -1,6 +1,6 @@
 //! squinch: provably good triangle meshes of domains with curved boundaries.
 //!
-//! Curves stay curves: lines, arcs, Béziers and splines are split to a bounded turning and meshed by corner-lopping Delaunay refinement
+//! Curves stay curves: lines, arcs, Béziers, splines and clothoids are split to a bounded turning and meshed by corner-lopping Delaunay refinement
 //! (Pav & Walkington 2005), which ends whatever angles they meet at. An independent judge then checks the mesh against the curves.
 //!
 //! ```

@@ -105,6 +105,16 @@ fn samples() -> Vec<(&'static str, Curve)> {
         ("periodic b-spline", periodic_b_spline()),
         ("natural spline", Curve::natural_spline(&wave).unwrap()),
         ("periodic spline", Curve::periodic_spline(&ring).unwrap()),
+        ("clothoid from a line", Curve::clothoid(p(0., 0.1), 0.3, [0.0, 2.5], 1.2).unwrap()),
+        ("clothoid to a line", Curve::clothoid(p(-0.5, 0.1), -0.7, [-3.1, 0.0], 1.4).unwrap()),
+        ("clothoid of one sign", Curve::clothoid(p(0.2, 0.1), 2.3, [0.7, 3.0], 1.5).unwrap()),
+        ("s clothoid", Curve::clothoid(p(0., 0.), 0.5, [-3.0, 4.0], 1.3).unwrap()),
+        ("tight clothoid", Curve::clothoid(p(0.1, -0.2), 1.0, [2.0, 14.0], 2.5).unwrap()),
+        ("clothoid of many turns", Curve::clothoid(p(0.4, 0.2), 4.0, [-30.0, 20.0], 2.0).unwrap()),
+        ("flat clothoid", Curve::clothoid(p(0., 0.), 0.2, [2e-7, -3e-7], 1.1).unwrap()),
+        ("clothoid like an arc", Curve::clothoid(p(0.3, 0.), 0.2, [1.4, 1.4000001], 1.5).unwrap()),
+        ("clothoid of an arc", Curve::clothoid(p(0.3, 0.), 0.2, [-1.3, -1.3], 1.5).unwrap()),
+        ("clothoid of a line", Curve::clothoid(p(0.3, 0.), 0.2, [0.0, 0.0], 0.9).unwrap()),
     ]
 }
 
@@ -433,7 +443,9 @@ fn breaks_and_inflections_are_where_they_are_known_to_be() {
         assert!(by_name(name).breaks().is_empty() && by_name(name).inflections().is_empty(), "{name}");
     }
     for (name, curve) in samples() {
-        let straight = ["line", "degree 1", "straight cubic", "double ends", "quadratic of one handle"].contains(&name);
+        let straight =
+            ["line", "degree 1", "straight cubic", "double ends", "quadratic of one handle", "clothoid of a line"]
+                .contains(&name);
         assert_eq!(curve.is_straight(), straight, "{name}");
     }
     // Collinear, with a derivative that vanishes in the middle but does not reverse.
@@ -786,7 +798,11 @@ fn affine_images_keep_the_points() {
     for (name, curve) in samples() {
         for map in maps {
             let image = curve.transformed(map);
-            let kind = if curve.kind() == "arc" && map == maps[2] { "ellipse" } else { curve.kind() };
+            let kind = match curve.kind() {
+                "arc" if map == maps[2] => "ellipse",
+                "clothoid" if map == maps[2] => "spline",
+                kind => kind,
+            };
             assert_eq!(image.kind(), kind, "{name}");
             for t in grid(20, 0.0, 1.0) {
                 let off = (image.point(t) - map * curve.point(t)).hypot();
@@ -830,11 +846,17 @@ fn constructors_refuse_what_is_no_curve() {
         assert!(Curve::nurbs(1, &[0., 0., 1., 1.], &[o, b], None).is_err());
         assert!(Curve::nurbs(1, &[0., 0., 1., bad], &[o, q], None).is_err());
         assert!(Curve::nurbs(1, &[0., 0., 1., 1.], &[o, q], Some(&[bad, 1.0])).is_err());
+        assert!(Curve::clothoid(b, 0.0, [0.0, 1.0], 1.0).is_err() && Curve::clothoid(o, bad, [0.0, 1.0], 1.0).is_err());
+        assert!(Curve::clothoid(o, 0.0, [bad, 1.0], 1.0).is_err() && Curve::clothoid(o, 0.0, [0.0, 1.0], bad).is_err());
         assert!(Curve::natural_spline(&[o, b]).is_err() && Curve::periodic_spline(&[o, q, b]).is_err());
     }
     assert!(Curve::circle(o, 0.0).is_err() && Curve::circle(o, -1.0).is_err());
     assert!(Curve::arc(o, 1.0, 0.0, 0.0).is_err() && Curve::arc(o, 1.0, 0.0, 7.0).is_err());
     assert!(Curve::ellipse(o, u, u, 0.0, 1.0).is_err());
+    assert!(Curve::clothoid(o, 0.0, [0.0, 1.0], 0.0).is_err() && Curve::clothoid(o, 0.0, [0.0, 1.0], -1.0).is_err());
+    assert!(Curve::clothoid(o, 0.0, [0.0, 1300.0], 1.0).is_err(), "103 times around");
+    assert!(Curve::clothoid(o, 0.0, [1e200, -1e200], 1e200).is_err());
+    assert!(Curve::clothoid(p(f64::MAX, 0.0), 0.0, [0.0, 0.0], f64::MAX).is_err());
     assert!(Curve::bezier(vec![o]).is_err() && Curve::bezier(vec![]).is_err());
     assert!(Curve::rational_bezier(vec![o, q], vec![1.0, 0.0]).is_err());
     assert!(Curve::rational_bezier(vec![o, q], vec![1.0]).is_err());
@@ -914,6 +936,7 @@ proptest! {
             Curve::nurbs(2, &knots, &q, None),
             Curve::natural_spline(&q),
             Curve::periodic_spline(&q),
+            Curve::clothoid(q[0], numbers[0], [numbers[1], numbers[2]], numbers[3].abs()),
         ];
         for curve in curves.into_iter().flatten() {
             prop_assert!(curve.start().is_finite() && curve.end().is_finite());

@@ -18,6 +18,7 @@ draw tangent_curves.json tangent_curves_domain --stage domain --width 600
 draw tangent_curves.json tangent_curves --width 900
 draw tangent_curves.json tangent_curves_corner --view=-0.3,-0.3,0.3,0.3 --width 600
 draw plate.json plate --width 900
+draw transition.json transition --width 900
 draw logo.svg logo --colour region --width 600
 draw bracket.dxf bracket --colour region --width 900
 draw gear.json gear --colour region --width 600

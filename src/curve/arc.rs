@@ -1,7 +1,10 @@
 //! Part of a circle.
 
-use super::{CircularArc, CurveError, EllipticArc, End, check_finite, length};
-use crate::geometry::{Point, Vec2};
+use super::kind::Kind;
+use super::spans::Span;
+use super::weld::{Similarity, spread_to};
+use super::{Break, CircularArc, Cone, Curve, CurveError, EllipticArc, End, check_finite, ellipse, length, turning};
+use crate::geometry::{Point, Vec2, scaled};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// The point of the unit circle at an angle, and the unit tangent there.
@@ -35,6 +38,30 @@ pub(super) fn passages(start_rad: f64, sweep_rad: f64, angle: f64, period: f64, 
         .collect();
     found.sort_by(f64::total_cmp);
     found
+}
+
+/// What an affine map does that is a similarity.
+pub(super) struct SimilarityOf {
+    pub scale: f64,
+    /// Where the x axis is turned to.
+    pub turn_rad: f64,
+    /// 1, or −1 where it mirrors.
+    pub hand: f64,
+}
+
+/// The similarity that a map is, up to 4 ulp; `None` where it is none.
+pub(super) fn similarity_of(map: kurbo::Affine) -> Option<SimilarityOf> {
+    let [a, b, c, d, _, _] = map.as_coeffs();
+    let scale = length(Vec2::new(a, b));
+    let slack = 4.0 * f64::EPSILON * scale;
+    let hand = if (a - d).abs() <= slack && (b + c).abs() <= slack {
+        1.0
+    } else if (a + d).abs() <= slack && (b - c).abs() <= slack {
+        -1.0
+    } else {
+        return None;
+    };
+    Some(SimilarityOf { scale, turn_rad: libm::atan2(b, a), hand })
 }
 
 /// φ − sin φ without cancellation.
@@ -84,45 +111,6 @@ impl CircularArc {
         Ok(CircularArc { center, radius, start_rad, sweep_rad, ends: [start, end] })
     }
 
-    /// Up to half a circle the point comes from the chord and the sweep alone, so it is as exact as the ends however far away the
-    /// center of a flat arc is; beyond that the ends' rounding is spread along the arc.
-    pub(super) fn point(&self, t: f64) -> Point {
-        let [start, end] = self.ends;
-        let half = 0.5 * self.sweep_rad;
-        if self.sweep_rad.abs() <= PI {
-            let chord = end - start;
-            let (sin, cos) = libm::sincos(-half * (1.0 - t));
-            let reach = libm::sin(half * t) / libm::sin(half);
-            return start + Vec2::new(cos * chord.x - sin * chord.y, sin * chord.x + cos * chord.y) * reach;
-        }
-        let from_start = |t: f64| {
-            let along = on_circle(self.start_rad + half * t).1;
-            along * (2.0 * self.radius * libm::sin(half * t))
-        };
-        start + (from_start(t) + ((end - start) - from_start(1.0)) * t)
-    }
-
-    pub(super) fn tangent(&self, t: f64) -> Vec2 {
-        on_circle(self.start_rad + self.sweep_rad * t).1 * 1f64.copysign(self.sweep_rad)
-    }
-
-    pub(super) fn derivative(&self, t: f64) -> Vec2 {
-        self.tangent(t) * (self.radius * self.sweep_rad.abs())
-    }
-
-    pub(super) fn second_derivative(&self, t: f64) -> Vec2 {
-        on_circle(self.start_rad + self.sweep_rad * t).0 * (-self.radius * self.sweep_rad * self.sweep_rad)
-    }
-
-    pub(super) fn part(&self, t0: f64, t1: f64, ends: [Point; 2]) -> Self {
-        let start_rad = self.start_rad + self.sweep_rad * t0;
-        let part = CircularArc { start_rad, sweep_rad: self.sweep_rad * (t1 - t0), ends, ..*self };
-        if part.sweep_rad.abs() > PI || !part.is_spiral() {
-            return part;
-        }
-        Self::over_chord(ends[0], ends[1], part.sweep_rad).unwrap_or(part)
-    }
-
     /// Whether the ends lie off the circle by more than rounding explains, as an arc of more than half a circle is left where its ends
     /// were moved ([`Curve::with_ends`](super::Curve::with_ends)): the rest of it winds from one to the other. Its parts of up to half
     /// a circle are arcs of circles of their own.
@@ -133,31 +121,29 @@ impl CircularArc {
         self.ends.into_iter().zip(angles).any(is_off)
     }
 
-    pub(super) fn as_ellipse(&self) -> EllipticArc {
+    /// The same arc as part of an ellipse.
+    pub(super) fn elliptic(&self) -> EllipticArc {
         let (u, v) = (Vec2::new(self.radius, 0.0), Vec2::new(0.0, self.radius));
         let CircularArc { center, start_rad, sweep_rad, ends, .. } = *self;
         EllipticArc { center, u, v, start_rad, sweep_rad, ends }
     }
 
     /// The image under a similarity (up to 4 ulp); `None` where the map is none.
-    pub(super) fn transformed(&self, map: kurbo::Affine) -> Option<Self> {
-        let [a, b, c, d, _, _] = map.as_coeffs();
-        let slack = 4.0 * f64::EPSILON * length(Vec2::new(a, b));
-        let turn = libm::atan2(b, a);
-        let (start_rad, sweep_rad) = if (a - d).abs() <= slack && (b + c).abs() <= slack {
-            (self.start_rad + turn, self.sweep_rad)
-        } else if (a + d).abs() <= slack && (b - c).abs() <= slack {
-            (turn - self.start_rad, -self.sweep_rad)
-        } else {
-            return None;
-        };
-        let radius = self.radius * length(Vec2::new(a, b));
-        Some(CircularArc { center: map * self.center, radius, start_rad, sweep_rad, ends: self.ends.map(|p| map * p) })
+    fn image(&self, map: kurbo::Affine) -> Option<Self> {
+        let SimilarityOf { scale, turn_rad, hand } = similarity_of(map)?;
+        let (start_rad, sweep_rad) = (turn_rad + self.start_rad * hand, self.sweep_rad * hand);
+        let (center, radius) = (map * self.center, self.radius * scale);
+        Some(CircularArc { center, radius, start_rad, sweep_rad, ends: self.ends.map(|p| map * p) })
+    }
+
+    /// The unit tangent at t.
+    fn along(&self, t: f64) -> Vec2 {
+        on_circle(self.start_rad + self.sweep_rad * t).1 * 1f64.copysign(self.sweep_rad)
     }
 
     /// Candidates for the nearest point: the two where the circle's normal passes through p, by their angles from the start, which
     /// keep their digits however flat the arc is.
-    pub(super) fn normals_through(&self, p: Point, t0: f64, t1: f64) -> Vec<f64> {
+    fn normals_through(&self, p: Point, t0: f64, t1: f64) -> Vec<f64> {
         let outward = on_circle(self.start_rad).0;
         let offset = p - self.ends[0];
         let angle = libm::atan2(outward.cross(offset), self.radius + outward.dot(offset));
@@ -166,7 +152,7 @@ impl CircularArc {
 
     /// Where the line meets the circle: with u = tan(φ/2) of the angle φ from the start, h the distance of the start from the line
     /// and n the line's unit normal, (h/R − 2 n·e) u² + 2 (n·e⊥) u + h/R = 0.
-    pub(super) fn line_crossings(&self, a: Point, direction: Vec2, t0: f64, t1: f64) -> Vec<f64> {
+    fn circle_crossings(&self, a: Point, direction: Vec2, t0: f64, t1: f64) -> Vec<f64> {
         let normal = Vec2::new(-direction.y, direction.x) / length(direction);
         let (outward, along) = on_circle(self.start_rad);
         let start = normal.dot(self.ends[0] - a) / self.radius;
@@ -183,7 +169,146 @@ impl CircularArc {
         found
     }
 
-    pub(super) fn leaves_ball(&self, end: End, radius: f64, t0: f64, t1: f64) -> Option<f64> {
+    /// One Newton step from a parameter near the foot of the perpendicular from p, where it comes nearer.
+    fn polished_foot(&self, p: Point, t: f64, t0: f64, t1: f64) -> f64 {
+        let (offset, d, dd) = (self.point(t) - p, self.derivative(t), self.second_derivative(t));
+        let step = offset.dot(d) / (d.dot(d) + offset.dot(dd));
+        let stepped = (t - step).clamp(t0, t1);
+        if length(self.point(stepped) - p) < length(offset) { stepped } else { t }
+    }
+}
+
+impl Kind for CircularArc {
+    fn name(&self) -> &'static str {
+        "arc"
+    }
+    fn ends(&self) -> [Point; 2] {
+        self.ends
+    }
+    /// Up to half a circle the point comes from the chord and the sweep alone, so it is as exact as the ends however far away the
+    /// center of a flat arc is; beyond that the ends' rounding is spread along the arc.
+    fn inner_point(&self, t: f64) -> Point {
+        let [start, end] = self.ends;
+        let half = 0.5 * self.sweep_rad;
+        if self.sweep_rad.abs() <= PI {
+            let chord = end - start;
+            let (sin, cos) = libm::sincos(-half * (1.0 - t));
+            let reach = libm::sin(half * t) / libm::sin(half);
+            return start + Vec2::new(cos * chord.x - sin * chord.y, sin * chord.x + cos * chord.y) * reach;
+        }
+        let from_start = |t: f64| {
+            let along = on_circle(self.start_rad + half * t).1;
+            along * (2.0 * self.radius * libm::sin(half * t))
+        };
+        start + (from_start(t) + ((end - start) - from_start(1.0)) * t)
+    }
+    fn derivative(&self, t: f64) -> Vec2 {
+        self.along(t) * (self.radius * self.sweep_rad.abs())
+    }
+    fn second_derivative(&self, t: f64) -> Vec2 {
+        on_circle(self.start_rad + self.sweep_rad * t).0 * (-self.radius * self.sweep_rad * self.sweep_rad)
+    }
+    fn spans(&self, t0: f64, t1: f64) -> Vec<Span<'_>> {
+        ellipse::conic_spans(&self.elliptic(), t0, t1)
+    }
+    fn control_count(&self) -> usize {
+        1
+    }
+    fn may_meet_itself(&self) -> bool {
+        false
+    }
+    fn part(&self, t0: f64, t1: f64, ends: [Point; 2]) -> Curve {
+        let start_rad = self.start_rad + self.sweep_rad * t0;
+        let part = CircularArc { start_rad, sweep_rad: self.sweep_rad * (t1 - t0), ends, ..*self };
+        if part.sweep_rad.abs() > PI || !part.is_spiral() {
+            return Curve::Arc(part);
+        }
+        Curve::Arc(Self::over_chord(ends[0], ends[1], part.sweep_rad).unwrap_or(part))
+    }
+    fn reversed(&self) -> Curve {
+        let (start_rad, [start, end]) = (self.start_rad + self.sweep_rad, self.ends);
+        Curve::Arc(CircularArc { start_rad, sweep_rad: -self.sweep_rad, ends: [end, start], ..*self })
+    }
+    fn scaled(&self, factor: f64) -> Curve {
+        let scale = |p: Point| scaled(p, factor);
+        let (center, radius) = (scale(self.center), self.radius * factor);
+        Curve::Arc(CircularArc { center, radius, ends: self.ends.map(scale), ..*self })
+    }
+    /// Part of an ellipse where the map is no similarity.
+    fn transformed(&self, map: kurbo::Affine) -> Curve {
+        self.image(map).map_or_else(|| self.elliptic().transformed(map), Curve::Arc)
+    }
+    fn moved(&self, map: &Similarity, ends: [Point; 2]) -> Curve {
+        let (center, radius) = (map.point(self.center), self.radius * map.scale());
+        Curve::Arc(CircularArc { center, radius, start_rad: self.start_rad + map.turn_rad(), ends, ..*self })
+    }
+    /// The circle moves by the mean of both, and [`Kind::inner_point`] spreads the rest.
+    fn spread(&self, moves: [Vec2; 2], ends: [Point; 2]) -> Curve {
+        Curve::Arc(CircularArc { center: self.center + spread_to(moves, 0.5), ends, ..*self })
+    }
+    fn is_round(&self) -> bool {
+        true
+    }
+    fn as_ellipse(&self) -> Option<EllipticArc> {
+        Some(self.elliptic())
+    }
+
+    fn tangent(&self, t: f64, _side: End) -> Vec2 {
+        self.along(t)
+    }
+    fn is_straight(&self) -> bool {
+        false
+    }
+    fn extremes(&self, t0: f64, t1: f64) -> Vec<f64> {
+        passages(self.start_rad, self.sweep_rad, 0.0, FRAC_PI_2, t0, t1)
+    }
+    fn length_of(&self, t0: f64, t1: f64) -> f64 {
+        self.radius * (self.sweep_rad * (t1 - t0)).abs()
+    }
+    fn nearest(&self, p: Point, t0: f64, t1: f64) -> f64 {
+        let feet = self.normals_through(p, t0, t1).into_iter().map(|t| self.polished_foot(p, t, t0, t1));
+        let mut best = (f64::INFINITY, t0);
+        for t in feet.chain([t0, t1]) {
+            let distance = length(self.point(t) - p);
+            if distance < best.0 {
+                best = (distance, t);
+            }
+        }
+        best.1
+    }
+    fn area_over_chord(&self) -> f64 {
+        0.5 * self.radius * self.radius * angle_minus_sine(self.sweep_rad)
+    }
+    fn turning(&self, t0: f64, t1: f64) -> f64 {
+        (self.sweep_rad * (t1 - t0)).abs()
+    }
+    fn breaks(&self) -> Vec<Break> {
+        Vec::new()
+    }
+    fn inflections(&self) -> Vec<f64> {
+        Vec::new()
+    }
+    fn cuts_of_turning(&self, tau: f64) -> Vec<f64> {
+        turning::shares(self.sweep_rad.abs(), tau).map(|share| share / self.sweep_rad.abs()).collect()
+    }
+    fn lens_angle(&self, t0: f64, t1: f64) -> f64 {
+        0.5 * (self.sweep_rad * (t1 - t0)).abs()
+    }
+    fn chord_error(&self, t0: f64, t1: f64) -> f64 {
+        let quarter = libm::sin(0.25 * self.sweep_rad * (t1 - t0));
+        2.0 * self.radius * quarter * quarter
+    }
+    fn bisector_crossing(&self, t0: f64, t1: f64) -> f64 {
+        0.5 * (t0 + t1)
+    }
+    fn line_crossings(&self, a: Point, direction: Vec2, t0: f64, t1: f64) -> Vec<f64> {
+        let polished = |t: f64| {
+            let step = (self.point(t) - a).cross(direction) / self.derivative(t).cross(direction);
+            Some(t - step).filter(|s| *s > t0 && *s < t1).unwrap_or(t)
+        };
+        self.circle_crossings(a, direction, t0, t1).into_iter().map(polished).collect()
+    }
+    fn leaves_ball(&self, end: End, radius: f64, t0: f64, t1: f64) -> Option<f64> {
         let sine = radius / (2.0 * self.radius);
         // asin of a rounded quotient: some ulp past the end still is the end.
         let slack = 1.0 + 4.0 * f64::EPSILON;
@@ -198,5 +323,11 @@ impl CircularArc {
             End::Start => (t0 + step).min(t1),
             End::Finish => (t1 - step).max(t0),
         })
+    }
+    fn widens(&self, cone: &mut Cone, end: End) -> bool {
+        ellipse::widens(self, cone, end)
+    }
+    fn each_of_hull(&self, take: &mut dyn FnMut(Point)) -> bool {
+        ellipse::each_of_hull(self, take)
     }
 }

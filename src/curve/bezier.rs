@@ -3,8 +3,12 @@
 //! All arithmetic is on differences from a nearby point, so a far offset costs one rounding at the end.
 
 use super::bernstein;
-use super::{Bezier, CurveError, End, check_finite, check_points, length, quadrature, unit};
-use crate::geometry::{Point, Vec2, unit_scale};
+use super::kind::Kind;
+use super::spans::{self, Span};
+use super::weld::{Similarity, spread_to};
+use super::{Bezier, Curve, CurveError, End, check_finite, check_points, length, quadrature, unit};
+use crate::geometry::{Point, Vec2, scaled, unit_scale};
+use std::borrow::Cow;
 use std::ops::{Add, Mul, Sub};
 
 /// Above this, binomial coefficients of the products (three times the degree) leave the range of `f64`.
@@ -152,7 +156,8 @@ impl Bezier {
         Weighted { at: (self.points[i] - self.points[0]) * weights[i], weight: weights[i] }
     }
 
-    pub(super) fn point(&self, t: f64) -> Point {
+    /// The point at t; an end where t is not inside.
+    pub(super) fn at(&self, t: f64) -> Point {
         let first = self.points[0];
         if t <= 0.0 {
             return first;
@@ -166,38 +171,6 @@ impl Bezier {
                 None => bernstein::value_by(count, |i| self.points[i] - first, t),
                 Some(w) => bernstein::value_by(count, |i| self.weighted(w, i), t).point(),
             }
-    }
-
-    pub(super) fn derivative(&self, t: f64) -> Vec2 {
-        let n = self.degree();
-        let Some(w) = &self.weights else {
-            return bernstein::value_by(n, |i| self.points[i + 1] - self.points[i], t) * n as f64;
-        };
-        let value = bernstein::value_by(n + 1, |i| self.weighted(w, i), t);
-        let slope = bernstein::value_by(n, |i| self.weighted(w, i + 1) - self.weighted(w, i), t) * n as f64;
-        (slope.at - value.point() * slope.weight) / value.weight
-    }
-
-    pub(super) fn second_derivative(&self, t: f64) -> Vec2 {
-        let n = self.degree();
-        let factor = (n * (n - 1)) as f64;
-        let p = &self.points;
-        let Some(w) = &self.weights else {
-            if n < 2 {
-                return Vec2::ZERO;
-            }
-            return bernstein::value_by(n - 1, |i| (p[i + 2] - p[i + 1]) - (p[i + 1] - p[i]), t) * factor;
-        };
-        let q = |i: usize| self.weighted(w, i);
-        let value = bernstein::value_by(n + 1, q, t);
-        let slope = bernstein::value_by(n, |i| q(i + 1) - q(i), t) * n as f64;
-        let bend = if n < 2 {
-            Weighted { at: Vec2::ZERO, weight: 0.0 }
-        } else {
-            bernstein::value_by(n - 1, |i| (q(i + 2) - q(i + 1)) - (q(i + 1) - q(i)), t) * factor
-        };
-        let first = (slope.at - value.point() * slope.weight) / value.weight;
-        (bend.at - first * (2.0 * slope.weight) - value.point() * bend.weight) / value.weight
     }
 
     /// The control polygon relative to `origin`.
@@ -229,7 +202,8 @@ impl Bezier {
         4.0 * f64::EPSILON * largest * weight * weight
     }
 
-    pub(super) fn part(&self, t0: f64, t1: f64, ends: [Point; 2]) -> Self {
+    /// The part t0..t1 with the given ends.
+    pub(super) fn cut_out(&self, t0: f64, t1: f64, ends: [Point; 2]) -> Self {
         let first = self.points[0];
         let polygon = self.about(first).restricted(t0, t1);
         let mut points: Vec<Point> = polygon.points().into_iter().map(|v| first + v).collect();
@@ -238,7 +212,7 @@ impl Bezier {
         Bezier { points, weights: polygon.weights() }
     }
 
-    pub(super) fn reversed(&self) -> Self {
+    pub(super) fn turned_round(&self) -> Self {
         let mut reversed = self.clone();
         reversed.points.reverse();
         if let Some(w) = &mut reversed.weights {
@@ -247,25 +221,20 @@ impl Bezier {
         reversed
     }
 
-    pub(super) fn mapped(&self, map: impl Fn(Point) -> Point) -> Self {
-        Bezier { points: self.points.iter().map(|p| map(*p)).collect(), weights: self.weights.clone() }
+    /// Moves of the ends spread by the parameter, of which the curve runs over t0..t1.
+    pub(super) fn spread_over(&self, moves: [Vec2; 2], [t0, t1]: [f64; 2]) -> Self {
+        let mut moved = self.clone();
+        let last = moved.degree();
+        for (i, p) in moved.points.iter_mut().enumerate() {
+            // Neighbours share the joint's move to the last bit.
+            let t = if i == last { t1 } else { t0 + (t1 - t0) * (i as f64 / last as f64) };
+            *p += spread_to(moves, t);
+        }
+        moved
     }
 
-    /// See [`super::Curve::tangent`].
-    pub(super) fn tangent(&self, t: f64, side: End) -> Vec2 {
-        let hodograph = self.hodograph();
-        let noise = self.hodograph_noise();
-        let there = bernstein::value(&hodograph, t);
-        if length(there) > noise {
-            return unit(there);
-        }
-        let (before, after) = bernstein::split(&hodograph, t);
-        let limit = |side| match side {
-            End::Start => after.iter().find(|d| length(**d) > noise),
-            End::Finish => before.iter().rev().find(|d| length(**d) > noise),
-        };
-        let other = if side == End::Start { End::Finish } else { End::Start };
-        unit(limit(side).or_else(|| limit(other)).copied().unwrap_or(self.points[self.degree()] - self.points[0]))
+    pub(super) fn mapped(&self, map: impl Fn(Point) -> Point) -> Self {
+        Bezier { points: self.points.iter().map(|p| map(*p)).collect(), weights: self.weights.clone() }
     }
 
     /// ½∮(x dy − y dx) between the curve and its chord.
@@ -291,7 +260,7 @@ impl Bezier {
     }
 
     /// No control point leaves the chord, nor goes back along it, by more than rounding.
-    pub(super) fn is_straight(&self, noise: f64) -> bool {
+    pub(super) fn is_straight_within(&self, noise: f64) -> bool {
         let chord = self.points[self.degree()] - self.points[0];
         let len = length(chord);
         if len <= noise {
@@ -299,6 +268,118 @@ impl Bezier {
         }
         self.points.iter().all(|p| (*p - self.points[0]).cross(chord).abs() <= noise * len)
             && self.points.windows(2).all(|p| (p[1] - p[0]).dot(chord) >= -noise * len)
+    }
+}
+
+impl Kind for Bezier {
+    fn name(&self) -> &'static str {
+        if self.weights.is_none() { "bezier" } else { "rational bezier" }
+    }
+    fn ends(&self) -> [Point; 2] {
+        [self.points[0], self.points[self.degree()]]
+    }
+    fn inner_point(&self, t: f64) -> Point {
+        self.at(t)
+    }
+    fn derivative(&self, t: f64) -> Vec2 {
+        let n = self.degree();
+        let Some(w) = &self.weights else {
+            return bernstein::value_by(n, |i| self.points[i + 1] - self.points[i], t) * n as f64;
+        };
+        let value = bernstein::value_by(n + 1, |i| self.weighted(w, i), t);
+        let slope = bernstein::value_by(n, |i| self.weighted(w, i + 1) - self.weighted(w, i), t) * n as f64;
+        (slope.at - value.point() * slope.weight) / value.weight
+    }
+    fn second_derivative(&self, t: f64) -> Vec2 {
+        let n = self.degree();
+        let factor = (n * (n - 1)) as f64;
+        let p = &self.points;
+        let Some(w) = &self.weights else {
+            if n < 2 {
+                return Vec2::ZERO;
+            }
+            return bernstein::value_by(n - 1, |i| (p[i + 2] - p[i + 1]) - (p[i + 1] - p[i]), t) * factor;
+        };
+        let q = |i: usize| self.weighted(w, i);
+        let value = bernstein::value_by(n + 1, q, t);
+        let slope = bernstein::value_by(n, |i| q(i + 1) - q(i), t) * n as f64;
+        let bend = if n < 2 {
+            Weighted { at: Vec2::ZERO, weight: 0.0 }
+        } else {
+            bernstein::value_by(n - 1, |i| (q(i + 2) - q(i + 1)) - (q(i + 1) - q(i)), t) * factor
+        };
+        let first = (slope.at - value.point() * slope.weight) / value.weight;
+        (bend.at - first * (2.0 * slope.weight) - value.point() * bend.weight) / value.weight
+    }
+    fn spans(&self, t0: f64, t1: f64) -> Vec<Span<'_>> {
+        vec![Span::even(Cow::Borrowed(self), [t0, t1], [t0, t1])]
+    }
+    fn control_count(&self) -> usize {
+        self.points.len()
+    }
+    fn may_meet_itself(&self) -> bool {
+        true
+    }
+    fn part(&self, t0: f64, t1: f64, ends: [Point; 2]) -> Curve {
+        boxed(self.cut_out(t0, t1, ends))
+    }
+    fn reversed(&self) -> Curve {
+        boxed(self.turned_round())
+    }
+    fn scaled(&self, factor: f64) -> Curve {
+        boxed(self.mapped(|p| scaled(p, factor)))
+    }
+    fn transformed(&self, map: kurbo::Affine) -> Curve {
+        boxed(self.mapped(|p| map * p))
+    }
+    fn moved(&self, map: &Similarity, ends: [Point; 2]) -> Curve {
+        let mut moved = self.mapped(|p| map.point(p));
+        set_ends(std::slice::from_mut(&mut moved), ends);
+        boxed(moved)
+    }
+    fn spread(&self, moves: [Vec2; 2], ends: [Point; 2]) -> Curve {
+        let mut moved = self.spread_over(moves, [0.0, 1.0]);
+        set_ends(std::slice::from_mut(&mut moved), ends);
+        boxed(moved)
+    }
+
+    fn tangent(&self, t: f64, side: End) -> Vec2 {
+        let hodograph = self.hodograph();
+        let noise = self.hodograph_noise();
+        let there = bernstein::value(&hodograph, t);
+        if length(there) > noise {
+            return unit(there);
+        }
+        let (before, after) = bernstein::split(&hodograph, t);
+        let limit = |side| match side {
+            End::Start => after.iter().find(|d| length(**d) > noise),
+            End::Finish => before.iter().rev().find(|d| length(**d) > noise),
+        };
+        let other = if side == End::Start { End::Finish } else { End::Start };
+        unit(limit(side).or_else(|| limit(other)).copied().unwrap_or(self.points[self.degree()] - self.points[0]))
+    }
+    fn is_straight(&self) -> bool {
+        self.is_straight_within(self.hodograph_noise())
+    }
+    fn line_crossings(&self, a: Point, direction: Vec2, t0: f64, t1: f64) -> Vec<f64> {
+        if self.is_beside_line(a, direction) {
+            return Vec::new();
+        }
+        spans::line_crossings(&self.spans(t0, t1), a, direction, t0, t1)
+    }
+}
+
+fn boxed(bezier: Bezier) -> Curve {
+    Curve::Bezier(Box::new(bezier))
+}
+
+/// Gives a chain of spans its exact ends.
+pub(super) fn set_ends(spans: &mut [Bezier], [start, end]: [Point; 2]) {
+    if let Some(first) = spans.first_mut().and_then(|span| span.points.first_mut()) {
+        *first = start;
+    }
+    if let Some(last) = spans.last_mut().and_then(|span| span.points.last_mut()) {
+        *last = end;
     }
 }
 

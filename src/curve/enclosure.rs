@@ -2,7 +2,6 @@
 
 use super::{Curve, End, length};
 use crate::geometry::{Point, Vec2};
-use std::f64::consts::PI;
 
 /// Units in the last place, for each control point, by which a distance from a chord may be off.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
@@ -16,25 +15,13 @@ pub struct Cone {
 
 impl Curve {
     /// A cone with its apex at an end that holds the curve, up to rounding; `None` where none is at hand that is narrower than a half plane.
-    ///
-    /// A Bézier lies in the hull of its control points, and an arc that turns less than π between its tangent and its chord.
     pub fn cone_from(&self, end: End) -> Option<Cone> {
         let (apex, other) = match end {
             End::Start => (self.start(), self.end()),
             End::Finish => (self.end(), self.start()),
         };
         let mut cone = Cone::along(other - apex)?;
-        match self {
-            Curve::Line(_) => Some(cone),
-            Curve::Arc(_) | Curve::Ellipse(_) => {
-                (self.turning(0.0, 1.0) < PI && cone.widen(self.direction_at(end), other - apex)).then_some(cone)
-            }
-            Curve::Bezier(bezier) => cone.widen_to(&bezier.points, apex, other - apex).then_some(cone),
-            Curve::Spline(spline) => {
-                let all = spline.spans.iter().all(|span| cone.widen_to(&span.points, apex, other - apex));
-                all.then_some(cone)
-            }
-        }
+        self.as_kind().widens(&mut cone, end).then_some(cone)
     }
 
     /// Whether the strip along the chord of either curve shows that they are farther apart than `gap`.
@@ -51,7 +38,7 @@ impl Curve {
         let (mut count, mut largest) = (0.0, 0.0f64);
         let mut spread = |curve: &Self| {
             let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-            let has_hull = curve.each_of_hull(&mut |p| {
+            let has_hull = curve.as_kind().each_of_hull(&mut |p| {
                 let d = normal.dot(p - origin);
                 (low, high) = (low.min(d), high.max(d));
                 (count, largest) = (count + 1.0, largest.max(p.x.abs()).max(p.y.abs()));
@@ -61,25 +48,6 @@ impl Curve {
         let (Some([low, high]), Some([least, most])) = (spread(other), spread(self)) else { return false };
         let gap = gap + ROUNDING * count * largest;
         least > high + gap || most < low - gap
-    }
-
-    /// Calls `take` with points whose convex hull holds the curve, up to rounding; whether there are such.
-    fn each_of_hull(&self, take: &mut impl FnMut(Point)) -> bool {
-        match self {
-            Curve::Line(line) => [line.start, line.end].into_iter().for_each(take),
-            Curve::Arc(_) | Curve::Ellipse(_) => {
-                if self.turning(0.0, 1.0) > PI {
-                    return false;
-                }
-                // Half a circle or less lies in the rectangle on its chord that its middle reaches; an ellipse is its affine image.
-                let ends = [self.start(), self.end()];
-                let bulge = self.point(0.5) - ends[0].midpoint(ends[1]);
-                ends.into_iter().flat_map(|end| [end, end + bulge]).for_each(take);
-            }
-            Curve::Bezier(bezier) => bezier.points.iter().copied().for_each(take),
-            Curve::Spline(spline) => spline.spans.iter().flat_map(|span| &span.points).copied().for_each(take),
-        }
-        true
     }
 }
 
@@ -100,7 +68,7 @@ impl Cone {
     }
 
     /// Takes in points other than the apex.
-    fn widen_to(&mut self, points: &[Point], apex: Point, axis: Vec2) -> bool {
+    pub(super) fn widen_to(&mut self, points: &[Point], apex: Point, axis: Vec2) -> bool {
         points.iter().filter(|&&point| point != apex).all(|&point| self.widen(point - apex, axis))
     }
 
@@ -126,6 +94,7 @@ impl Cone {
 mod tests {
     use super::*;
     use crate::geometry::direction;
+    use std::f64::consts::PI;
 
     #[test]
     fn cones_are_apart_by_the_least_angle_between_them() {

@@ -108,7 +108,7 @@ pub fn meetings(a: &Curve, b: &Curve, tolerance: f64) -> Result<Meetings, Meetin
 /// # Errors
 /// [`MeetingBudget`] as for [`meetings`].
 pub fn self_meetings(a: &Curve, tolerance: f64) -> Result<Vec<Meeting>, MeetingBudget> {
-    if matches!(a, Curve::Line(_) | Curve::Arc(_) | Curve::Ellipse(_)) {
+    if !a.as_kind().may_meet_itself() {
         return Ok(Vec::new());
     }
     let mut search = Search::new(a, a, vec![Hulls::of(a)], tolerance, true);

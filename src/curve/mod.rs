@@ -1,4 +1,4 @@
-//! One curve and its questions: an exact line, arc, Bézier or spline, never flattened.
+//! One curve and its questions: an exact line, arc, Bézier, spline or clothoid, never flattened.
 //!
 //! Every kind runs over t ∈ [0, 1], and `point(0)` and `point(1)` are *exactly* its end points: a curve of a domain interpolates its
 //! vertices bit for bit ([`Curve::with_ends`]). Questions about a part of a curve take a range `t0..t1` with `t0 < t1`.
@@ -9,8 +9,10 @@
 mod arc;
 mod bernstein;
 mod bezier;
+mod clothoid;
 mod ellipse;
 mod enclosure;
+mod kind;
 mod line;
 mod meet;
 mod quadrature;
@@ -24,7 +26,8 @@ pub use enclosure::Cone;
 pub use meet::{Meeting, MeetingBudget, MeetingKind, Meetings, Overlap, meetings, self_meetings};
 
 use crate::geometry::{Point, Rect, Vec2, bounds_of};
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use kind::Kind;
+use std::f64::consts::{PI, TAU};
 
 /// One end of a curve.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -58,6 +61,7 @@ pub enum Curve {
     Ellipse(Box<EllipticArc>),
     Bezier(Box<Bezier>),
     Spline(Box<Spline>),
+    Clothoid(Box<Clothoid>),
 }
 
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -103,6 +107,16 @@ pub struct Spline {
     pub spans: Vec<Bezier>,
 }
 
+/// A clothoid, or Euler spiral: its curvature changes evenly along it.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Clothoid {
+    heading_rad: f64,
+    curvatures: [f64; 2],
+    length: f64,
+    /// What follows it to rounding; its ends are the clothoid's.
+    chain: Spline,
+}
+
 /// Why a curve cannot be built.
 #[derive(Clone, PartialEq, Debug, thiserror::Error)]
 pub enum CurveError {
@@ -118,6 +132,10 @@ pub enum CurveError {
     Radius { radius: f64 },
     #[error("the sweep {sweep_rad} (radians) is zero or more than once around")]
     Sweep { sweep_rad: f64 },
+    #[error("the length {length} is not positive")]
+    Length { length: f64 },
+    #[error("the curve turns {turns} times around, and {most} is the most; shorter ones can follow each other")]
+    Turns { turns: f64, most: f64 },
 }
 
 pub(crate) fn length(v: Vec2) -> f64 {
@@ -202,6 +220,15 @@ impl Curve {
     pub fn nurbs(degree: usize, knots: &[f64], points: &[Point], weights: Option<&[f64]>) -> Result<Self, CurveError> {
         Spline::from_knots(degree, knots, points, weights).map(|s| Curve::Spline(Box::new(s)))
     }
+    /// The clothoid (Euler spiral) of a length, from a point with a heading (from the x axis to the left), of which the curvature changes
+    /// evenly from the first to the last of two, each 1/radius and positive where the curve turns left. Equal ones make it an arc, of at most
+    /// once around, and zeros a line, of this kind still. Points are right to three roundings of the length and the coordinates.
+    ///
+    /// # Errors
+    /// Where a number is not finite, the length is not positive, or the curve turns more than 100 times around.
+    pub fn clothoid(start: Point, heading_rad: f64, curvatures: [f64; 2], length: f64) -> Result<Self, CurveError> {
+        Clothoid::new(start, heading_rad, curvatures, length, None).map(|c| Curve::Clothoid(Box::new(c)))
+    }
     /// The natural cubic spline through ≥ 2 points (centripetal parameters; exact repeats are skipped).
     pub fn natural_spline(points: &[Point]) -> Result<Self, CurveError> {
         Spline::natural(points).map(|s| Curve::Spline(Box::new(s)))
@@ -219,88 +246,60 @@ impl Curve {
 
 // ---- questions ----
 impl Curve {
-    /// The field's name of the kind: "line", "arc", "ellipse", "bezier", "rational bezier", "spline", "nurbs".
-    pub fn kind(&self) -> &'static str {
+    /// The one place where kinds are told apart: everything else asks the trait.
+    fn as_kind(&self) -> &dyn Kind {
         match self {
-            Curve::Line(_) => "line",
-            Curve::Arc(_) => "arc",
-            Curve::Ellipse(_) => "ellipse",
-            Curve::Bezier(b) if b.weights.is_none() => "bezier",
-            Curve::Bezier(_) => "rational bezier",
-            Curve::Spline(s) if s.spans.iter().all(|span| span.weights.is_none()) => "spline",
-            Curve::Spline(_) => "nurbs",
+            Curve::Line(line) => line,
+            Curve::Arc(arc) => arc,
+            Curve::Ellipse(arc) => &**arc,
+            Curve::Bezier(bezier) => &**bezier,
+            Curve::Spline(spline) => &**spline,
+            Curve::Clothoid(clothoid) => &**clothoid,
         }
+    }
+    /// The segment, where it is one by kind (a Bézier that is straight is not: [`Curve::is_straight`]).
+    pub fn as_line(&self) -> Option<&Line> {
+        if let Curve::Line(line) = self { Some(line) } else { None }
+    }
+    /// The circular arc, where it is one by kind.
+    pub fn as_arc(&self) -> Option<&CircularArc> {
+        if let Curve::Arc(arc) = self { Some(arc) } else { None }
+    }
+    /// Whether its curvature is the same everywhere, and its parameter runs evenly along it: a line or a circular arc.
+    pub fn is_round(&self) -> bool {
+        self.as_kind().is_round()
+    }
+    /// How many points it takes to keep, where a line, an arc or an ellipse counts as one.
+    pub fn control_count(&self) -> usize {
+        self.as_kind().control_count()
+    }
+    /// 0, the parameters at which one formula ends and the next begins (the knots of a spline), and 1.
+    pub fn knots(&self) -> Vec<f64> {
+        self.as_kind().knots()
+    }
+    /// The field's name of the kind: "line", "arc", "ellipse", "bezier", "rational bezier", "spline", "nurbs", "clothoid".
+    pub fn kind(&self) -> &'static str {
+        self.as_kind().name()
     }
     pub fn start(&self) -> Point {
-        match self {
-            Curve::Line(l) => l.start,
-            Curve::Arc(a) => a.ends[0],
-            Curve::Ellipse(e) => e.ends[0],
-            Curve::Bezier(b) => b.points[0],
-            Curve::Spline(s) => s.spans[0].points[0],
-        }
+        self.as_kind().ends()[0]
     }
     pub fn end(&self) -> Point {
-        match self {
-            Curve::Line(l) => l.end,
-            Curve::Arc(a) => a.ends[1],
-            Curve::Ellipse(e) => e.ends[1],
-            Curve::Bezier(b) => b.point(1.0),
-            Curve::Spline(s) => s.point(1.0),
-        }
+        self.as_kind().ends()[1]
     }
     pub fn point(&self, t: f64) -> Point {
-        if t <= 0.0 {
-            return self.start();
-        }
-        if t >= 1.0 {
-            return self.end();
-        }
-        match self {
-            Curve::Line(l) => l.point(t),
-            Curve::Arc(a) => a.point(t),
-            Curve::Ellipse(e) => e.point(t),
-            Curve::Bezier(b) => b.point(t),
-            Curve::Spline(s) => s.point(t),
-        }
+        self.as_kind().point(t)
     }
     pub fn derivative(&self, t: f64) -> Vec2 {
-        match self {
-            Curve::Line(l) => l.chord(),
-            Curve::Arc(a) => a.derivative(t),
-            Curve::Ellipse(e) => e.derivative(t),
-            Curve::Bezier(b) => b.derivative(t),
-            Curve::Spline(s) => {
-                let (i, u) = s.locate(t, End::Start);
-                s.spans[i].derivative(u) / s.step(i)
-            }
-        }
+        self.as_kind().derivative(t)
     }
     pub fn second_derivative(&self, t: f64) -> Vec2 {
-        match self {
-            Curve::Line(_) => Vec2::ZERO,
-            Curve::Arc(a) => a.second_derivative(t),
-            Curve::Ellipse(e) => e.second_derivative(t),
-            Curve::Bezier(b) => b.second_derivative(t),
-            Curve::Spline(s) => {
-                let (i, u) = s.locate(t, End::Start);
-                s.spans[i].second_derivative(u) / s.step(i) / s.step(i)
-            }
-        }
+        self.as_kind().second_derivative(t)
     }
     /// Unit tangent in the direction of travel; where the derivative vanishes, the limit from after (`End::Start`) or before
     /// (`End::Finish`) t. At a break the two differ.
     pub fn tangent(&self, t: f64, side: End) -> Vec2 {
-        match self {
-            Curve::Line(l) => unit(l.chord()),
-            Curve::Arc(a) => a.tangent(t),
-            Curve::Ellipse(e) => unit(e.derivative(t)),
-            Curve::Bezier(b) => b.tangent(t, side),
-            Curve::Spline(s) => {
-                let (i, u) = s.locate(t, side);
-                s.spans[i].tangent(u, side)
-            }
-        }
+        self.as_kind().tangent(t, side)
     }
     /// Unit direction in which the curve leaves its end point *into the curve*.
     pub fn direction_at(&self, end: End) -> Vec2 {
@@ -317,12 +316,7 @@ impl Curve {
     }
     /// Whether the curve is its chord, followed without turning back, up to rounding of its control points.
     pub fn is_straight(&self) -> bool {
-        match self {
-            Curve::Line(_) => true,
-            Curve::Arc(_) | Curve::Ellipse(_) => false,
-            Curve::Bezier(b) => b.is_straight(b.hodograph_noise()),
-            Curve::Spline(_) => spans::is_straight(self),
-        }
+        self.as_kind().is_straight()
     }
     /// A tight box, up to rounding of `point`.
     pub fn bounds(&self) -> Rect {
@@ -330,12 +324,7 @@ impl Curve {
     }
     /// A tight box around t0..t1, up to rounding of `point`.
     pub fn bounds_of(&self, t0: f64, t1: f64) -> Rect {
-        let extremes = match self {
-            Curve::Line(_) => Vec::new(),
-            Curve::Arc(a) => arc::passages(a.start_rad, a.sweep_rad, 0.0, FRAC_PI_2, t0, t1),
-            Curve::Ellipse(e) => e.extremes(t0, t1),
-            Curve::Bezier(_) | Curve::Spline(_) => spans::extremes(self, t0, t1),
-        };
+        let extremes = self.as_kind().extremes(t0, t1);
         let ends = Rect::from_points(self.point(t0), self.point(t1));
         bounds_of(extremes.into_iter().map(|t| self.point(t))).map_or(ends, |inner| inner.union(ends))
     }
@@ -343,66 +332,36 @@ impl Curve {
         self.length_of(0.0, 1.0)
     }
     pub fn length_of(&self, t0: f64, t1: f64) -> f64 {
-        match self {
-            Curve::Line(l) => length(l.chord()) * (t1 - t0),
-            Curve::Arc(a) => a.radius * (a.sweep_rad * (t1 - t0)).abs(),
-            Curve::Ellipse(e) => {
-                let scale = (length(e.u) + length(e.v)) * (e.sweep_rad * (t1 - t0)).abs();
-                quadrature::integral(|t| length(e.derivative(t)), t0, t1, scale)
-            }
-            Curve::Bezier(_) | Curve::Spline(_) => spans::length_of(self, t0, t1),
-        }
+        self.as_kind().length_of(t0, t1)
     }
     /// Parameter and distance of the nearest point of the part t0..t1 (global, not a local minimum).
     pub fn nearest(&self, p: Point, t0: f64, t1: f64) -> (f64, f64) {
-        let t = match self {
-            Curve::Line(l) => l.nearest(p, t0, t1),
-            Curve::Arc(a) => {
-                let inside = a.normals_through(p, t0, t1).into_iter().map(|t| self.polished_foot(p, t, t0, t1));
-                let candidates: Vec<f64> = inside.chain([t0, t1]).collect();
-                self.nearest_of(p, &candidates)
-            }
-            _ => spans::nearest(self, p, t0, t1),
-        };
+        let t = self.as_kind().nearest(p, t0, t1);
         (t, length(self.point(t) - p))
     }
     /// ½∮(x dy − y dx) along the curve relative to `origin`: summed over a closed loop, the enclosed area.
     pub fn green(&self, origin: Point) -> f64 {
         let chord = self.end() - self.start();
         let triangle = 0.5 * (self.start() - origin).cross(chord);
-        triangle
-            + match self {
-                Curve::Line(_) => 0.0,
-                Curve::Arc(a) => 0.5 * a.radius * a.radius * arc::angle_minus_sine(a.sweep_rad),
-                Curve::Ellipse(e) => 0.5 * e.u.cross(e.v) * arc::angle_minus_sine(e.sweep_rad),
-                Curve::Bezier(b) => b.segment_area(),
-                Curve::Spline(s) => {
-                    let start = self.start();
-                    let above = |span: &Bezier| {
-                        let (a, b) = (span.points[0], span.points[span.degree()]);
-                        0.5 * (a - start).cross(b - a) + span.segment_area()
-                    };
-                    s.spans.iter().map(above).sum()
-                }
-            }
+        triangle + self.as_kind().area_over_chord()
     }
     /// Turning: the integral of |dθ| of the tangent angle over t0..t1, jumps included.
     pub fn turning(&self, t0: f64, t1: f64) -> f64 {
-        turning::turning(self, t0, t1)
+        self.as_kind().turning(t0, t1)
     }
     /// Cusps and tangent jumps strictly inside, ascending.
     pub fn breaks(&self) -> Vec<Break> {
-        turning::breaks(self)
+        self.as_kind().breaks()
     }
     /// Where the curvature changes sign, strictly inside, ascending; breaks are not among them.
     pub fn inflections(&self) -> Vec<f64> {
-        turning::inflections(self)
+        self.as_kind().inflections()
     }
     /// Ascending parameters strictly inside at which the curve is to be cut so that every part turns at most `tau`; parts of
     /// (nearly) equal turning, as few as possible (an excess of 1e-12 of `tau` counts as none). Breaks are always cut; never more than
     /// 10⁸ parts between two of them: ask [`Curve::parts_of_turning`] first.
     pub fn cuts_of_turning(&self, tau: f64) -> Vec<f64> {
-        turning::cuts_of_turning(self, tau)
+        self.as_kind().cuts_of_turning(tau)
     }
     /// How many parts of at most `tau` a curve without breaks turns enough for; `usize::MAX` where no number holds them.
     pub fn parts_of_turning(&self, tau: f64) -> usize {
@@ -410,57 +369,24 @@ impl Curve {
     }
     /// λ ≥ max over z of π − ∠xzy for the part with chord xy (equality for lines and circular arcs: half the turning).
     pub fn lens_angle(&self, t0: f64, t1: f64) -> f64 {
-        match self {
-            Curve::Line(_) => 0.0,
-            Curve::Arc(a) => 0.5 * (a.sweep_rad * (t1 - t0)).abs(),
-            _ => {
-                // The stationary points are known to rounding, and the angle is flat there: the excess covers both.
-                let measured = spans::lens_angle(self, t0, t1) * (1.0 + 1e-12) + 64.0 * f64::EPSILON;
-                measured.min(self.turning(t0, t1)).min(PI)
-            }
-        }
+        self.as_kind().lens_angle(t0, t1)
     }
     /// Largest distance of the part from its chord (the segment).
     pub fn chord_error(&self, t0: f64, t1: f64) -> f64 {
-        match self {
-            Curve::Line(_) => 0.0,
-            Curve::Arc(a) => {
-                let quarter = libm::sin(0.25 * a.sweep_rad * (t1 - t0));
-                2.0 * a.radius * quarter * quarter
-            }
-            _ => spans::chord_error(self, t0, t1),
-        }
+        self.as_kind().chord_error(t0, t1)
     }
     /// Where the part crosses the perpendicular bisector of its chord (turning ≤ π/3: exactly one crossing; beyond, one of them; the
     /// middle parameter where the chord is a point).
     pub fn bisector_crossing(&self, t0: f64, t1: f64) -> f64 {
-        match self {
-            Curve::Line(_) | Curve::Arc(_) => 0.5 * (t0 + t1),
-            _ => spans::bisector_crossing(self, t0, t1),
-        }
+        self.as_kind().bisector_crossing(t0, t1)
     }
     /// Where the part crosses the line through `a` along `direction` from one side to the other, strictly inside, ascending.
     pub fn line_crossings(&self, a: Point, direction: Vec2, t0: f64, t1: f64) -> Vec<f64> {
-        match self {
-            Curve::Line(l) => l.line_crossings(a, direction, t0, t1),
-            Curve::Arc(arc) => {
-                let polished = |t: f64| {
-                    let step = (self.point(t) - a).cross(direction) / arc.derivative(t).cross(direction);
-                    Some(t - step).filter(|s| *s > t0 && *s < t1).unwrap_or(t)
-                };
-                arc.line_crossings(a, direction, t0, t1).into_iter().map(polished).collect()
-            }
-            Curve::Bezier(bezier) if bezier.is_beside_line(a, direction) => Vec::new(),
-            _ => spans::line_crossings(self, a, direction, t0, t1),
-        }
+        self.as_kind().line_crossings(a, direction, t0, t1)
     }
     /// Where the part, followed from its end `end` (t0 or t1), first reaches the distance `radius` from that end point.
     pub fn leaves_ball(&self, end: End, radius: f64, t0: f64, t1: f64) -> Option<f64> {
-        match self {
-            Curve::Line(l) => l.leaves_ball(end, radius, t0, t1),
-            Curve::Arc(a) => a.leaves_ball(end, radius, t0, t1),
-            _ => spans::leaves_ball(self, end, radius, t0, t1),
-        }
+        self.as_kind().leaves_ball(end, radius, t0, t1)
     }
 }
 
@@ -468,102 +394,30 @@ impl Curve {
 impl Curve {
     /// The part t0..t1 as a curve of its own, of the same kind; its ends are exactly `point(t0)` and `point(t1)`.
     pub fn part(&self, t0: f64, t1: f64) -> Self {
-        let ends = [self.point(t0), self.point(t1)];
-        match self {
-            Curve::Line(_) => Curve::Line(Line { start: ends[0], end: ends[1] }),
-            Curve::Arc(a) => Curve::Arc(a.part(t0, t1, ends)),
-            Curve::Ellipse(e) => Curve::Ellipse(Box::new(e.part(t0, t1, ends))),
-            Curve::Bezier(b) => Curve::Bezier(Box::new(b.part(t0, t1, ends))),
-            Curve::Spline(s) => Curve::Spline(Box::new(s.part(t0, t1, ends))),
-        }
+        self.as_kind().part(t0, t1, [self.point(t0), self.point(t1)])
     }
     /// The same curve followed the other way: its point at t is this one's at 1 − t.
     pub fn reversed(&self) -> Self {
-        let turned = |ends: [Point; 2]| [ends[1], ends[0]];
-        match self {
-            Curve::Line(l) => Curve::Line(Line { start: l.end, end: l.start }),
-            Curve::Arc(a) => Curve::Arc(CircularArc {
-                start_rad: a.start_rad + a.sweep_rad,
-                sweep_rad: -a.sweep_rad,
-                ends: turned(a.ends),
-                ..*a
-            }),
-            Curve::Ellipse(e) => Curve::Ellipse(Box::new(EllipticArc {
-                start_rad: e.angle(1.0),
-                sweep_rad: -e.sweep_rad,
-                ends: turned(e.ends),
-                ..**e
-            })),
-            Curve::Bezier(b) => Curve::Bezier(Box::new(b.reversed())),
-            Curve::Spline(s) => Curve::Spline(Box::new(s.reversed())),
-        }
+        self.as_kind().reversed()
+    }
+    /// A clothoid with this very end, if that is its own up to rounding; `None` where it is not, and of other kinds.
+    pub(crate) fn with_rounded_end(&self, end: Point) -> Option<Self> {
+        let Curve::Clothoid(clothoid) = self else { return None };
+        clothoid.with_end(end).map(|c| Curve::Clothoid(Box::new(c)))
     }
     /// The curve moved by the similarity that takes its ends to `start` and `end` (exactly those bits). For a small move: welding.
     /// A closed curve is translated. Where the similarity would move other points much farther than the ends (a curve that nearly
-    /// closes), and where a curve closes or opens, the moves of the ends are spread along the curve instead.
+    /// closes), and where a curve closes or opens, the moves of the ends are spread along the curve instead; a clothoid then becomes the spline that follows it.
     pub fn with_ends(&self, start: Point, end: Point) -> Self {
         weld::with_ends(self, start, end)
     }
     /// All coordinates times a power of two: exact.
     pub fn scaled(&self, factor: f64) -> Self {
-        let scale = |p: Point| crate::geometry::scaled(p, factor);
-        match self {
-            Curve::Line(l) => Curve::Line(Line { start: scale(l.start), end: scale(l.end) }),
-            Curve::Arc(a) => Curve::Arc(CircularArc {
-                center: scale(a.center),
-                radius: a.radius * factor,
-                ends: a.ends.map(scale),
-                ..*a
-            }),
-            Curve::Ellipse(e) => Curve::Ellipse(Box::new(EllipticArc {
-                center: scale(e.center),
-                u: e.u * factor,
-                v: e.v * factor,
-                ends: e.ends.map(scale),
-                ..**e
-            })),
-            Curve::Bezier(b) => Curve::Bezier(Box::new(b.mapped(scale))),
-            Curve::Spline(s) => Curve::Spline(Box::new(s.mapped(scale))),
-        }
+        self.as_kind().scaled(factor)
     }
-    /// Any non-degenerate affine image, exact in kind (a circle under a skew becomes an ellipse).
+    /// Any non-degenerate affine image, exact in kind; under a map that is no similarity a circle becomes an ellipse, and a clothoid, which has
+    /// no such image, the spline that follows it to rounding.
     pub fn transformed(&self, map: kurbo::Affine) -> Self {
-        let [a, b, c, d, _, _] = map.as_coeffs();
-        let (x_axis, y_axis) = (Vec2::new(a, b), Vec2::new(c, d));
-        let vector = |v: Vec2| x_axis * v.x + y_axis * v.y;
-        let ellipse = |e: EllipticArc| {
-            let ends = e.ends.map(|p| map * p);
-            let (center, u, v) = (map * e.center, vector(e.u), vector(e.v));
-            Curve::Ellipse(Box::new(EllipticArc { center, u, v, ends, ..e }))
-        };
-        match self {
-            Curve::Line(l) => Curve::Line(Line { start: map * l.start, end: map * l.end }),
-            Curve::Arc(arc) => arc.transformed(map).map_or_else(|| ellipse(arc.as_ellipse()), Curve::Arc),
-            Curve::Ellipse(e) => ellipse(**e),
-            Curve::Bezier(bezier) => Curve::Bezier(Box::new(bezier.mapped(|p| map * p))),
-            Curve::Spline(s) => Curve::Spline(Box::new(s.mapped(|p| map * p))),
-        }
-    }
-}
-
-impl Curve {
-    /// One Newton step from a parameter near the foot of the perpendicular from p, where it comes nearer.
-    fn polished_foot(&self, p: Point, t: f64, t0: f64, t1: f64) -> f64 {
-        let (offset, d, dd) = (self.point(t) - p, self.derivative(t), self.second_derivative(t));
-        let step = offset.dot(d) / (d.dot(d) + offset.dot(dd));
-        let stepped = (t - step).clamp(t0, t1);
-        if length(self.point(stepped) - p) < length(offset) { stepped } else { t }
-    }
-
-    /// The first of some parameters whose point is nearest.
-    fn nearest_of(&self, p: Point, candidates: &[f64]) -> f64 {
-        let mut best = (f64::INFINITY, candidates[0]);
-        for t in candidates {
-            let distance = length(self.point(*t) - p);
-            if distance < best.0 {
-                best = (distance, *t);
-            }
-        }
-        best.1
+        self.as_kind().transformed(map)
     }
 }

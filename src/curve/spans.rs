@@ -1,12 +1,13 @@
-//! Questions answered span by span, on exact Bézier pieces of any curve.
+//! Questions answered span by span, on the Bézier pieces of any curve.
 //!
 //! Each becomes the sign of a polynomial in Bernstein form; its sign changes are isolated and then sharpened on the geometry itself.
 
 use super::bernstein::{self, SignChange, crossing};
 use super::bezier::Polygon;
 use super::ellipse::conic_parameter;
+use super::kind::Kind;
 use super::quadrature::integral;
-use super::{Bezier, Curve, EllipticArc, End, length};
+use super::{Bezier, Cone, End, length};
 use crate::geometry::{Point, Rect, Vec2, boxes::distance_to_box, turn_from};
 use std::borrow::Cow;
 
@@ -14,8 +15,8 @@ use std::borrow::Cow;
 pub(super) struct Span<'a> {
     pub bezier: Cow<'a, Bezier>,
     /// Range of the Bézier's own parameter.
-    pub from: f64,
-    pub to: f64,
+    from: f64,
+    to: f64,
     clock: Clock,
 }
 
@@ -31,6 +32,18 @@ enum Clock {
         t1: f64,
         half_rad: f64,
     },
+}
+
+impl<'a> Span<'a> {
+    /// The range `of` the Bézier's own parameter, over which the curve's runs evenly through `t`.
+    pub(super) fn even(bezier: Cow<'a, Bezier>, of: [f64; 2], [t0, t1]: [f64; 2]) -> Self {
+        Span { bezier, from: of[0], to: of[1], clock: Clock::Linear { t0, t1 } }
+    }
+
+    /// A rational quadratic over half an angle `half_rad` to either side, which the curve's parameter follows through `t`.
+    pub(super) fn conic(bezier: Cow<'a, Bezier>, [t0, t1]: [f64; 2], half_rad: f64) -> Self {
+        Span { bezier, from: 0.0, to: 1.0, clock: Clock::Conic { t0, t1, half_rad } }
+    }
 }
 
 impl Span<'_> {
@@ -51,46 +64,23 @@ impl Span<'_> {
         bernstein::restricted(&self.bezier.hodograph(), self.from, self.to)
     }
 
+    /// The range of the curve's parameter.
+    pub(super) fn range(&self) -> [f64; 2] {
+        match self.clock {
+            Clock::Linear { t0, t1 } | Clock::Conic { t0, t1, .. } => [t0, t1],
+        }
+    }
+
     /// A box around the whole Bézier, quick but loose.
     fn hull(&self) -> Rect {
         crate::geometry::bounds_of(self.bezier.points.iter().copied()).unwrap_or(Rect::ZERO)
     }
 }
 
-/// The Bézier pieces of t0..t1, in order.
-pub(super) fn spans(curve: &Curve, t0: f64, t1: f64) -> Vec<Span<'_>> {
-    let plain = |bezier, from, to, t0, t1| Span { bezier, from, to, clock: Clock::Linear { t0, t1 } };
-    match curve {
-        Curve::Line(l) => {
-            let bezier = Bezier { points: vec![l.start, l.end], weights: None };
-            vec![plain(Cow::Owned(bezier), t0, t1, t0, t1)]
-        }
-        Curve::Arc(a) => conic_spans(&a.as_ellipse(), t0, t1),
-        Curve::Ellipse(e) => conic_spans(e, t0, t1),
-        Curve::Bezier(b) => vec![plain(Cow::Borrowed(&**b), t0, t1, t0, t1)],
-        Curve::Spline(s) => {
-            let pieces = s.spans_in(t0, t1).map(|(i, from, to)| {
-                plain(Cow::Borrowed(&s.spans[i]), from, to, s.knots[i].max(t0), s.knots[i + 1].min(t1))
-            });
-            pieces.collect()
-        }
-    }
-}
-
-fn conic_spans(e: &EllipticArc, t0: f64, t1: f64) -> Vec<Span<'static>> {
-    e.conics(t0, t1)
-        .into_iter()
-        .map(|(bezier, t0, t1)| {
-            let half_rad = 0.5 * e.sweep_rad * (t1 - t0);
-            Span { bezier: Cow::Owned(bezier), from: 0.0, to: 1.0, clock: Clock::Conic { t0, t1, half_rad } }
-        })
-        .collect()
-}
-
 /// Parameters at which x or y may be extreme, knots included.
-pub(super) fn extremes(curve: &Curve, t0: f64, t1: f64) -> Vec<f64> {
+pub(super) fn extremes(spans: &[Span]) -> Vec<f64> {
     let mut found = Vec::new();
-    for span in spans(curve, t0, t1) {
+    for span in spans {
         let hodograph = span.hodograph();
         for axis in [|v: &Vec2| v.x, |v: &Vec2| v.y] {
             let slope: Vec<f64> = hodograph.iter().map(axis).collect();
@@ -102,11 +92,10 @@ pub(super) fn extremes(curve: &Curve, t0: f64, t1: f64) -> Vec<f64> {
 }
 
 /// See [`Curve::is_straight`], of all control points at once.
-pub(super) fn is_straight(curve: &Curve) -> bool {
-    let pieces = spans(curve, 0.0, 1.0);
-    let points = pieces.iter().flat_map(|span| span.bezier.points.iter().copied()).collect();
-    let noise = pieces.iter().map(|span| span.bezier.hodograph_noise()).fold(0.0, f64::max);
-    Bezier { points, weights: None }.is_straight(noise)
+pub(super) fn is_straight(spans: &[Span]) -> bool {
+    let points = spans.iter().flat_map(|span| span.bezier.points.iter().copied()).collect();
+    let noise = spans.iter().map(|span| span.bezier.hodograph_noise()).fold(0.0, f64::max);
+    Bezier { points, weights: None }.is_straight_within(noise)
 }
 
 /// Rounding of a product of two polynomials with the largest coefficients `a` and `b`, one of them of so many coefficients.
@@ -116,8 +105,8 @@ fn product_noise(a: f64, b: f64, count: usize) -> f64 {
 }
 
 /// Where the distance to p is stationary or a span ends.
-pub(super) fn nearest(curve: &Curve, p: Point, t0: f64, t1: f64) -> f64 {
-    let pieces = spans(curve, t0, t1);
+pub(super) fn nearest(curve: &(impl Kind + ?Sized), p: Point, t0: f64, t1: f64) -> f64 {
+    let pieces = curve.spans(t0, t1);
     let mut best = [t0, t1]
         .map(|t| (length(curve.point(t) - p), t))
         .into_iter()
@@ -149,7 +138,7 @@ pub(super) fn nearest(curve: &Curve, p: Point, t0: f64, t1: f64) -> f64 {
 
 /// From an end that seems nearest to p along the curve, as far as it comes nearer: where it sets out slowly, the noise of the slope's
 /// coefficients hides that. Newton's steps, of Gauss's kind where the distance is not convex; each is halved until it helps.
-fn descended(curve: &Curve, p: Point, (mut distance, mut t): (f64, f64), [t0, t1]: [f64; 2]) -> f64 {
+fn descended(curve: &(impl Kind + ?Sized), p: Point, (mut distance, mut t): (f64, f64), [t0, t1]: [f64; 2]) -> f64 {
     const BUDGET: usize = 40;
     let mut share = 1.0;
     for _ in 0..BUDGET {
@@ -170,10 +159,10 @@ fn descended(curve: &Curve, p: Point, (mut distance, mut t): (f64, f64), [t0, t1
 }
 
 /// Where the part crosses the line, strictly inside: sign changes of the distance from it.
-pub(super) fn line_crossings(curve: &Curve, a: Point, direction: Vec2, t0: f64, t1: f64) -> Vec<f64> {
+pub(super) fn line_crossings(spans: &[Span], a: Point, direction: Vec2, t0: f64, t1: f64) -> Vec<f64> {
     let mut found = Vec::new();
     let mut before: Option<bool> = None;
-    for span in spans(curve, t0, t1) {
+    for span in spans {
         let anchor = span.bezier.points[0];
         let local = span.about(anchor);
         // Only the constant carries what a far-off `a` costs: it moves the line as a whole.
@@ -192,18 +181,18 @@ pub(super) fn line_crossings(curve: &Curve, a: Point, direction: Vec2, t0: f64, 
 }
 
 /// A crossing of the perpendicular bisector of the chord: by the signs at the knots down to one span, then within it.
-pub(super) fn bisector_crossing(curve: &Curve, t0: f64, t1: f64) -> f64 {
+pub(super) fn bisector_crossing(curve: &(impl Kind + ?Sized), t0: f64, t1: f64) -> f64 {
     let (x, y) = (curve.point(t0), curve.point(t1));
     let chord = y - x;
     if chord == Vec2::ZERO {
         return 0.5 * (t0 + t1);
     }
     let half = 0.5 * chord.dot(chord);
-    let pieces = spans(curve, t0, t1);
+    let pieces = curve.spans(t0, t1);
     let (mut low, mut high) = (0, pieces.len());
     while high - low > 1 {
         let mid = low + (high - low) / 2;
-        let start = pieces[mid].bezier.point(pieces[mid].from);
+        let start = pieces[mid].bezier.at(pieces[mid].from);
         if (start - x).dot(chord) < half { low = mid } else { high = mid }
     }
     let span = &pieces[low];
@@ -256,13 +245,13 @@ fn first_beyond(polygon: &Polygon, radius: f64) -> Option<f64> {
     None
 }
 
-pub(super) fn leaves_ball(curve: &Curve, end: End, radius: f64, t0: f64, t1: f64) -> Option<f64> {
+pub(super) fn leaves_ball(curve: &(impl Kind + ?Sized), end: End, radius: f64, t0: f64, t1: f64) -> Option<f64> {
     let (center_t, far_t) = match end {
         End::Start => (t0, t1),
         End::Finish => (t1, t0),
     };
     let center = curve.point(center_t);
-    let mut pieces = spans(curve, t0, t1);
+    let mut pieces = curve.spans(t0, t1);
     if end == End::Finish {
         pieces.reverse();
     }
@@ -286,7 +275,7 @@ pub(super) fn leaves_ball(curve: &Curve, end: End, radius: f64, t0: f64, t1: f64
 
 /// Largest distance from the chord: at the ends of spans, where the tangent is parallel to the chord, and, where the curve leaves the
 /// strip between the chord's ends, where the distance from an end of it is stationary or the strip is left.
-pub(super) fn chord_error(curve: &Curve, t0: f64, t1: f64) -> f64 {
+pub(super) fn chord_error(curve: &(impl Kind + ?Sized), t0: f64, t1: f64) -> f64 {
     let (x, y) = (curve.point(t0), curve.point(t1));
     let chord = y - x;
     let square = chord.dot(chord);
@@ -299,7 +288,7 @@ pub(super) fn chord_error(curve: &Curve, t0: f64, t1: f64) -> f64 {
         }
     };
     let mut largest = 0.0f64;
-    for span in spans(curve, t0, t1) {
+    for span in curve.spans(t0, t1) {
         let offsets = span.about(x);
         let hodograph = span.hodograph();
         let mut forms = vec![hodograph.iter().map(|d| d.cross(chord)).collect::<Vec<f64>>()];
@@ -322,26 +311,45 @@ pub(super) fn chord_error(curve: &Curve, t0: f64, t1: f64) -> f64 {
     largest
 }
 
-pub(super) fn length_of(curve: &Curve, t0: f64, t1: f64) -> f64 {
-    let of = |span: Span<'_>| {
+pub(super) fn length_of(spans: &[Span]) -> f64 {
+    let of = |span: &Span| {
         let polygon_length: f64 = span.bezier.points.windows(2).map(|p| length(p[1] - p[0])).sum();
         let scale = polygon_length * (span.to - span.from);
         integral(|u| length(span.bezier.derivative(u)), span.from, span.to, scale)
     };
-    spans(curve, t0, t1).into_iter().map(of).sum()
+    spans.iter().map(of).sum()
+}
+
+/// ½∮(x dy − y dx) between whole spans and the chord of them all.
+pub(super) fn area_over_chord(spans: &[Span]) -> f64 {
+    let Some(start) = spans.first().map(|span| span.bezier.points[0]) else { return 0.0 };
+    let above = |span: &Span| {
+        let (a, b) = (span.bezier.points[0], span.bezier.points[span.bezier.degree()]);
+        0.5 * (a - start).cross(b - a) + span.bezier.segment_area()
+    };
+    spans.iter().map(above).sum()
+}
+
+/// See [`Kind::widens`]: a Bézier lies in the hull of its control points.
+pub(super) fn widens(spans: &[Span], cone: &mut Cone, [start, finish]: [Point; 2], end: End) -> bool {
+    let (apex, other) = match end {
+        End::Start => (start, finish),
+        End::Finish => (finish, start),
+    };
+    spans.iter().all(|span| cone.widen_to(&span.bezier.points, apex, other - apex))
 }
 
 /// Largest turn at a point z of the part between the directions x → z and z → y.
 ///
 /// With N = (z − x)·W and c = y − x its tangent is e/f, e = (N × c)·W and f = (N·c)·W − N·N. Both vanish at x and at y, where they are
 /// divided by t and by 1 − t: the quotient is stationary where e′f − ef′ = 0.
-pub(super) fn lens_angle(curve: &Curve, t0: f64, t1: f64) -> f64 {
+pub(super) fn lens_angle(curve: &(impl Kind + ?Sized), t0: f64, t1: f64) -> f64 {
     let (x, y) = (curve.point(t0), curve.point(t1));
     let chord = y - x;
     if chord == Vec2::ZERO {
         return std::f64::consts::PI;
     }
-    let pieces = spans(curve, t0, t1);
+    let pieces = curve.spans(t0, t1);
     let last = pieces.len() - 1;
     // At x and at y the quotient's limit is that of the tangent.
     let at_x = turn_from(curve.tangent(t0, End::Start), chord).abs();

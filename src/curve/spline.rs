@@ -1,9 +1,13 @@
 //! B-splines and NURBS as their exact Bézier spans, and the interpolating cubic splines.
 
-use super::bezier::check_weights;
+use super::bezier::{check_weights, set_ends};
+use super::kind::Kind;
+use super::spans::Span;
 use super::weights::even_spans;
-use super::{Bezier, CurveError, End, Spline, check_finite, check_points, length};
-use crate::geometry::{Point, Vec2, magnitude, unit_scale};
+use super::weld::Similarity;
+use super::{Bezier, Curve, CurveError, End, Spline, check_finite, check_points, length};
+use crate::geometry::{Point, Vec2, magnitude, scaled, unit_scale};
+use std::borrow::Cow;
 
 impl Spline {
     /// The spans of a full knot vector, each by its blossom (Ramshaw 1987: what inserting knots until each is of full multiplicity
@@ -159,7 +163,7 @@ impl Spline {
     }
 
     /// The span at t and the parameter within it; at a knot the span after it or before it.
-    pub(super) fn locate(&self, t: f64, side: End) -> (usize, f64) {
+    fn locate(&self, t: f64, side: End) -> (usize, f64) {
         let after = match side {
             End::Start => self.knots.partition_point(|k| *k <= t),
             End::Finish => self.knots.partition_point(|k| *k < t),
@@ -169,16 +173,16 @@ impl Spline {
     }
 
     /// The parameter within span i.
-    pub(super) fn within(&self, i: usize, t: f64) -> f64 {
+    fn within(&self, i: usize, t: f64) -> f64 {
         ((t - self.knots[i]) / self.step(i)).clamp(0.0, 1.0)
     }
 
-    pub(super) fn step(&self, i: usize) -> f64 {
+    fn step(&self, i: usize) -> f64 {
         self.knots[i + 1] - self.knots[i]
     }
 
     /// The spans that t0..t1 passes, with the range of each one's own parameter.
-    pub(super) fn spans_in(&self, t0: f64, t1: f64) -> impl DoubleEndedIterator<Item = (usize, f64, f64)> + '_ {
+    fn spans_in(&self, t0: f64, t1: f64) -> impl DoubleEndedIterator<Item = (usize, f64, f64)> + '_ {
         let (first, last) = (self.locate(t0, End::Start).0, self.locate(t1, End::Finish).0);
         (first..=last.max(first)).map(move |i| {
             let from = if i == first { self.within(i, t0) } else { 0.0 };
@@ -187,12 +191,8 @@ impl Spline {
         })
     }
 
-    pub(super) fn point(&self, t: f64) -> Point {
-        let (i, u) = self.locate(t, End::Start);
-        self.spans[i].point(u)
-    }
-
-    pub(super) fn part(&self, t0: f64, t1: f64, ends: [Point; 2]) -> Self {
+    /// The part t0..t1 with the given ends.
+    fn cut_out(&self, t0: f64, t1: f64, ends: [Point; 2]) -> Self {
         let mut knots = vec![t0];
         let mut spans = Vec::new();
         let pieces: Vec<_> = self.spans_in(t0, t1).collect();
@@ -211,25 +211,94 @@ impl Spline {
             let start = if k == first { ends[0] } else { span.points[0] };
             let end = if k == last { ends[1] } else { span.points[span.degree()] };
             let whole = [from, to] == [0.0, 1.0] && [start, end] == [span.points[0], span.points[span.degree()]];
-            spans.push(if whole { span.clone() } else { span.part(from, to, [start, end]) });
+            spans.push(if whole { span.clone() } else { span.cut_out(from, to, [start, end]) });
             knots.push(if k == last { t1 } else { self.knots[i + 1] });
         }
         Spline { knots: to_unit(&knots), spans }
     }
 
-    pub(super) fn reversed(&self) -> Self {
+    fn turned_round(&self) -> Self {
         let knots: Vec<f64> = self.knots.iter().rev().map(|k| 1.0 - k).collect();
-        Spline { knots: to_unit(&knots), spans: self.spans.iter().rev().map(Bezier::reversed).collect() }
+        Spline { knots: to_unit(&knots), spans: self.spans.iter().rev().map(Bezier::turned_round).collect() }
     }
 
-    pub(super) fn mapped(&self, map: impl Fn(Point) -> Point) -> Self {
+    fn mapped(&self, map: impl Fn(Point) -> Point) -> Self {
         Spline { knots: self.knots.clone(), spans: self.spans.iter().map(|s| s.mapped(&map)).collect() }
     }
 }
 
+impl Kind for Spline {
+    fn name(&self) -> &'static str {
+        if self.spans.iter().all(|span| span.weights.is_none()) { "spline" } else { "nurbs" }
+    }
+    fn ends(&self) -> [Point; 2] {
+        let last = &self.spans[self.spans.len() - 1];
+        [self.spans[0].points[0], last.points[last.degree()]]
+    }
+    fn inner_point(&self, t: f64) -> Point {
+        let (i, u) = self.locate(t, End::Start);
+        self.spans[i].at(u)
+    }
+    fn derivative(&self, t: f64) -> Vec2 {
+        let (i, u) = self.locate(t, End::Start);
+        self.spans[i].derivative(u) / self.step(i)
+    }
+    fn second_derivative(&self, t: f64) -> Vec2 {
+        let (i, u) = self.locate(t, End::Start);
+        self.spans[i].second_derivative(u) / self.step(i) / self.step(i)
+    }
+    fn spans(&self, t0: f64, t1: f64) -> Vec<Span<'_>> {
+        let span = |(i, from, to): (usize, f64, f64)| {
+            Span::even(Cow::Borrowed(&self.spans[i]), [from, to], [self.knots[i].max(t0), self.knots[i + 1].min(t1)])
+        };
+        self.spans_in(t0, t1).map(span).collect()
+    }
+    fn control_count(&self) -> usize {
+        self.spans.iter().map(|span| span.points.len()).sum()
+    }
+    fn may_meet_itself(&self) -> bool {
+        true
+    }
+    fn part(&self, t0: f64, t1: f64, ends: [Point; 2]) -> Curve {
+        boxed(self.cut_out(t0, t1, ends))
+    }
+    fn reversed(&self) -> Curve {
+        boxed(self.turned_round())
+    }
+    fn scaled(&self, factor: f64) -> Curve {
+        boxed(self.mapped(|p| scaled(p, factor)))
+    }
+    fn transformed(&self, map: kurbo::Affine) -> Curve {
+        boxed(self.mapped(|p| map * p))
+    }
+    fn moved(&self, map: &Similarity, ends: [Point; 2]) -> Curve {
+        let mut moved = self.mapped(|p| map.point(p));
+        set_ends(&mut moved.spans, ends);
+        boxed(moved)
+    }
+    fn spread(&self, moves: [Vec2; 2], ends: [Point; 2]) -> Curve {
+        let knots = self.knots.windows(2).map(|pair| [pair[0], pair[1]]);
+        let mut spans: Vec<Bezier> = self.spans.iter().zip(knots).map(|(s, t)| s.spread_over(moves, t)).collect();
+        set_ends(&mut spans, ends);
+        boxed(Spline { knots: self.knots.clone(), spans })
+    }
+    fn knots(&self) -> Vec<f64> {
+        self.knots.clone()
+    }
+
+    fn tangent(&self, t: f64, side: End) -> Vec2 {
+        let (i, u) = self.locate(t, side);
+        self.spans[i].tangent(u, side)
+    }
+}
+
+fn boxed(spline: Spline) -> Curve {
+    Curve::Spline(Box::new(spline))
+}
+
 /// The length of the control polygon of a part of a span: it is no shorter than the part.
 fn net_of(span: &Bezier, from: f64, to: f64) -> f64 {
-    let part = span.part(from, to, [span.point(from), span.point(to)]);
+    let part = span.cut_out(from, to, [span.at(from), span.at(to)]);
     part.points.windows(2).map(|w| w[0].distance(w[1])).sum()
 }
 

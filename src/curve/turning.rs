@@ -5,8 +5,8 @@
 //! product with its derivative). The angle between the two ends of such a stretch is its turning, without ambiguity.
 
 use super::bernstein::{self, SignChange, crossing};
-use super::spans::spans;
-use super::{Break, BreakKind, Curve, length, unit};
+use super::spans::Span;
+use super::{Break, BreakKind, length, unit};
 use crate::geometry::{Vec2, turn_from};
 
 /// Relative excess of a part's turning over the limit that passes for rounding: thrice that of a sum of a thousand stretches.
@@ -43,29 +43,19 @@ struct Piece {
     hodograph: Vec<Vec2>,
 }
 
-pub(super) fn turning(curve: &Curve, t0: f64, t1: f64) -> f64 {
-    match curve {
-        Curve::Line(_) => 0.0,
-        Curve::Arc(a) => (a.sweep_rad * (t1 - t0)).abs(),
-        Curve::Ellipse(e) => e.turning(t0, t1),
-        Curve::Bezier(_) | Curve::Spline(_) => {
-            stretches(curve, t0, t1).iter().map(|s| s.angle_rad.abs() + s.jump_rad).sum()
-        }
-    }
+pub(super) fn turning(spans: &[Span]) -> f64 {
+    stretches(spans).iter().map(|s| s.angle_rad.abs() + s.jump_rad).sum()
 }
 
-pub(super) fn breaks(curve: &Curve) -> Vec<Break> {
+pub(super) fn breaks(spans: &[Span]) -> Vec<Break> {
     let of = |s: &Stretch| s.breaks.map(|kind| Break { t: s.t0, kind, turn_rad: s.jump_rad });
-    if has_stretches(curve) { stretches(curve, 0.0, 1.0).iter().filter_map(of).collect() } else { Vec::new() }
+    stretches(spans).iter().filter_map(of).collect()
 }
 
-pub(super) fn inflections(curve: &Curve) -> Vec<f64> {
-    if !has_stretches(curve) {
-        return Vec::new();
-    }
+pub(super) fn inflections(spans: &[Span]) -> Vec<f64> {
     let mut found = Vec::new();
     let mut before: Option<bool> = None;
-    for stretch in stretches(curve, 0.0, 1.0) {
+    for stretch in stretches(spans) {
         if stretch.breaks.is_some() {
             before = None;
         }
@@ -81,30 +71,23 @@ pub(super) fn inflections(curve: &Curve) -> Vec<f64> {
     found
 }
 
-pub(super) fn cuts_of_turning(curve: &Curve, tau: f64) -> Vec<f64> {
-    match curve {
-        Curve::Line(_) => Vec::new(),
-        Curve::Arc(a) => shares(a.sweep_rad.abs(), tau).map(|share| share / a.sweep_rad.abs()).collect(),
-        Curve::Ellipse(e) => shares(e.turning(0.0, 1.0), tau).map(|share| e.at_turning(share)).collect(),
-        Curve::Bezier(_) | Curve::Spline(_) => {
-            let all = stretches(curve, 0.0, 1.0);
-            let mut cuts = Vec::new();
-            let mut start = 0;
-            for end in 1..=all.len() {
-                if end < all.len() && all[end].breaks.is_none() {
-                    continue;
-                }
-                if start > 0 {
-                    cuts.push(all[start].t0);
-                }
-                cut_run(&all[start..end], tau, &mut cuts);
-                start = end;
-            }
-            cuts.retain(|t| *t > 0.0 && *t < 1.0);
-            cuts.dedup();
-            cuts
+pub(super) fn cuts_of_turning(spans: &[Span], tau: f64) -> Vec<f64> {
+    let all = stretches(spans);
+    let mut cuts = Vec::new();
+    let mut start = 0;
+    for end in 1..=all.len() {
+        if end < all.len() && all[end].breaks.is_none() {
+            continue;
         }
+        if start > 0 {
+            cuts.push(all[start].t0);
+        }
+        cut_run(&all[start..end], tau, &mut cuts);
+        start = end;
     }
+    cuts.retain(|t| *t > 0.0 && *t < 1.0);
+    cuts.dedup();
+    cuts
 }
 
 /// How many parts of at most `tau` so much turning asks for.
@@ -113,7 +96,7 @@ pub(super) fn parts_of_turning(total: f64, tau: f64) -> f64 {
 }
 
 /// The turnings at which a run of so much turning is cut.
-fn shares(total: f64, tau: f64) -> impl Iterator<Item = f64> {
+pub(super) fn shares(total: f64, tau: f64) -> impl Iterator<Item = f64> {
     let parts = parts_of_turning(total, tau).min(PARTS_MAX);
     (1..parts as u32).map(move |k| total * (f64::from(k) / parts))
 }
@@ -153,14 +136,9 @@ impl Stretch {
     }
 }
 
-fn has_stretches(curve: &Curve) -> bool {
-    matches!(curve, Curve::Bezier(_) | Curve::Spline(_))
-}
-
-/// The stretches of t0..t1 of a Bézier or a spline, in order. None of a part that does not move.
-fn stretches(curve: &Curve, t0: f64, t1: f64) -> Vec<Stretch> {
+/// The stretches of a chain of spans, in order. None of a part that does not move.
+fn stretches(spans: &[Span]) -> Vec<Stretch> {
     let mut all: Vec<Stretch> = Vec::new();
-    let spans = spans(curve, t0, t1);
     // A curve that is cut or moved is rounded at its far end's magnitude, also where it passes the origin.
     let noise = spans.iter().map(|span| span.bezier.hodograph_noise()).fold(0.0, f64::max);
     for span in spans {

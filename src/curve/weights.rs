@@ -40,10 +40,10 @@ fn even_pieces(bezier: Bezier, depth: u32, pieces: &mut Vec<Bezier>) {
     if depth == 0 || is_even(&bezier) || is_point(&bezier) {
         return pieces.push(bezier);
     }
-    let middle = bezier.point(0.5);
+    let middle = bezier.at(0.5);
     let [first, last] = [bezier.points[0], bezier.points[bezier.degree()]];
-    even_pieces(bezier.part(0.0, 0.5, [first, middle]), depth - 1, pieces);
-    even_pieces(bezier.part(0.5, 1.0, [middle, last]), depth - 1, pieces);
+    even_pieces(bezier.cut_out(0.0, 0.5, [first, middle]), depth - 1, pieces);
+    even_pieces(bezier.cut_out(0.5, 1.0, [middle, last]), depth - 1, pieces);
 }
 
 fn is_even(bezier: &Bezier) -> bool {

@@ -66,9 +66,6 @@ impl Domain {
             for at_break in curve.curve.breaks() {
                 flaws.push(format!("{id:?} has a {:?} at t = {}", at_break.kind, at_break.t));
             }
-            if matches!(curve.curve, Curve::Line(_) | Curve::Arc(_) | Curve::Ellipse(_)) {
-                continue;
-            }
             match self_meetings(&curve.curve, rounding) {
                 Ok(found) if found.is_empty() => {}
                 Ok(found) => flaws.push(format!("{id:?} meets itself at {:?}", found[0])),
@@ -130,14 +127,14 @@ impl Domain {
         let mut pairs = Vec::new();
         // Lines with a common end do not cross; that no other end lies on them is asked of the points.
         let labels = |i: usize| match &self.curves[CurveId::from_index(i)] {
-            line if matches!(line.curve, Curve::Line(_)) => line.ends.map(|end| Some(end.0)),
+            line if line.curve.as_line().is_some() => line.ends.map(|end| Some(end.0)),
             _ => Labels::default(),
         };
         boxes.pairs(labels, |i, j| pairs.push([i, j].map(CurveId::from_index)));
         pairs.sort_unstable();
         for ids in pairs {
             let [p, q] = ids.map(|id| &self.curves[id].curve);
-            if let (Curve::Line(p), Curve::Line(q)) = (p, q) {
+            if let (Some(p), Some(q)) = (p.as_line(), q.as_line()) {
                 let parted = orient(p.start, p.end, q.start) == orient(p.start, p.end, q.end)
                     || orient(q.start, q.end, p.start) == orient(q.start, q.end, p.end);
                 if !parted {

@@ -143,7 +143,7 @@ fn crossings(curve: &Curve, axis: Axis, level: f64, mut each: impl FnMut(f64, Si
         // Below a slope of 1e-6 a crossing and a touching are hard to tell apart in rounded arithmetic.
         rise.abs() > 1e-6 * tangent.hypot()
     };
-    if let Curve::Line(line) = curve {
+    if let Some(line) = curve.as_line() {
         let (a, b) = (across(axis, line.start), across(axis, line.end));
         let t = (level - a) / (b - a);
         // Both ends lie clear of the level: a line crosses it for certain, however flat.
@@ -161,9 +161,9 @@ fn crossings(curve: &Curve, axis: Axis, level: f64, mut each: impl FnMut(f64, Si
 }
 
 fn side_of(curve: &Curve, t: f64, foot: Point, p: Point) -> Side {
-    let left = match curve {
-        Curve::Line(line) => orient(line.start, line.end, p) == Orientation::CounterClockwise,
-        _ => curve.tangent(t, End::Start).cross(p - foot) > 0.0,
+    let left = match curve.as_line() {
+        Some(line) => orient(line.start, line.end, p) == Orientation::CounterClockwise,
+        None => curve.tangent(t, End::Start).cross(p - foot) > 0.0,
     };
     if left { Side::Left } else { Side::Right }
 }

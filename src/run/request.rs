@@ -203,7 +203,7 @@ impl Request {
         let MaxTurning::Auto = self.max_turning else {
             return self.max_turning.given();
         };
-        let round = curves.into_iter().all(|c| matches!(c, Curve::Line(_) | Curve::Arc(_)));
+        let round = curves.into_iter().all(Curve::is_round);
         let lens_share = if round { 0.5 } else { 1.0 }; // the lens angle of a circular arc is half its turning
         largest_tau(self.angle_min_rad(), lens_share)
     }

@@ -41,10 +41,8 @@ impl Section {
 
 /// The parameter of data point `i` of `n`: the splines have a knot at every point.
 fn parameter_of_point(whole: &Curve, i: usize, n: usize) -> f64 {
-    match whole {
-        Curve::Spline(spline) if spline.knots.len() == n => spline.knots[i],
-        _ => i as f64 / (n - 1) as f64,
-    }
+    let knots = whole.knots();
+    if knots.len() == n { knots[i] } else { i as f64 / (n - 1) as f64 }
 }
 
 /// One curve through all points: the smoothest that does not cross itself.
@@ -119,11 +117,9 @@ fn monotone_cubic(points: &[Point]) -> Curve {
 fn outline(spline: &Curve, base: &[Point]) -> Vec<Point> {
     const CHORDS: usize = 8;
     let mut ring = Vec::new();
-    if let Curve::Spline(s) = spline {
-        for w in s.knots.windows(2) {
-            let at = |k: usize| w[0] + (w[1] - w[0]) * k as f64 / CHORDS as f64;
-            ring.extend((0..CHORDS).map(|k| spline.point(at(k))));
-        }
+    for w in spline.knots().windows(2) {
+        let at = |k: usize| w[0] + (w[1] - w[0]) * k as f64 / CHORDS as f64;
+        ring.extend((0..CHORDS).map(|k| spline.point(at(k))));
     }
     ring.push(spline.end());
     ring.extend(base);

@@ -238,7 +238,7 @@ impl Price<'_> {
         let bisected = self.asked.circles == Circles::Empty
             && self.asked.bisected
             && self.asked.sizing.min_edge.is_none()
-            && matches!(curve, Curve::Line(_) | Curve::Arc(_))
+            && curve.is_round()
             && ends.iter().all(|&end| self.survey.ball(end) == 0.0);
         if !bisected {
             return longest;

@@ -47,7 +47,7 @@ fn read_file(path: &Path, options: &Options) -> Result<Drawing, ImportError> {
 
 #[test]
 fn samples_read_without_a_note() {
-    for name in ["naca4412.dat", "two_element.dat", "tangent_curves.json", "plate.json"] {
+    for name in ["naca4412.dat", "two_element.dat", "tangent_curves.json", "plate.json", "transition.json"] {
         let path = samples().join(name);
         let drawing = read_file(&path, &Options::default()).unwrap();
         assert!(drawing.notes.is_empty() && drawing.skipped.is_empty(), "{name}: {:?}", drawing.notes);

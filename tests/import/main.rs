@@ -130,7 +130,9 @@ const EVERYTHING: &str = r#"{
     { "name": "n", "nurbs": { "degree": 2, "knots": [0, 0, 0, 0.3, 1, 1, 1], "points": [[0, 0], [1, 1], [2, 0], [3, 1]] } },
     { "name": "n", "nurbs": { "degree": 1, "knots": [0, 0, 1, 2, 2], "points": [[0, 0], [1, 1], [2, 0]], "weights": [1, 2, 1] } },
     { "name": "s", "spline": [[0, 0], [1, 0.7], [2, 0], [3, 0.1]] },
-    { "name": "s", "closed_spline": [[0, 0], [1, 0.1], [1.1, 1], [0.2, 1]] }
+    { "name": "s", "closed_spline": [[0, 0], [1, 0.1], [1.1, 1], [0.2, 1]] },
+    { "name": "k", "clothoid": { "from": [1, 0.5], "heading_deg": 30, "curvature": [0, -0.7], "length": 2 } },
+    { "name": "k", "clothoid": { "from": [1, 0.5], "heading_rad": 2.5, "curvature": [-3, 2], "length": 3.1 } }
   ],
   "points": [{ "at": [0.5, 0.5] }, { "at": [0.25, 0.5], "name": "probe", "entity": "p" }],
   "seeds": [{ "at": [0.1, 0.1], "hole": true }, { "at": [0.2, 0.1], "region": "steel", "max_area": 0.3, "entity": "r" }],

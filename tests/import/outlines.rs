@@ -5,7 +5,7 @@ use super::*;
 #[test]
 fn an_outline_holds_every_kind_and_round_trips() {
     let drawing = json(EVERYTHING);
-    assert_eq!(drawing.curves.len(), 20);
+    assert_eq!(drawing.curves.len(), 22);
     assert_eq!(drawing.names.iter().map(|(_, n)| n).take(3).collect::<Vec<_>>(), ["second", "first", "boundary"]);
     assert_eq!(drawing.curves[2].entity, "steps, edge 1");
     assert_eq!((drawing.sizes.len(), drawing.seeds.len(), drawing.points.len()), (4, 2, 2));

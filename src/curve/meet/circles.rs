@@ -13,18 +13,17 @@ use std::f64::consts::TAU;
 /// A contact holds a crossing, a place where the curves come closest (on the line of centers), or an end.
 pub(super) fn guesses(contacts: &Contacts) -> Option<Vec<Guess>> {
     let (a, b) = (contacts.a.curve, contacts.b.curve);
-    let places = match (a, b) {
-        (Curve::Arc(p), Curve::Arc(q)) => circle_with_circle(p, q),
-        (Curve::Line(p), Curve::Arc(q)) | (Curve::Arc(q), Curve::Line(p)) => line_with_circle(p, q),
-        _ => return None,
+    let places = match (a.as_arc(), b.as_arc()) {
+        (Some(p), Some(q)) => circle_with_circle(p, q),
+        (None, Some(q)) => line_with_circle(a.as_line()?, q),
+        (Some(p), None) => line_with_circle(b.as_line()?, p),
+        (None, None) => return None,
     };
     // A few units of rounding in each of some ten operations.
     let rounding = 64.0 * f64::EPSILON * reach_of(a).max(reach_of(b));
     if rounding > contacts.tolerance {
-        return match (a, b) {
-            (Curve::Arc(p), Curve::Arc(q)) if are_clear(p, q, contacts.tolerance, rounding) => Some(Vec::new()),
-            _ => None,
-        };
+        let (p, q) = (a.as_arc()?, b.as_arc()?);
+        return are_clear(p, q, contacts.tolerance, rounding).then(Vec::new);
     }
     let mut guesses = Vec::new();
     for place in places {
@@ -50,10 +49,7 @@ fn are_clear(p: &CircularArc, q: &CircularArc, tolerance: f64, rounding: f64) ->
 
 /// The largest length that points of the curve are computed from.
 fn reach_of(curve: &Curve) -> f64 {
-    match curve {
-        Curve::Arc(arc) => arc.center.x.abs().max(arc.center.y.abs()) + arc.radius,
-        _ => 0.0,
-    }
+    curve.as_arc().map_or(0.0, |arc| arc.center.x.abs().max(arc.center.y.abs()) + arc.radius)
 }
 
 /// A guess on a crossing brought to the crossing.
@@ -82,15 +78,15 @@ fn polished(contacts: &Contacts, t: f64, u: f64) -> Guess {
 
 /// Parameters of a line or an arc beside a place: of the point there, or of the ends where the arc has none there.
 fn beside(curve: &Curve, place: Point) -> Vec<f64> {
-    match curve {
-        Curve::Arc(arc) => {
+    match curve.as_arc() {
+        Some(arc) => {
             let from_center = place - arc.center;
             let angle = libm::atan2(from_center.y, from_center.x);
             let travelled = (angle - arc.start_rad) * arc.sweep_rad.signum();
             let t = (travelled - TAU * libm::floor(travelled / TAU)) / arc.sweep_rad.abs();
             if t < 1.0 { vec![t] } else { vec![0.0, 1.0] }
         }
-        _ => {
+        None => {
             let (start, along) = (curve.start(), curve.end() - curve.start());
             let t = (place - start).dot(along) / along.hypot2();
             // A line of no length: any parameter.

@@ -29,11 +29,7 @@ pub(super) struct Track<'c> {
 
 impl<'c> Track<'c> {
     pub fn new(curve: &'c Curve, degree: usize, size: f64) -> Self {
-        let knots = match curve {
-            Curve::Spline(spline) => spline.knots.clone(),
-            _ => vec![0.0, 1.0],
-        };
-        Self { curve, knots, degree, size }
+        Self { curve, knots: curve.knots(), degree, size }
     }
 
     /// Width of the span at t.

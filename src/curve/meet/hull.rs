@@ -5,7 +5,7 @@
 //! corner cutting only blends neighbouring legs, every tangent and every chord of it lies in the cone of the legs. Children are
 //! made by de Casteljau's algorithm at the middle, when first asked for, and kept: a piece is halved once whatever it is compared with.
 
-use crate::curve::{Bezier, Cone, Curve};
+use crate::curve::{Bezier, Cone, Curve, EllipticArc};
 use crate::geometry::{Point, Rect, Vec2, magnitude};
 use std::f64::consts::FRAC_PI_2;
 
@@ -112,25 +112,15 @@ impl Hulls {
     pub fn of(curve: &Curve) -> Self {
         let mut hulls =
             Self { spans: Vec::new(), pieces: Vec::new(), root: 0, magnitude: 0.0, degree: 1, control_points: 0 };
-        match curve {
-            Curve::Line(line) => hulls.add([0.0, 1.0], Pace::Even, plain(&[line.start, line.end])),
-            Curve::Arc(arc) => {
-                let axis = |angle: f64| arc.radius * Vec2::new(libm::cos(angle), libm::sin(angle));
-                hulls.add_conic(curve, arc.start_rad, arc.sweep_rad, axis);
-            }
-            Curve::Ellipse(arc) => {
-                // Points are measured from the start by the axes, which may be long beside a short arc.
-                hulls.magnitude = length(arc.u) + length(arc.v);
-                let axis = |angle: f64| libm::cos(angle) * arc.u + libm::sin(angle) * arc.v;
-                hulls.add_conic(curve, arc.start_rad, arc.sweep_rad, axis);
-            }
-            Curve::Bezier(bezier) => hulls.add([0.0, 1.0], Pace::Even, homogeneous(bezier)),
-            Curve::Spline(spline) => {
-                for (span, knots) in spline.spans.iter().zip(spline.knots.windows(2)) {
-                    hulls.add([knots[0], knots[1]], Pace::Even, homogeneous(span));
+        match curve.as_kind().as_ellipse() {
+            Some(conic) => hulls.add_conic(curve, &conic),
+            None => {
+                for span in curve.as_kind().spans(0.0, 1.0) {
+                    hulls.add(span.range(), Pace::Even, homogeneous(&span.bezier));
                 }
             }
         }
+        hulls.magnitude = curve.as_kind().reach();
         hulls.group();
         hulls.magnitude = hulls.magnitude.max(magnitude(hulls[hulls.root].bounds));
         hulls
@@ -152,8 +142,10 @@ impl Hulls {
         self.pieces.push(bezier_piece(control, span, [0.0, 1.0], t, [true; 2]));
     }
 
-    /// Cuts an arc into rational quadratics; `axis(θ)` leads from the center to the point at the angle θ.
-    fn add_conic(&mut self, curve: &Curve, start: f64, sweep: f64, axis: impl Fn(f64) -> Vec2) {
+    /// Cuts an arc into rational quadratics.
+    fn add_conic(&mut self, curve: &Curve, conic: &EllipticArc) {
+        let (start, sweep) = (conic.start_rad, conic.sweep_rad);
+        let axis = |angle: f64| libm::cos(angle) * conic.u + libm::sin(angle) * conic.v;
         let count = libm::ceil(sweep.abs() / FRAC_PI_2).clamp(1.0, 4.0);
         let half = 0.5 * sweep / count;
         let (sin, cos) = (libm::sin(half), libm::cos(half));

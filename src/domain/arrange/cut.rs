@@ -181,13 +181,13 @@ impl Network<'_> {
 /// Whether the speed of a curve varies so little that no bend in it can be a hook.
 fn is_evenly_paced(curve: &Curve) -> bool {
     match curve {
-        Curve::Line(_) | Curve::Arc(_) => true,
+        Curve::Line(_) | Curve::Arc(_) | Curve::Clothoid(_) => true,
         Curve::Bezier(bezier) if bezier.weights.is_none() => {
             let legs = || bezier.points.windows(2).map(|leg| leg[1] - leg[0]);
             let chord = curve.end() - curve.start();
             let fastest = legs().map(|leg| leg.hypot()).fold(0.0, f64::max);
             legs().all(|leg| leg.dot(chord) > PACE * fastest * chord.hypot())
         }
-        _ => false,
+        Curve::Bezier(_) | Curve::Ellipse(_) | Curve::Spline(_) => false,
     }
 }

@@ -161,6 +161,8 @@ fn carrier_magnitude(curve: &Curve) -> f64 {
     match curve {
         Curve::Arc(arc) => from(arc.center, arc.radius),
         Curve::Ellipse(ellipse) => from(ellipse.center, ellipse.u.hypot().max(ellipse.v.hypot())),
+        // What is run along it to a point may be much longer than it is across.
+        Curve::Clothoid(clothoid) => magnitude(curve.bounds()).max(clothoid.length()),
         Curve::Line(_) | Curve::Bezier(_) | Curve::Spline(_) => magnitude(curve.bounds()),
     }
 }

@@ -327,13 +327,14 @@ impl<'f, 'a> Sketch<'f, 'a> {
         let curve = match setting.map {
             None => curve.clone(),
             Some(map) => {
-                self.spend(weight(curve), label)?;
+                self.spend(curve.control_count(), label)?;
                 curve.transformed(map)
             }
         };
         let is_sound = match &curve {
             Curve::Arc(arc) => arc.radius > 0.0,
             Curve::Ellipse(ellipse) => ellipse.u.cross(ellipse.v) != 0.0,
+            Curve::Clothoid(clothoid) => clothoid.length() > 0.0,
             Curve::Line(_) | Curve::Bezier(_) | Curve::Spline(_) => true,
         };
         Ok(is_sound.then_some(curve))
@@ -444,15 +445,6 @@ impl<'f, 'a> Sketch<'f, 'a> {
         let entities = Rc::new(self.entities(&file.blocks[place].1.records)?);
         self.read.insert(place, Rc::clone(&entities));
         Ok(entities)
-    }
-}
-
-/// What a curve costs in memory, where a line costs 1.
-fn weight(curve: &Curve) -> usize {
-    match curve {
-        Curve::Line(_) | Curve::Arc(_) | Curve::Ellipse(_) => 1,
-        Curve::Bezier(bezier) => bezier.points.len(),
-        Curve::Spline(spline) => spline.spans.iter().map(|span| span.points.len()).sum(),
     }
 }
 

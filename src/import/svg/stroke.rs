@@ -151,7 +151,7 @@ impl Pen {
                     }
                 }
             }
-            Curve::Ellipse(_) | Curve::Bezier(_) | Curve::Spline(_) => {
+            Curve::Ellipse(_) | Curve::Bezier(_) | Curve::Spline(_) | Curve::Clothoid(_) => {
                 covered.is_inexact = true;
                 let style = kurbo::Stroke::new(self.width).with_caps(kurbo::Cap::Butt).with_join(kurbo::Join::Round);
                 let tolerance = OFFSET_ERROR * self.width;
@@ -262,24 +262,22 @@ fn side(from: Point, to: Point) -> Option<Curve> {
 /// The parameter at which a curve is `length` longer than at `from`; `rest` is all that is left of it.
 fn parameter_after(curve: &Curve, from: f64, length: f64, rest: f64) -> f64 {
     let even = from + (1.0 - from) * length / rest;
-    match curve {
-        Curve::Line(_) | Curve::Arc(_) => even,
-        Curve::Ellipse(_) | Curve::Bezier(_) | Curve::Spline(_) => {
-            // Newton's method, or halving where that leaves the bracket: 50 halves reach the last bits.
-            let (mut low, mut high, mut at) = (from, 1.0, even);
-            for _ in 0..50 {
-                let missing = length - curve.length_of(from, at);
-                *(if missing > 0.0 { &mut low } else { &mut high }) = at;
-                let newton = at + missing / curve.derivative(at).hypot();
-                let next = if low < newton && newton < high { newton } else { 0.5 * (low + high) };
-                if (next - at).abs() <= f64::EPSILON {
-                    break;
-                }
-                at = next;
-            }
-            at
-        }
+    if curve.is_round() {
+        return even;
     }
+    // Newton's method, or halving where that leaves the bracket: 50 halves reach the last bits.
+    let (mut low, mut high, mut at) = (from, 1.0, even);
+    for _ in 0..50 {
+        let missing = length - curve.length_of(from, at);
+        *(if missing > 0.0 { &mut low } else { &mut high }) = at;
+        let newton = at + missing / curve.derivative(at).hypot();
+        let next = if low < newton && newton < high { newton } else { 0.5 * (low + high) };
+        if (next - at).abs() <= f64::EPSILON {
+            break;
+        }
+        at = next;
+    }
+    at
 }
 
 /// A curve as a path of cubics, within a tolerance where it is none.
@@ -311,7 +309,7 @@ fn kurbo_path(curve: &Curve, tolerance: f64) -> BezPath {
                 path.push(map * element);
             }
         }
-        Curve::Line(_) | Curve::Arc(_) | Curve::Bezier(_) | Curve::Spline(_) => {
+        Curve::Line(_) | Curve::Arc(_) | Curve::Bezier(_) | Curve::Spline(_) | Curve::Clothoid(_) => {
             // No other kind comes out of SVG.
             path.line_to(curve.end());
         }
