@@ -111,11 +111,17 @@ fn no_imports_run_in_a_circle() {
         }
     }
     assert!(floors.len() > 10, "floors are found: {}", floors.len());
+    let (floor, [of, by]) = BY_DESIGN;
+    let closes = floors.get_mut(floor).and_then(|graph| graph.get_mut(by)).is_some_and(|known| known.remove(of));
+    assert!(closes, "{floor}: {by} no longer imports {of}, and needs no exception");
     let circles: Vec<String> = (floors.iter())
         .flat_map(|(floor, graph)| circle_of(graph).map(|circle| format!("src/{floor}: {}", circle.join(" → "))))
         .collect();
     assert!(circles.is_empty(), "imports run in a circle:\n{}", circles.join("\n"));
 }
+
+/// The one circle: the trait of all kinds of curves, and the answers that it gives by default, which ask it in turn.
+const BY_DESIGN: (&str, [&str; 2]) = ("curve", ["kind", "spans"]);
 
 /// What each of some siblings imports of the others.
 type Graph = BTreeMap<String, BTreeSet<String>>;

@@ -198,7 +198,7 @@ impl Batch {
             for &format in &self.format {
                 let stamps = stamps(outcome, request);
                 let first = path(format.suffixes()[0]);
-                let encoded = format.encode(mesh, outcome.domain.as_ref(), &stamps, &self.writing, &first)?;
+                let encoded = self.writing.encode(format, mesh, outcome.domain.as_ref(), &stamps, &first)?;
                 for (suffix, bytes) in format.suffixes().iter().zip(encoded) {
                     staged.add(&path(suffix), &bytes)?;
                     names.push(path(suffix).display().to_string());

@@ -33,14 +33,14 @@ impl Convert {
         self.writing.tell_unused(&[format], volume);
         let input = Input::open(&self.mesh, None)?;
         let file = check::read(&input)?;
-        let encoded = format.encode(&file.mesh, None, &file.stamps, &self.writing, &self.output);
+        let encoded = self.writing.encode(format, &file.mesh, None, &file.stamps, &self.output);
         let encoded = encoded.map_err(|e| Halt::Unwritable(format!("{}: {e}", self.output.display())))?;
         let mut staged = Staged::default();
         outputs.iter().zip(&encoded).try_for_each(|(path, bytes)| staged.add(path, bytes)).map_err(unwritable)?;
         staged.commit().map_err(unwritable)?;
         if volume > Volume::Quiet {
             file.notes.iter().for_each(|note| say::line(&format!("  {}: {note}", input.path)));
-            say::losses(format, &format.losses(&file.mesh, &self.writing, &self.output));
+            say::losses(format, &self.writing.losses(format, &file.mesh, &self.output));
         }
         Ok(Exit::Done)
     }

@@ -2,14 +2,12 @@
 
 use super::files::{self, Input, Staged, unwritable};
 use super::options::{Options, Resolved};
+use super::viewing::{Colour, window};
 use super::{Halt, Volume, check, clock, remember};
 use clap::{Args, ValueEnum};
-use serde::Serialize;
 use squinch::domain::{Domain, Drawing};
 use squinch::geometry::{Point, Rect};
-use squinch::picture::{
-    Canvas, Format, MeshColour, PictureOptions, picture_of_domain, picture_of_drawing, picture_of_mesh,
-};
+use squinch::picture::{Canvas, Format, PictureOptions, picture_of_domain, picture_of_drawing, picture_of_mesh};
 use squinch::refine::Until;
 use squinch::run::report::FailureReport;
 use squinch::run::request::Request;
@@ -55,40 +53,6 @@ enum Stage {
     Refined,
     /// The mesh as it is written
     Mesh,
-}
-
-/// What triangles are coloured by.
-#[derive(Clone, Copy, PartialEq, Eq, ValueEnum, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Colour {
-    Quality,
-    Region,
-    Paint,
-    Size,
-    Layer,
-}
-
-impl Colour {
-    pub fn of_mesh(self) -> MeshColour {
-        match self {
-            Self::Quality => MeshColour::Quality,
-            Self::Region => MeshColour::Region,
-            Self::Size => MeshColour::Size,
-            Self::Paint => MeshColour::Paint,
-            // Of drawings only; a mesh has regions.
-            Self::Layer => MeshColour::Region,
-        }
-    }
-}
-
-pub fn window(text: &str) -> Result<Rect, String> {
-    let numbers: Result<Vec<f64>, _> = text.split(',').map(|part| part.trim().parse::<f64>()).collect();
-    match numbers.as_deref() {
-        Ok(&[x0, y0, x1, y1]) if x0 < x1 && y0 < y1 && [x0, y0, x1, y1].iter().all(|x| x.is_finite()) => {
-            Ok(Rect::new(x0, y0, x1, y1))
-        }
-        _ => Err("four numbers X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1 are expected".into()),
-    }
 }
 
 impl Draw {

@@ -80,7 +80,7 @@ impl Mesh {
         if let (Some(mesh), false, Volume::Verbose) = (&outcome.mesh, wrote.is_empty(), volume) {
             // That a picture holds no mesh goes without saying.
             let files = outputs.iter().filter(|(_, format)| matches!(format, Output::Mesh(_)));
-            files.for_each(|(path, format)| say::losses(*format, &format.losses(mesh, &self.writing, path)));
+            files.for_each(|(path, format)| say::losses(*format, &self.writing.losses(*format, mesh, path)));
         }
         if outcome.exit == Exit::Bug {
             write_case(&run::ending(&outcome), "broken");
@@ -121,7 +121,7 @@ impl Mesh {
         if let (Some(mesh), false) = (&outcome.mesh, outcome.exit == Exit::Bug) {
             for (path, format) in outputs {
                 let stamps = stamps(outcome, request);
-                let encoded = format.encode(mesh, outcome.domain.as_ref(), &stamps, &self.writing, path);
+                let encoded = self.writing.encode(*format, mesh, outcome.domain.as_ref(), &stamps, path);
                 let encoded = encoded.map_err(|e| Halt::Unwritable(format!("{}: {e}", path.display())))?;
                 for (file, bytes) in format.files(path).iter().zip(encoded) {
                     staged.add(file, &bytes).map_err(unwritable)?;

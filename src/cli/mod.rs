@@ -13,6 +13,7 @@ mod reduce;
 mod replay;
 mod say;
 mod schema;
+mod viewing;
 mod writing;
 
 use clap::{Parser, Subcommand};

@@ -1,14 +1,10 @@
 //! What an output is: a mesh file or a picture of the mesh, by which name it is asked for, and the files that it consists of.
 
 use super::Halt;
-use super::writing::Writing;
-use squinch::domain::Domain;
-use squinch::mesh::Mesh;
 use squinch::meshio;
-use squinch::picture::{self, picture_of_mesh};
+use squinch::picture;
 use squinch::run::request::Request;
 use std::fs;
-use std::io;
 use std::path::{Path, PathBuf};
 
 /// The format of an output.
@@ -99,32 +95,6 @@ impl Output {
                 format.holds_order(order as u8).map_err(|e| Halt::Usage(format!("--order {order}: {e}")))
             }
             Self::Picture(_) => Ok(()),
-        }
-    }
-
-    /// What of this mesh the output does not hold.
-    pub fn losses(self, mesh: &Mesh, writing: &Writing, path: &Path) -> Vec<&'static str> {
-        match self {
-            Self::Mesh(format) => format.losses(mesh, &writing.options(path)),
-            Self::Picture(_) => vec!["the mesh: a picture shows it"],
-        }
-    }
-
-    /// The bytes of each file. Pictures have the exact curves where the domain is given.
-    pub fn encode(
-        self,
-        mesh: &Mesh,
-        domain: Option<&Domain>,
-        stamps: &[(String, String)],
-        writing: &Writing,
-        path: &Path,
-    ) -> io::Result<Vec<Vec<u8>>> {
-        match self {
-            Self::Mesh(format) => meshio::encode(mesh, stamps, format, &writing.options(path)),
-            Self::Picture(format) => {
-                let (colour, options) = writing.picture();
-                Ok(vec![format.encode(&picture_of_mesh(mesh, domain, colour, &options))?])
-            }
         }
     }
 }

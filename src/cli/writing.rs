@@ -1,14 +1,17 @@
 //! The options of writing, shared by the verbs that write meshes.
 
-use super::draw::{Colour, window};
 use super::output::{Output, stem};
+use super::viewing::{Colour, window};
 use super::{Halt, Volume, say};
 use clap::{Args, ValueEnum};
 use serde::Serialize;
+use squinch::domain::Domain;
 use squinch::geometry::Rect;
-use squinch::meshio::{Choice, WriteOptions, XdmfGrids};
+use squinch::mesh::Mesh;
+use squinch::meshio::{self, Choice, WriteOptions, XdmfGrids};
 use squinch::options::Switch;
-use squinch::picture::{MeshColour, PictureOptions};
+use squinch::picture::{MeshColour, PictureOptions, picture_of_mesh};
+use std::io;
 use std::path::Path;
 
 /// How meshes are written where a format, or a reader of it, leaves a choice.
@@ -60,7 +63,7 @@ impl Writing {
     }
 
     /// The options of one output.
-    pub fn options(&self, path: &Path) -> WriteOptions {
+    fn options(&self, path: &Path) -> WriteOptions {
         WriteOptions {
             plain: self.plain,
             interior_lines: self.interior_lines.is_on(),
@@ -74,8 +77,34 @@ impl Writing {
     }
 
     /// What triangles of a picture are coloured by, and how it is made.
-    pub fn picture(&self) -> (MeshColour, PictureOptions) {
+    fn picture(&self) -> (MeshColour, PictureOptions) {
         (self.colour.of_mesh(), PictureOptions { view: self.view, ..PictureOptions::default() })
+    }
+
+    /// What of this mesh an output does not hold.
+    pub fn losses(&self, output: Output, mesh: &Mesh, path: &Path) -> Vec<&'static str> {
+        match output {
+            Output::Mesh(format) => format.losses(mesh, &self.options(path)),
+            Output::Picture(_) => vec!["the mesh: a picture shows it"],
+        }
+    }
+
+    /// The bytes of each file of an output. Pictures have the exact curves where the domain is given.
+    pub fn encode(
+        &self,
+        output: Output,
+        mesh: &Mesh,
+        domain: Option<&Domain>,
+        stamps: &[(String, String)],
+        path: &Path,
+    ) -> io::Result<Vec<Vec<u8>>> {
+        match output {
+            Output::Mesh(format) => meshio::encode(mesh, stamps, format, &self.options(path)),
+            Output::Picture(format) => {
+                let (colour, options) = self.picture();
+                Ok(vec![format.encode(&picture_of_mesh(mesh, domain, colour, &options))?])
+            }
+        }
     }
 
     /// Says which of the options given none of the outputs has a use for.

@@ -16,7 +16,7 @@
 //! span by span are right to rounding. Heading, curvature, turning, inflection and length are closed forms.
 
 use super::kind::Kind;
-use super::spans::Span;
+use super::span::Span;
 use super::weld::Similarity;
 use super::{Bezier, Break, Clothoid, Curve, CurveError, End, Spline, check_finite, check_points, length, turning};
 use crate::geometry::{Point, Vec2, scaled};
@@ -175,7 +175,7 @@ impl Clothoid {
         let turns = shape.turning(0.0, 1.0) / TAU;
         if curvatures[0] == curvatures[1] && turns != 0.0 {
             // A circle is followed once at most.
-            super::arc::checked_sweep(turns * TAU)?;
+            super::sweep::checked_sweep(turns * TAU)?;
         }
         // No number of turns is one too many.
         if turns.is_nan() || turns > TURNS_MAX {

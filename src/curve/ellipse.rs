@@ -1,10 +1,10 @@
 //! Part of an ellipse, by conjugate half axes.
 
-use super::arc::{checked_sweep, passages};
 use super::kind::Kind;
-use super::spans::Span;
+use super::span::Span;
+use super::sweep::{self, checked_sweep, passages};
 use super::weld::{Similarity, spread_to};
-use super::{Bezier, Break, Cone, Curve, CurveError, EllipticArc, End, arc, check_finite, length, quadrature, turning};
+use super::{Bezier, Break, Cone, Curve, CurveError, EllipticArc, End, check_finite, length, quadrature, turning};
 use crate::geometry::{Point, Vec2, scaled};
 use std::borrow::Cow;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
@@ -152,7 +152,7 @@ impl Kind for EllipticArc {
         quadrature::integral(|t| length(self.derivative(t)), t0, t1, scale)
     }
     fn area_over_chord(&self) -> f64 {
-        0.5 * self.u.cross(self.v) * arc::angle_minus_sine(self.sweep_rad)
+        0.5 * self.u.cross(self.v) * sweep::angle_minus_sine(self.sweep_rad)
     }
     /// The affine image of a half turn is a half turn, and within one (d₀ × d₁) = (u × v) sin Δ.
     fn turning(&self, t0: f64, t1: f64) -> f64 {
@@ -210,10 +210,4 @@ pub(super) fn each_of_hull(arc: &impl Kind, take: &mut dyn FnMut(Point)) -> bool
     let bulge = arc.point(0.5) - ends[0].midpoint(ends[1]);
     ends.into_iter().flat_map(|end| [end, end + bulge]).for_each(take);
     true
-}
-
-/// The share of the angle that a rational quadratic arc of half angle `half` has covered at its own parameter s.
-pub(super) fn conic_parameter(s: f64, half: f64) -> f64 {
-    let (sin, cos) = libm::sincos(half);
-    libm::atan2(s * sin, (1.0 - s) + s * cos) / half
 }

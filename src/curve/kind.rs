@@ -13,7 +13,8 @@
 //! *A new kind*: a file with its type and `impl Kind`, a variant of [`Curve`] and its arm in `Curve::as_kind`. The compiler then names each
 //! place outside of this folder that tells kinds apart.
 
-use super::spans::{self, Span};
+use super::span::Span;
+use super::spans;
 use super::weld::Similarity;
 use super::{Break, Cone, Curve, EllipticArc, End, turning, unit};
 use crate::geometry::{Point, Vec2};

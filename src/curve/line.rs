@@ -1,7 +1,7 @@
 //! A straight segment.
 
 use super::kind::Kind;
-use super::spans::Span;
+use super::span::Span;
 use super::weld::Similarity;
 use super::{Bezier, Break, Cone, Curve, End, Line, length, unit};
 use crate::geometry::{Point, Vec2, scaled};

@@ -3,79 +3,12 @@
 //! Each becomes the sign of a polynomial in Bernstein form; its sign changes are isolated and then sharpened on the geometry itself.
 
 use super::bernstein::{self, SignChange, crossing};
-use super::bezier::Polygon;
-use super::ellipse::conic_parameter;
 use super::kind::Kind;
+use super::polygon::Polygon;
 use super::quadrature::integral;
+use super::span::Span;
 use super::{Bezier, Cone, End, length};
-use crate::geometry::{Point, Rect, Vec2, boxes::distance_to_box, turn_from};
-use std::borrow::Cow;
-
-/// A Bézier piece of a curve, restricted to part of its own parameter.
-pub(super) struct Span<'a> {
-    pub bezier: Cow<'a, Bezier>,
-    /// Range of the Bézier's own parameter.
-    from: f64,
-    to: f64,
-    clock: Clock,
-}
-
-/// How the curve's parameter runs over a span.
-enum Clock {
-    Linear {
-        t0: f64,
-        t1: f64,
-    },
-    /// An elliptic arc's angle, over a rational quadratic.
-    Conic {
-        t0: f64,
-        t1: f64,
-        half_rad: f64,
-    },
-}
-
-impl<'a> Span<'a> {
-    /// The range `of` the Bézier's own parameter, over which the curve's runs evenly through `t`.
-    pub(super) fn even(bezier: Cow<'a, Bezier>, of: [f64; 2], [t0, t1]: [f64; 2]) -> Self {
-        Span { bezier, from: of[0], to: of[1], clock: Clock::Linear { t0, t1 } }
-    }
-
-    /// A rational quadratic over half an angle `half_rad` to either side, which the curve's parameter follows through `t`.
-    pub(super) fn conic(bezier: Cow<'a, Bezier>, [t0, t1]: [f64; 2], half_rad: f64) -> Self {
-        Span { bezier, from: 0.0, to: 1.0, clock: Clock::Conic { t0, t1, half_rad } }
-    }
-}
-
-impl Span<'_> {
-    /// The curve's parameter at s ∈ [0, 1] of the restricted span.
-    pub(super) fn t(&self, s: f64) -> f64 {
-        let (t0, t1, share) = match self.clock {
-            Clock::Linear { t0, t1 } => (t0, t1, s),
-            Clock::Conic { t0, t1, half_rad } => (t0, t1, conic_parameter(s, half_rad)),
-        };
-        if share <= 0.5 { t0 + share * (t1 - t0) } else { t1 - (1.0 - share) * (t1 - t0) }
-    }
-
-    pub(super) fn about(&self, origin: Point) -> Polygon {
-        self.bezier.about(origin).restricted(self.from, self.to)
-    }
-
-    pub(super) fn hodograph(&self) -> Vec<Vec2> {
-        bernstein::restricted(&self.bezier.hodograph(), self.from, self.to)
-    }
-
-    /// The range of the curve's parameter.
-    pub(super) fn range(&self) -> [f64; 2] {
-        match self.clock {
-            Clock::Linear { t0, t1 } | Clock::Conic { t0, t1, .. } => [t0, t1],
-        }
-    }
-
-    /// A box around the whole Bézier, quick but loose.
-    fn hull(&self) -> Rect {
-        crate::geometry::bounds_of(self.bezier.points.iter().copied()).unwrap_or(Rect::ZERO)
-    }
-}
+use crate::geometry::{Point, Vec2, boxes::distance_to_box, turn_from};
 
 /// Parameters at which x or y may be extreme, knots included.
 pub(super) fn extremes(spans: &[Span]) -> Vec<f64> {
@@ -192,7 +125,7 @@ pub(super) fn bisector_crossing(curve: &(impl Kind + ?Sized), t0: f64, t1: f64) 
     let (mut low, mut high) = (0, pieces.len());
     while high - low > 1 {
         let mid = low + (high - low) / 2;
-        let start = pieces[mid].bezier.at(pieces[mid].from);
+        let start = pieces[mid].start();
         if (start - x).dot(chord) < half { low = mid } else { high = mid }
     }
     let span = &pieces[low];

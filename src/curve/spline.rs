@@ -2,7 +2,7 @@
 
 use super::bezier::{check_weights, set_ends};
 use super::kind::Kind;
-use super::spans::Span;
+use super::span::Span;
 use super::weights::even_spans;
 use super::weld::Similarity;
 use super::{Bezier, Curve, CurveError, End, Spline, check_finite, check_points, length};

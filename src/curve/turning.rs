@@ -5,7 +5,7 @@
 //! product with its derivative). The angle between the two ends of such a stretch is its turning, without ambiguity.
 
 use super::bernstein::{self, SignChange, crossing};
-use super::spans::Span;
+use super::span::Span;
 use super::{Break, BreakKind, length, unit};
 use crate::geometry::{Vec2, turn_from};
 

@@ -5,9 +5,9 @@
 //! SVG of hundreds of megabytes: beyond `SVG_POINTS_MAX` points it is painted once, pixel for pixel, and embedded as
 //! an image.
 
-use super::frame::{Frame, Pixel, px};
+use super::frame::Frame;
 use super::glyphs;
-use super::path::{Path, number};
+use super::path::{Path, Pixel, number, px};
 use crate::geometry::Rect;
 use base64::Engine;
 use std::io;

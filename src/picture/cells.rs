@@ -4,7 +4,7 @@ use super::MeshColour;
 use super::canvas::Colour;
 use super::legend::Scale;
 use super::palette::{QUALITY, SIZE, along, area_colour};
-use super::scene::rank;
+use super::used::rank;
 use super::words::short;
 use crate::geometry::{Point, turn_from};
 use crate::ids::{NameId, TriangleId, VertexId};

@@ -1,19 +1,7 @@
 //! How the drawing is laid into the picture, and what lies too far outside to be drawn.
 
-use super::path::Path;
+use super::path::{Path, Pixel, px};
 use crate::geometry::{Point, Rect};
-
-/// A place in the picture: x to the right, y downward, in pixels.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pixel {
-    pub x: f64,
-    pub y: f64,
-}
-
-/// Shorthand for a place in the picture.
-pub const fn px(x: f64, y: f64) -> Pixel {
-    Pixel { x, y }
-}
 
 /// How the drawing is laid into the picture.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,14 +1,8 @@
-//! The legend below a picture: its caption, the names of areas and lines, the kinds of markers, a scale of colours.
+//! What the legend below a picture says: the names of areas and lines, the kinds of markers, a scale of colours.
 
 use super::PictureOptions;
-use super::canvas::{Anchor, Canvas, Colour, Label, Paint, Stroke, text_width};
-use super::frame::{Pixel, px};
-use super::markers::Mended;
-use super::palette::{FAINT, INK, area_colour, line_stroke};
-use super::path::Path;
-use super::sheet::Sheet;
-use super::words::clipped;
-use crate::geometry::Rect;
+use super::canvas::Colour;
+use super::markers::{self, Mended};
 
 /// What a picture explains below itself.
 #[derive(Clone, Debug, Default)]
@@ -31,123 +25,9 @@ pub struct Scale {
     pub ticks: Vec<(f64, String)>,
 }
 
-/// Names shown before "and n more".
-const LEGEND_NAMES_MAX: usize = 36;
-
-/// Characters of a name in a legend.
-const NAME_MAX: usize = 40;
-/// A place in the legend: a swatch and its text.
-struct Chip {
-    at: Pixel,
-    text: String,
-    swatch: Swatch,
-}
-
-enum Swatch {
-    Marker(Mended),
-    Line(usize),
-    Area(Colour),
-    None,
-}
-
-impl Sheet {
-    pub fn legend_top(&self) -> f64 {
-        self.canvas.frame().plot().y1 + self.margin
-    }
-
-    pub fn legend_height(&self, legend: &Legend) -> f64 {
-        let scale = if legend.scale.is_some() { self.type_px * 5.4 } else { 0.0 };
-        let chips = self.chips(legend).last().map_or(0.0, |c| c.at.y - self.legend_top() + self.type_px * 0.4);
-        chips.max(self.type_px * 1.4) + scale
-    }
-
-    /// Caption, then markers, areas and lines, each row filled from the left.
-    fn chips(&self, legend: &Legend) -> Vec<Chip> {
-        let swatches = (0..).zip(&legend.areas).map(|(i, name)| (Swatch::Area(area_colour(i)), name));
-        let lines = (0..).zip(&legend.lines).map(|(i, name)| (Swatch::Line(i), name));
-        let all = legend.areas.len() + legend.lines.len();
-        let mut wanted: Vec<(Swatch, String)> = vec![(Swatch::None, self.caption.clone())];
-        wanted.extend(legend.markers.iter().map(|(mended, text)| (Swatch::Marker(*mended), text.clone())));
-        if legend.crowded {
-            wanted.push((Swatch::None, "×n: n beside each other, marked by the rarest".into()));
-        }
-        wanted.extend(swatches.chain(lines).take(LEGEND_NAMES_MAX).map(|(s, name)| (s, clipped(name, NAME_MAX))));
-        if all > LEGEND_NAMES_MAX {
-            wanted.push((Swatch::None, format!("and {} more", all - LEGEND_NAMES_MAX)));
-        }
-        let mut chips: Vec<Chip> = Vec::new();
-        let mut at = px(self.margin, self.legend_top() + self.type_px);
-        for (swatch, text) in wanted {
-            let room = if matches!(swatch, Swatch::None) { 0.0 } else { self.type_px * 2.0 };
-            let width = room + text_width(&text, self.type_px) + self.type_px * 1.6;
-            if at.x > self.margin && (at.x + width > self.width - self.margin || chips.len() == 1) {
-                at = px(self.margin, at.y + self.type_px * 1.6);
-            }
-            chips.push(Chip { at, text, swatch });
-            at.x += width;
-        }
-        chips
-    }
-
-    pub fn finish(mut self, options: &PictureOptions, legend: &Legend) -> Canvas {
-        self.repairs(options);
-        self.marks(&options.marks);
-        self.canvas.layer("legend", false);
-        let chips = self.chips(legend);
-        let below = chips.last().map_or(self.legend_top(), |c| c.at.y) + self.type_px * 1.2;
-        for Chip { at, text, swatch } in chips {
-            let (w, mid) = (self.type_px * 1.5, at.y - self.type_px * 0.36);
-            let room = match swatch {
-                Swatch::None => 0.0,
-                Swatch::Marker(mended) => {
-                    self.marker(mended, px(at.x + 0.5 * w, mid), self.type_px * 0.5);
-                    self.type_px * 2.0
-                }
-                Swatch::Line(class) => {
-                    let mut path = Path::default();
-                    path.add([px(at.x, mid), px(at.x + w, mid)], false);
-                    self.canvas.path(path, Paint::stroke(line_stroke(class, self.pen(3.0))));
-                    self.type_px * 2.0
-                }
-                Swatch::Area(colour) => {
-                    let half = self.type_px * 0.45;
-                    let paint = Paint::fill(colour, 1.0).and_stroke(Stroke::new(FAINT, self.pen(0.7)));
-                    self.canvas.rect(Rect::new(at.x, mid - half, at.x + w, mid + half), paint);
-                    self.type_px * 2.0
-                }
-            };
-            self.canvas.text(Label::new(px(at.x + room, at.y), text, self.type_px));
-        }
-        if let Some(scale) = &legend.scale {
-            self.scale(scale, below);
-        }
-        self.canvas
-    }
-
-    /// A histogram whose bars carry the colours: the scale and the distribution in one.
-    fn scale(&mut self, scale: &Scale, top: f64) {
-        let (left, size) = (self.margin.round(), self.type_px * 0.8);
-        let (floor, tall) = ((top + self.type_px * 2.2).round(), self.type_px * 1.9);
-        let most = scale.counts.iter().copied().max().unwrap_or(0).max(1) as f64;
-        // Whole pixels, or smoothing would draw a seam between two shades.
-        let step = (self.width * 0.42 / scale.counts.len().max(1) as f64).floor().max(1.0);
-        let length = step * scale.counts.len() as f64;
-        for (i, (&count, &shade)) in scale.counts.iter().zip(&scale.shades).enumerate() {
-            let x = left + i as f64 * step;
-            self.canvas.rect(Rect::new(x, floor, x + step, floor + self.type_px * 0.5), Paint::fill(shade, 1.0));
-            if count > 0 {
-                // A single triangle is still to be seen: at least a pixel and a half.
-                let bar = (tall * count as f64 / most).max(1.5);
-                let ink = shade.mix(INK, 0.15);
-                self.canvas.rect(Rect::new(x, floor - bar, x + step * 0.85, floor), Paint::fill(ink, 1.0));
-            }
-        }
-        for (at, text) in &scale.ticks {
-            let place = px(left + at * length, floor + self.type_px * 0.5 + size * 1.15);
-            let anchor = if *at == 0.0 { Anchor::Start } else { Anchor::Middle };
-            self.canvas.text(Label::new(place, text.clone(), size).anchor(anchor).colour(FAINT));
-        }
-        let place = px(left + length + self.type_px * 1.6, floor + self.type_px * 0.4);
-        self.canvas.text(Label::new(place, scale.title, size).colour(FAINT));
+impl Legend {
+    /// With an entry for every kind of repair that `options` point at.
+    pub fn with_markers(self, options: &PictureOptions) -> Self {
+        Self { markers: markers::entries(options), crowded: markers::mended(options).count() > 1, ..self }
     }
 }

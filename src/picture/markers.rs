@@ -2,11 +2,9 @@
 //! several, and has their number beside it.
 
 use super::PictureOptions;
-use super::canvas::{Colour, Paint, Stroke};
-use super::frame::{Frame, Pixel, px};
-use super::legend::Legend;
-use super::path::Path;
-use super::sheet::Sheet;
+use super::canvas::Colour;
+use super::frame::Frame;
+use super::path::{Pixel, px};
 use super::words::counted_words;
 use crate::domain::{Repair, RepairKind};
 use crate::geometry::Point;
@@ -14,8 +12,6 @@ use std::collections::BTreeMap;
 
 /// More markers than this would drown the drawing.
 const MARKERS_MAX: usize = 250;
-/// Half a marker's height, in pixels at a width of 1200.
-const RADIUS: f64 = 8.0;
 const REPAIRED: Colour = Colour::hex(0x7a1fa2);
 const LEFT: Colour = Colour::hex(0xc2187e);
 
@@ -23,17 +19,17 @@ const LEFT: Colour = Colour::hex(0xc2187e);
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Mended {
     /// Found, but left as it is.
-    left: bool,
+    pub left: bool,
     kind: RepairKind,
 }
 
 impl Mended {
-    fn colour(self) -> Colour {
+    pub fn colour(self) -> Colour {
         if self.left { LEFT } else { REPAIRED }
     }
 
     /// The marker around a place, as a polyline, and whether it closes. Every kind has a shape of its own.
-    fn shape(self, at: Pixel, radius: f64) -> (Vec<Pixel>, bool) {
+    pub fn shape(self, at: Pixel, radius: f64) -> (Vec<Pixel>, bool) {
         let corners = |turns: &[f64], reach: &[f64]| -> Vec<Pixel> {
             let corner = |(k, turn): (usize, &f64)| {
                 let (sin, cos) = libm::sincos(turn * std::f64::consts::TAU);
@@ -68,14 +64,14 @@ impl Mended {
 
 /// A marker, and how many repairs it stands for.
 #[derive(Clone, Copy)]
-struct Marker {
-    mended: Mended,
-    at: Point,
-    count: usize,
+pub struct Marker {
+    pub mended: Mended,
+    pub at: Point,
+    pub count: usize,
 }
 
 /// Legend entries of what `options` point at: every kind with its number.
-fn entries(options: &PictureOptions) -> Vec<(Mended, String)> {
+pub fn entries(options: &PictureOptions) -> Vec<(Mended, String)> {
     let mut counts: BTreeMap<Mended, usize> = BTreeMap::new();
     mended(options).for_each(|(mended, _)| *counts.entry(mended).or_default() += 1);
     let entry = |(mended, count): (Mended, usize)| {
@@ -85,14 +81,14 @@ fn entries(options: &PictureOptions) -> Vec<(Mended, String)> {
     counts.into_iter().map(entry).collect()
 }
 
-fn mended(options: &PictureOptions) -> impl Iterator<Item = (Mended, &Repair)> {
+pub fn mended(options: &PictureOptions) -> impl Iterator<Item = (Mended, &Repair)> {
     let of = |repairs, left| <[Repair]>::iter(repairs).map(move |r| (Mended { left, kind: r.kind }, r));
     of(&options.repairs, false).chain(of(&options.unhealed, true))
 }
 
 /// Markers of what is in sight: all that falls into one cell of a grid has one, of the rarest kind and at the place of that. The cells are as
 /// wide as a marker and the gap beside it, or as many times that as it takes.
-fn markers(frame: &Frame, options: &PictureOptions, width: f64) -> Vec<Marker> {
+pub fn markers(frame: &Frame, options: &PictureOptions, width: f64) -> Vec<Marker> {
     let seen: Vec<(Mended, Point, Pixel)> = mended(options)
         .map(|(mended, repair)| (mended, Point::new(repair.at[0], repair.at[1])))
         .map(|(mended, at)| (mended, at, frame.pixel(at)))
@@ -115,41 +111,5 @@ fn markers(frame: &Frame, options: &PictureOptions, width: f64) -> Vec<Marker> {
             return cells.into_values().collect();
         }
         cell *= 1.5;
-    }
-}
-
-impl Sheet {
-    /// Marks every repair that is in sight.
-    pub fn repairs(&mut self, options: &PictureOptions) {
-        let radius = self.pen(RADIUS);
-        let markers = markers(self.canvas.frame(), options, 3.0 * radius);
-        if markers.is_empty() {
-            return;
-        }
-        self.canvas.layer("repairs", true);
-        for marker in &markers {
-            self.marker(marker.mended, self.pixel(marker.at), radius);
-        }
-        for marker in markers.iter().filter(|marker| marker.count > 1) {
-            self.label(marker.at, &format!("×{}", marker.count), marker.mended.colour(), false);
-        }
-    }
-
-    /// On a white rim, to be seen on lines of any colour; dashed where nothing was mended.
-    pub fn marker(&mut self, mended: Mended, at: Pixel, radius: f64) {
-        let (shape, closed) = mended.shape(at, radius);
-        let mut outline = Path::default();
-        outline.add(shape, closed);
-        let (rim, pen) =
-            (Stroke::new(Colour::hex(0xffffff), self.pen(4.2)), Stroke::new(mended.colour(), self.pen(1.9)));
-        let pen = if mended.left { pen.dashed(self.pen(3.2), self.pen(1.6)) } else { pen };
-        self.canvas.path(outline.clone(), Paint::stroke(rim));
-        self.canvas.path(outline, Paint::stroke(pen));
-    }
-}
-
-impl Legend {
-    pub fn with_markers(self, options: &PictureOptions) -> Self {
-        Self { markers: entries(options), crowded: mended(options).count() > 1, ..self }
     }
 }

@@ -1,7 +1,9 @@
 //! Pictures of a drawing, a domain and a mesh: curves by the name of their boundary, cells by quality, region or size.
 //!
-//! `scene.rs` says what is drawn of each, on a `sheet.rs` with its `legend.rs`; that is a [`Canvas`] of pixels, written as SVG or painted as PNG.
+//! `scene.rs` says what is drawn of each, on a `sheet.rs` with its `annotations.rs`; that is a [`Canvas`] of pixels, written as SVG or painted
+//! as PNG.
 
+mod annotations;
 mod canvas;
 mod cells;
 mod frame;
@@ -12,6 +14,7 @@ mod palette;
 mod path;
 mod scene;
 mod sheet;
+mod used;
 mod words;
 
 pub use canvas::Canvas;

@@ -1,10 +1,21 @@
-//! Polylines in hundredths of a pixel.
+//! Places in a picture, and polylines of them, in hundredths of a pixel.
 
-use super::frame::Pixel;
 use std::fmt::Write;
 
 /// Hundredths of a pixel: finer than anything visible at a zoom of ten.
 const STEPS: f64 = 100.0;
+
+/// A place in the picture: x to the right, y downward, in pixels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pixel {
+    pub x: f64,
+    pub y: f64,
+}
+
+/// Shorthand for a place in the picture.
+pub const fn px(x: f64, y: f64) -> Pixel {
+    Pixel { x, y }
+}
 
 /// Polylines and polygons that share one paint.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -5,11 +5,12 @@ use super::cells::{CellColours, corners, smallest_angle_deg};
 use super::legend::Legend;
 use super::palette::{ALARM, FAINT, INK, area_colour};
 use super::sheet::Sheet;
+use super::used::{distinct, entries, rank};
 use super::words::{counted, short};
 use super::{MeshColour, PictureOptions};
 use crate::domain::{Domain, Drawing, SeedKind};
 use crate::geometry::{Rect, bounds_of};
-use crate::ids::{LayerId, NameId, Names, PointId};
+use crate::ids::{LayerId, PointId};
 use crate::mesh::Mesh;
 use std::collections::BTreeSet;
 
@@ -119,29 +120,4 @@ pub fn picture_of_mesh(mesh: &Mesh, domain: Option<&Domain>, colour: MeshColour,
         sheet.balls(mesh);
     }
     sheet.finish(options, &legend)
-}
-
-/// The names, each once, in order.
-fn distinct(names: impl Iterator<Item = NameId>) -> Vec<NameId> {
-    names.collect::<BTreeSet<_>>().into_iter().collect()
-}
-
-/// The place of a name among those in use.
-pub fn rank(used: &[NameId], name: NameId) -> usize {
-    used.partition_point(|&n| n < name)
-}
-
-fn entries(used: &[NameId], names: &Names) -> Vec<String> {
-    used.iter().map(|&n| names.text(n).to_owned()).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn ids_of_names_rank_in_order() {
-        let used = distinct([NameId(4), NameId(1), NameId(4)].into_iter());
-        assert_eq!(used.iter().map(|&n| rank(&used, n)).collect::<Vec<_>>(), [0, 1]);
-    }
 }

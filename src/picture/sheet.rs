@@ -5,11 +5,11 @@
 use super::PictureOptions;
 use super::canvas::{Canvas, Colour, Label, Paint, Stroke, text_width};
 use super::cells::{CellColours, corners};
-use super::frame::{Frame, Pixel, px};
+use super::frame::Frame;
 use super::legend::Legend;
 use super::palette::{ALARM, BALL, CHALK, INK, line_stroke};
-use super::path::Path;
-use super::scene::rank;
+use super::path::{Path, Pixel, px};
+use super::used::rank;
 use super::words::clipped;
 use crate::curve::{Curve, End};
 use crate::domain::Domain;

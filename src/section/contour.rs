@@ -2,8 +2,8 @@
 
 use super::crossing::first_crossing;
 use super::ends::{base_of, is_edged};
+use super::near::{merge_repeated, thin};
 use super::order::{cut_surfaces, from_trailing_edge, join, refuse_open, refuse_text};
-use super::weld::{merge_repeated, thin};
 use crate::geometry::{Point, bounds_of, finest_decimal};
 use crate::import::ImportError;
 use crate::import::airfoil::{HELP, SAME, Sample};

@@ -1,6 +1,6 @@
 //! Sections of airfoils: coordinates as a file holds them → the drawing that is asked for.
 //!
-//! `order.rs` puts the points of an element in order, `weld.rs` makes one of those too near, `ends.rs` tells how the section ends; that is a
+//! `order.rs` puts the points of an element in order, `near.rs` makes one of those too near, `weld.rs` closes gaps and loops, `ends.rs` tells how the section ends; that is a
 //! `contour.rs`. `curves.rs` lays curves through it, with the trailing edge of `trailing_edge.rs`; `crossing.rs` finds where they cross, and
 //! `far_field.rs` is what lies around. What was done is told in [`Drawing::notes`].
 //!
@@ -23,6 +23,7 @@ mod crossing;
 mod curves;
 mod ends;
 mod far_field;
+mod near;
 mod order;
 mod trailing_edge;
 mod weld;
