@@ -248,24 +248,30 @@ impl ArcForm {
 
 /// The arc with the ends that the file states; they must be its own up to rounding, and equal where it closes.
 fn with_stated_ends(arc: Curve, ends: [Pair; 2]) -> Result<Curve, String> {
-    let ends = ends.map(point);
-    let (size, sweep_rad) = match &arc {
-        Curve::Arc(a) => (a.radius + a.center.to_vec2().hypot(), a.sweep_rad),
-        Curve::Ellipse(e) => (e.u.hypot() + e.v.hypot() + e.center.to_vec2().hypot(), e.sweep_rad),
-        _ => return Err("only arcs have `ends`".into()),
+    let (own, ends) = ([arc.start(), arc.end()], ends.map(point));
+    let check = |size: f64, sweep_rad: f64| {
+        let near = |k: usize| (ends[k] - own[k]).hypot() <= END_SLACK * size;
+        if !(near(0) && near(1)) {
+            return Err("`ends` do not lie where the angles put them");
+        }
+        if sweep_rad.abs() >= TAU && ends[0] != ends[1] {
+            return Err("a full turn needs equal `ends`");
+        }
+        Ok(())
     };
-    let near = |p: Point, q: Point| (p - q).hypot() <= END_SLACK * size;
-    if !(near(ends[0], arc.start()) && near(ends[1], arc.end())) {
-        return Err("`ends` do not lie where the angles put them".into());
+    match arc {
+        Curve::Arc(a) => {
+            check(a.radius + a.center.to_vec2().hypot(), a.sweep_rad)?;
+            Ok(Curve::Arc(CircularArc { ends, ..a }))
+        }
+        Curve::Ellipse(e) => {
+            check(e.u.hypot() + e.v.hypot() + e.center.to_vec2().hypot(), e.sweep_rad)?;
+            Ok(Curve::Ellipse(Box::new(EllipticArc { ends, ..*e })))
+        }
+        Curve::Line(_) | Curve::Bezier(_) | Curve::Spline(_) | Curve::Clothoid(_) => {
+            Err("only arcs have `ends`".into())
+        }
     }
-    if sweep_rad.abs() >= TAU && ends[0] != ends[1] {
-        return Err("a full turn needs equal `ends`".into());
-    }
-    Ok(match arc {
-        Curve::Arc(a) => Curve::Arc(CircularArc { ends, ..a }),
-        Curve::Ellipse(e) => Curve::Ellipse(Box::new(EllipticArc { ends, ..*e })),
-        other => other,
-    })
 }
 
 impl EllipseForm {
