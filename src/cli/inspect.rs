@@ -1,12 +1,13 @@
 //! `inspect IN`: what is in a file, every repair and every flaw with its place.
 
-use super::files::{self, Input};
+use super::files::{self, Input, Staged, unwritable};
 use super::options::{Options, Resolved};
 use super::{Halt, Volume, clock, remember, say};
 use clap::Args;
 use serde::Serialize;
 use squinch::domain::{ArrangeOptions, Domain, Drawing, DrawnCurve, FaceInfo, Layer, Loose, Repair, Skipped};
 use squinch::ids::{Id, IdVec, LayerId, PointId};
+use squinch::import::outline;
 use squinch::run::report::{FailureReport, SCHEMA, kinds};
 use squinch::run::{self, Exit};
 use squinch::watch::Watch;
@@ -22,6 +23,9 @@ pub struct Inspect {
     /// As JSON
     #[arg(long)]
     json: bool,
+    /// The drawing as read, its curves exact, as an outline of ours: to be changed by hand or script, and meshed
+    #[arg(long, value_name = "FILE.json")]
+    outline: Option<PathBuf>,
     #[command(flatten)]
     options: Options,
 }
@@ -35,6 +39,11 @@ impl Inspect {
             Ok(drawing) => drawing,
             Err(failure) => return Err(Halt::Failure(Box::new(failure), Some(Box::new(input)))),
         };
+        if let Some(path) = &self.outline {
+            let mut staged = Staged::default();
+            let text = outline::to_json(&drawing);
+            staged.add(path, text.as_bytes()).and_then(|()| staged.commit()).map_err(unwritable)?;
+        }
         let clock = clock();
         let watch = &mut run::timer(&request, &clock);
         let arranged = run::arrange(&drawing, &request, watch);

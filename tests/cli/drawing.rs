@@ -37,3 +37,21 @@ fn every_stage_can_be_drawn() {
         assert!(fs::read(bench.0.join("a.png")).unwrap().starts_with(b"\x89PNG"));
     }
 }
+
+#[test]
+fn inspect_writes_a_drawing_as_an_outline_that_meshes_alike() {
+    let bench = Bench::new("inspect-outline");
+    let samples = concat!(env!("CARGO_MANIFEST_DIR"), "/samples");
+    for name in ["bracket.dxf", "transition.json"] {
+        let sample = format!("{samples}/{name}");
+        bench.ends(0, &["inspect", &sample, "--outline", "again.json"]);
+        let area = |file: &str, report: &str| {
+            bench.ends(0, &["mesh", file, "-o", "a.vtu", "--report", report, "--edge-turning", "30"]);
+            let text = fs::read_to_string(bench.0.join(report)).unwrap();
+            let report: serde_json::Value = serde_json::from_str(&text).unwrap();
+            (report["quality"]["exact_measure"].as_f64().unwrap(), report["input"]["curves"].clone())
+        };
+        assert_eq!(area(&sample, "one.json"), area("again.json", "two.json"), "{name}");
+    }
+    bench.ends(6, &["inspect", "lens.json", "--outline", "no/such/folder.json"]);
+}
