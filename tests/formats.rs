@@ -402,14 +402,14 @@ fn inp_names_are_legal_and_faces_are_right() {
 fn a_mesh_is_no_drawing() {
     let refused = |name: &str, bytes: &[u8]| import::tell_format(name.as_ref(), bytes).expect_err("no drawing").help;
     for format in Format::ALL {
-        let way = if format.reading().is_some() { "`squinch check`" } else { "Gmsh or meshio" };
+        let way = if format.reading().is_some() { "meshes are judged" } else { "Gmsh or meshio" };
         let suffix = format.reading().map_or(format.suffixes()[0], |reading| reading.suffix);
         assert!(refused(&format!("mesh.{suffix}"), b"").contains(way), ".{suffix} is not in import/foreign.rs");
         let file = encode(&strip(2, PLAIN), &[], format, &WriteOptions::default()).expect("written").remove(0);
         if let Some(told) = Format::sniff(&file) {
             assert_eq!(told.reading().map(|reading| reading.suffix), Some(suffix), "{format:?}");
             assert!(
-                refused("mesh", &file).contains("`squinch check`"),
+                refused("mesh", &file).contains("meshes are judged"),
                 "{format:?} is not among the signs of import/foreign.rs"
             );
         }

@@ -183,23 +183,12 @@ impl Builder {
             }
             match (kind, nodes) {
                 (5, &[a, b, c]) | (22, &[a, b, c, ..]) if nodes.len() == if kind == 5 { 3 } else { 6 } => {
-                    self.file.mesh.triangles.push([a, b, c].map(|n| VertexId(n as u32)));
-                    if let &[ab, bc, ca] = &nodes[3..] {
-                        self.file.mesh.triangle_mids.push([ab, bc, ca].map(|n| VertexId(n as u32)));
-                    }
-                    let region = ids.get(&at(&data.region, cell)).copied();
-                    let region = region.unwrap_or(RegionId(0));
-                    self.file.mesh.triangle_regions.push(region);
-                    if let Some(colour) = data.colour(cell) {
-                        let name = self.file.mesh.regions[region];
-                        self.file.mesh.colours.entry(name).or_insert(colour);
-                    }
+                    let region = ids.get(&at(&data.region, cell)).copied().unwrap_or(RegionId(0));
+                    self.triangle([a, b, c], &nodes[3..], region, data.colour(cell));
                 }
                 (3, &[a, b]) | (21, &[a, b, _]) => {
-                    let name = self.file.mesh.names.intern(&boundaries.name(at(&data.boundary, cell)));
-                    let ends = [a, b].map(|n| VertexId(n as u32));
-                    self.file.mesh.edge_mids.extend(nodes.get(2).map(|&n| VertexId(n as u32)));
-                    self.file.mesh.edges.push(CurveEdge { nodes: ends, name, link: data.link(cell) });
+                    let name = boundaries.name(at(&data.boundary, cell));
+                    self.line([a, b], nodes.get(2), &name, data.link(cell));
                 }
                 (1 | 2, _) => vertices += 1,
                 _ => return Err(refused(cell, kind, nodes.len())),
@@ -214,6 +203,27 @@ impl Builder {
             self.file.notes.push(format!("{vertices} vertex cells are left out"));
         }
         Ok(())
+    }
+
+    /// Takes in a triangle, of order 2 with the nodes within its sides.
+    fn triangle(&mut self, corners: [i32; 3], mids: &[i32], region: RegionId, colour: Option<Colour>) {
+        let (mesh, id) = (&mut self.file.mesh, |n: i32| VertexId(n as u32));
+        mesh.triangles.push(corners.map(id));
+        if let &[ab, bc, ca] = mids {
+            mesh.triangle_mids.push([ab, bc, ca].map(id));
+        }
+        mesh.triangle_regions.push(region);
+        if let Some(colour) = colour {
+            mesh.colours.entry(mesh.regions[region]).or_insert(colour);
+        }
+    }
+
+    /// Takes in a line, of order 2 with the node within.
+    fn line(&mut self, ends: [i32; 2], mid: Option<&i32>, name: &str, link: Option<CurveLink>) {
+        let (mesh, id) = (&mut self.file.mesh, |n: i32| VertexId(n as u32));
+        let name = mesh.names.intern(name);
+        mesh.edge_mids.extend(mid.map(|&n| id(n)));
+        mesh.edges.push(CurveEdge { nodes: ends.map(id), name, link });
     }
 
     /// A region for every number that is named or that a triangle has, ascending; names of regions come before those

@@ -14,6 +14,20 @@ pub enum Section {
     Other,
 }
 
+impl Section {
+    /// The section that an element of this name begins.
+    fn begun_by(name: &[u8]) -> Option<Self> {
+        match name {
+            b"FieldData" => Some(Self::Field),
+            b"Points" => Some(Self::Points),
+            b"PointData" => Some(Self::PointData),
+            b"Cells" => Some(Self::Cells),
+            b"CellData" => Some(Self::CellData),
+            _ => None,
+        }
+    }
+}
+
 /// A number's kind, and its size in bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
@@ -104,7 +118,7 @@ impl<'a> File<'a> {
                 Event::Empty(start) => (start, true),
                 Event::End(end) => {
                     // Not so after elements inside an array: VTK puts `InformationKey` there.
-                    if is_section(end.local_name().as_ref()) {
+                    if Section::begun_by(end.local_name().as_ref()).is_some() {
                         section = Section::Other;
                     }
                     ended |= end.local_name().as_ref() == b"VTKFile";
@@ -123,35 +137,21 @@ impl<'a> File<'a> {
                     file.points = count(&start, "NumberOfPoints")?;
                     file.cells = count(&start, "NumberOfCells")?;
                 }
-                b"FieldData" => section = Section::Field,
-                b"Points" => section = Section::Points,
-                b"Cells" => section = Section::Cells,
-                b"CellData" => section = Section::CellData,
-                b"PointData" => section = Section::PointData,
                 b"DataArray" => {
                     let from = position(&reader);
                     let text = if empty { &bytes[0..0] } else { text_after(bytes, from) };
                     file.arrays.extend(array(&start, section, text)?);
                 }
                 b"AppendedData" => {
-                    let encoding = match attribute(&start, "encoding")?.as_deref() {
-                        Some("base64") => Encoding::Base64,
-                        Some("raw") | None => Encoding::Raw,
-                        Some(other) => return Err(broken(format!("appended data are encoded as '{other}'"))),
-                    };
-                    let rest = bytes.get(position(&reader)..).unwrap_or_default();
-                    let Some(first) = rest.iter().position(|&b| b == b'_') else {
-                        return Err(broken("appended data do not begin with '_'"));
-                    };
-                    file.appended = Some((encoding, &rest[first + 1..]));
+                    file.appended = Some(appended(&start, bytes.get(position(&reader)..).unwrap_or_default())?);
                     // What follows may be raw bytes, and nothing after it is of interest.
                     ended = true;
                     break;
                 }
                 _ => {}
             }
-            if empty && is_section(name.as_ref()) {
-                section = Section::Other;
+            if let Some(begun) = Section::begun_by(name.as_ref()) {
+                section = if empty { Section::Other } else { begun };
             }
         }
         match (seen_root, pieces) {
@@ -187,8 +187,15 @@ impl<'a> File<'a> {
     }
 }
 
-fn is_section(name: &[u8]) -> bool {
-    matches!(name, b"FieldData" | b"Points" | b"PointData" | b"Cells" | b"CellData")
+/// What stands in `AppendedData`, of which `rest` is what follows its tag.
+fn appended<'a>(start: &BytesStart, rest: &'a [u8]) -> Result<(Encoding, &'a [u8])> {
+    let encoding = match attribute(start, "encoding")?.as_deref() {
+        Some("base64") => Encoding::Base64,
+        Some("raw") | None => Encoding::Raw,
+        Some(other) => return Err(broken(format!("appended data are encoded as '{other}'"))),
+    };
+    let first = rest.iter().position(|&b| b == b'_').ok_or_else(|| broken("appended data do not begin with '_'"))?;
+    Ok((encoding, &rest[first + 1..]))
 }
 
 fn position(reader: &Reader<&[u8]>) -> usize {
