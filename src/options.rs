@@ -308,7 +308,7 @@ mod tests {
 
     #[test]
     fn bounds_name_the_option_and_the_value() {
-        let refused = OutOfBounds::unless_positive(&[("a", None), ("b", Some(2.0)), ("c", Some(-1.0))]);
-        assert_eq!(refused.unwrap_err().to_string(), "--c -1: a positive number is needed");
+        let refused = OutOfBounds::unless_positive(&[("grade", None), ("scale", Some(2.0)), ("chord", Some(-1.0))]);
+        assert_eq!(refused.unwrap_err().to_string(), "--chord -1: a positive number is needed");
     }
 }
