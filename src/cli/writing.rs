@@ -3,7 +3,7 @@
 use super::output::{Output, stem};
 use super::viewing::{Colour, window};
 use super::{Halt, Volume, say};
-use clap::{Args, ValueEnum};
+use clap::Args;
 use serde::Serialize;
 use squinch::domain::Domain;
 use squinch::geometry::Rect;
@@ -28,8 +28,8 @@ pub struct Writing {
     #[arg(long, help_heading = "Formats")]
     plain: bool,
     /// XDMF with triangles and lines in one grid (meshio, ParaView) or in two (FEniCSx)
-    #[arg(long, value_enum, default_value_t = Grids::Double, value_name = "single|double", help_heading = "Formats")]
-    xdmf: Grids,
+    #[arg(long, value_enum, default_value_t = XdmfGrids::Double, value_name = "single|double", help_heading = "Formats")]
+    xdmf: XdmfGrids,
     /// What the triangles of a picture are coloured by
     #[arg(long, value_enum, default_value_t = Colour::Quality, value_name = "BY", help_heading = "Pictures")]
     colour: Colour,
@@ -42,13 +42,6 @@ pub struct Writing {
 /// A window as it is given.
 fn corners<S: serde::Serializer>(view: &Option<Rect>, serializer: S) -> Result<S::Ok, S::Error> {
     view.map(|r| [r.x0, r.y0, r.x1, r.y1]).serialize(serializer)
-}
-
-#[derive(Clone, Copy, PartialEq, Eq, ValueEnum, Serialize)]
-#[serde(rename_all = "kebab-case")]
-enum Grids {
-    Single,
-    Double,
 }
 
 impl Writing {
@@ -68,10 +61,7 @@ impl Writing {
             plain: self.plain,
             interior_lines: self.interior_lines.is_on(),
             lines: self.lines.map(Switch::is_on),
-            xdmf: match self.xdmf {
-                Grids::Single => XdmfGrids::Single,
-                Grids::Double => XdmfGrids::Double,
-            },
+            xdmf: self.xdmf,
             stem: stem(path),
         }
     }
@@ -117,7 +107,7 @@ impl Writing {
                 self.lines.is_some() && !leaves(Choice::Lines) && !(self.plain && leaves(Choice::PlainLines)),
                 "--lines: only for glTF, OBJ, vtk-text and plain VTU",
             ),
-            (self.xdmf == Grids::Single && !leaves(Choice::Grids), "--xdmf: only for XDMF"),
+            (self.xdmf == XdmfGrids::Single && !leaves(Choice::Grids), "--xdmf: only for XDMF"),
             (self.colour != Colour::Quality && !pictures, "--colour: only for pictures"),
             (self.view.is_some() && !pictures, "--view: only for pictures"),
         ];

@@ -25,6 +25,7 @@ mod xdmf;
 
 use crate::mesh::Mesh;
 use losses::Losses;
+use serde::Serialize;
 use std::io;
 use std::path::Path;
 
@@ -203,7 +204,9 @@ impl Format {
 // ---- writing ----
 
 /// How XDMF holds triangles and lines.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
+#[serde(rename_all = "kebab-case")]
 pub enum XdmfGrids {
     /// One grid of both kinds of cells, as meshio and ParaView take them.
     Single,
