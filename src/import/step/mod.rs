@@ -1,7 +1,20 @@
 //! STEP (ISO 10303-21): one planar face of a solid, read where the feature `cad` is on.
 
 #[cfg(feature = "cad")]
+mod entity;
+#[cfg(feature = "cad")]
 mod read;
+#[cfg(feature = "cad")]
+mod space;
+#[cfg(feature = "cad")]
+mod units;
+
+/// Entities may stand for others (surface curves, trimmed curves, units); a file may nest them in a ring.
+#[cfg(feature = "cad")]
+const MOST_NESTING: usize = 8;
+/// Faces, and warnings of the parser, that notes list; `inspect` lists all faces.
+#[cfg(feature = "cad")]
+const MOST_LISTED: usize = 8;
 
 #[cfg(feature = "cad")]
 pub use read::{faces, read};

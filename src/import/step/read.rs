@@ -6,24 +6,17 @@
 //! A file holds many faces and a drawing one plane, so one planar face is read: the largest, or the one that is asked for. Faces on
 //! other surfaces are counted as left out. Coordinates are those of the face's own part: the placements of an assembly are not applied.
 
+use super::MOST_LISTED;
+use super::entity::{Entity, File, Result, parsed, parts};
+use super::space::Surface;
+use super::units::Context;
 use crate::cad::{Edge, Face, FaceError, SpaceCurve};
 use crate::domain::{Drawing, FaceInfo, Skipped};
-use crate::geometry::space::{cross, dot, length, minus, plus, times, unit};
-use crate::geometry::{Frame, metres};
+use crate::geometry::Frame;
+use crate::geometry::space::times;
 use crate::import::ImportError;
-use std::collections::{BTreeMap, BTreeSet};
-use step_io::parser::{Attribute, Graph, RawEntity, Span, parse};
-
-/// The parsed entities take some ten times the file's size in memory.
-const MOST_BYTES: usize = 256 << 20;
-/// Spans are cut from a spline in time that grows with the cube of the degree; modellers stop at 25.
-const MOST_DEGREE: usize = 32;
-/// Curves may stand for other curves (surface curves, trimmed curves); a file may nest them in a ring.
-const MOST_NESTING: usize = 8;
-/// Faces that a note lists; `inspect` lists them all.
-const MOST_LISTED: usize = 8;
-
-type Result<T> = std::result::Result<T, ImportError>;
+use std::collections::BTreeMap;
+use step_io::parser::Graph;
 
 /// Reads one planar face: the one that is asked for by its number (`12` or `#12`) or its name, else the largest.
 ///
@@ -32,8 +25,9 @@ type Result<T> = std::result::Result<T, ImportError>;
 /// or not the one that is asked for.
 pub fn read(bytes: &[u8], stem: &str, face: Option<&str>) -> Result<Drawing> {
     let (graph, mended) = parsed(bytes)?;
-    let file = File::new(&graph);
-    let faces = file.faces();
+    let file = File { graph: &graph };
+    let contexts = file.contexts_of_faces();
+    let faces = file.faces(&contexts);
     let infos: Vec<FaceInfo> = faces.planar.iter().map(|planar| file.info(planar)).collect();
     let chosen = match face.filter(|wanted| *wanted != "largest") {
         Some(wanted) => file.wanted(&faces, wanted)?,
@@ -44,7 +38,7 @@ pub fn read(bytes: &[u8], stem: &str, face: Option<&str>) -> Result<Drawing> {
     let mut drawing = face.drawing().map_err(|error| file.located(planar.id, error))?;
     drawing.format = "STEP".into();
     drawing.title = format!("{stem}, {}", face.name);
-    drawing.unit = file.contexts.get(&planar.id).and_then(|context| context.unit.clone());
+    drawing.unit = contexts.get(&planar.id).and_then(|context| context.unit.clone());
     drawing.notes.extend(mended);
     drawing.notes.extend(others(&infos, chosen));
     drawing.skipped = faces.skipped(&graph);
@@ -58,186 +52,8 @@ pub fn read(bytes: &[u8], stem: &str, face: Option<&str>) -> Result<Drawing> {
 /// [`ImportError`] where the file breaks the format. A face that cannot be drawn is listed with its flaw.
 pub fn faces(bytes: &[u8]) -> Result<Vec<FaceInfo>> {
     let (graph, _) = parsed(bytes)?;
-    let file = File::new(&graph);
-    Ok(file.faces().planar.iter().map(|planar| file.info(planar)).collect())
-}
-
-// ---- the parser ----
-
-/// The header entities that the standard asks for, empty.
-const HEADER: [(&str, &str); 3] = [
-    ("FILE_DESCRIPTION", "FILE_DESCRIPTION((''),'2;1');"),
-    ("FILE_NAME", "FILE_NAME('','',(''),(''),'','','');"),
-    ("FILE_SCHEMA", "FILE_SCHEMA((''));"),
-];
-
-/// The entities, and what was mended to get them. Old writers leave header entities out, of which nothing here depends.
-fn parsed(bytes: &[u8]) -> Result<(Graph, Vec<String>)> {
-    if bytes.len() > MOST_BYTES {
-        let what = format!("the file has {} bytes; at most {MOST_BYTES} are read", bytes.len());
-        return Err(ImportError::new(what, "export the part that is to be meshed alone"));
-    }
-    let mut text = bytes.to_vec();
-    let mut notes = Vec::new();
-    loop {
-        let error = match parse(text.as_slice()) {
-            Ok(graph) => {
-                notes.extend(graph.warnings.iter().take(MOST_LISTED).map(ToString::to_string));
-                return Ok((graph, notes));
-            }
-            Err(error) => error,
-        };
-        let missing = match &error {
-            step_io::Error::MissingHeaderEntity { name } => HEADER.iter().find(|(known, _)| known == name),
-            _ => None,
-        };
-        // Each of the three is put in once at most.
-        let (Some((name, empty)), Some(at)) = (missing, header(&text).filter(|_| notes.len() < HEADER.len())) else {
-            return Err(broken(&error));
-        };
-        text.splice(at..at, empty.bytes());
-        notes.push(format!("the header has no {name}: read as if it were empty"));
-    }
-}
-
-/// Where the header's first entity begins.
-fn header(text: &[u8]) -> Option<usize> {
-    let word = text.windows(6).position(|word| word == b"HEADER")?;
-    Some(word + text[word..].iter().position(|&b| b == b';')? + 1)
-}
-
-fn broken(error: &step_io::Error) -> ImportError {
-    use step_io::Error::{
-        InvalidAttributePosition, Lex, MalformedFileSchema, NestingTooDeep, TooLarge, UnexpectedToken,
-    };
-    let span: Option<Span> = match error {
-        Lex(lex) => Some(lex.span),
-        UnexpectedToken { span, .. }
-        | MalformedFileSchema { span }
-        | InvalidAttributePosition { span, .. }
-        | NestingTooDeep { span }
-        | TooLarge { span } => Some(*span),
-        _ => None,
-    };
-    let text = error.to_string();
-    let what = match (&span, text.split_once(": ")) {
-        (Some(_), Some((_, what))) => what.to_owned(),
-        _ => text.trim_start_matches("parse error: ").to_owned(),
-    };
-    let mut error = ImportError::new(what, "the file is damaged or not a STEP file: export it anew");
-    error.line = span.map(|span| span.line as usize);
-    error.column = span.map(|span| span.column as usize);
-    error
-}
-
-// ---- entities ----
-
-/// One entity as one of the types that it is, its attributes in the order of that type.
-#[derive(Clone, Copy)]
-struct Entity<'a> {
-    id: u64,
-    line: usize,
-    kind: &'a str,
-    attributes: &'a [Attribute],
-}
-
-impl<'a> Entity<'a> {
-    fn fail(&self, what: impl std::fmt::Display) -> ImportError {
-        let what = format!("{} #{} {what}", self.kind, self.id);
-        ImportError::at(self.line, what, "the entity is not as ISO 10303-42 has it: export the file anew")
-    }
-
-    fn attribute(&self, i: usize) -> Result<&'a Attribute> {
-        self.attributes.get(i).ok_or_else(|| self.fail(format!("has no attribute {}", i + 1)))
-    }
-
-    fn reference(&self, i: usize) -> Result<u64> {
-        reference(self.attribute(i)?).ok_or_else(|| self.fail(format!("refers to nothing in attribute {}", i + 1)))
-    }
-
-    fn list(&self, i: usize) -> Result<&'a [Attribute]> {
-        match self.attribute(i)? {
-            Attribute::List(list) => Ok(list),
-            _ => Err(self.fail(format!("has no list in attribute {}", i + 1))),
-        }
-    }
-
-    fn references(&self, i: usize) -> Result<Vec<u64>> {
-        let list = self.list(i)?.iter().map(reference).collect::<Option<_>>();
-        list.ok_or_else(|| self.fail(format!("lists something else than entities in attribute {}", i + 1)))
-    }
-
-    fn real(&self, i: usize) -> Result<f64> {
-        real(self.attribute(i)?).ok_or_else(|| self.fail(format!("has no number in attribute {}", i + 1)))
-    }
-
-    fn reals(&self, i: usize) -> Result<Vec<f64>> {
-        let list = self.list(i)?.iter().map(real).collect::<Option<_>>();
-        list.ok_or_else(|| self.fail(format!("lists something else than numbers in attribute {}", i + 1)))
-    }
-
-    fn whole(&self, i: usize) -> Result<usize> {
-        let number = match self.attribute(i)? {
-            Attribute::Integer(n) => usize::try_from(*n).ok(),
-            _ => None,
-        };
-        number.ok_or_else(|| self.fail(format!("has no whole number in attribute {}", i + 1)))
-    }
-
-    /// `.T.` or `.F.`; unknown counts as true, which is what it mostly is.
-    fn flag(&self, i: usize) -> Result<bool> {
-        match self.attribute(i)? {
-            Attribute::Enum(word) => Ok(word != "F"),
-            _ => Err(self.fail(format!("has no truth value in attribute {}", i + 1))),
-        }
-    }
-
-    /// A name; some writers say `NONE` where there is none.
-    fn name(&self) -> Option<&'a str> {
-        match self.attributes.first() {
-            Some(Attribute::String(name)) => Some(name.trim()).filter(|name| !name.is_empty() && *name != "NONE"),
-            _ => None,
-        }
-    }
-}
-
-fn reference(attribute: &Attribute) -> Option<u64> {
-    match attribute {
-        Attribute::EntityRef(id) => Some(*id),
-        _ => None,
-    }
-}
-
-fn real(attribute: &Attribute) -> Option<f64> {
-    match attribute {
-        Attribute::Real(value) => Some(*value),
-        Attribute::Integer(value) => Some(*value as f64),
-        Attribute::Typed { value, .. } => match value.as_ref() {
-            Attribute::Real(value) => Some(*value),
-            Attribute::Integer(value) => Some(*value as f64),
-            _ => None,
-        },
-        _ => None,
-    }
-}
-
-/// The types of an entity with their attributes: one, or the parts of a complex one.
-fn parts(entity: &RawEntity) -> impl Iterator<Item = Entity<'_>> {
-    let (id, line) = (entity.id(), entity.span().line as usize);
-    let (simple, complex) = match entity {
-        RawEntity::Simple { name, attributes, .. } => (Some((name, attributes)), None),
-        RawEntity::Complex { parts, .. } => (None, Some(parts.iter().map(|part| (&part.name, &part.attributes)))),
-    };
-    let parts = simple.into_iter().chain(complex.into_iter().flatten());
-    parts.map(move |(kind, attributes)| Entity { id, line, kind, attributes })
-}
-
-// ---- faces ----
-
-struct File<'a> {
-    graph: &'a Graph,
-    /// What the numbers of a face are measured in.
-    contexts: BTreeMap<u64, Context>,
+    let file = File { graph: &graph };
+    Ok(file.faces(&file.contexts_of_faces()).planar.iter().map(|planar| file.info(planar)).collect())
 }
 
 /// The planar faces, and the others counted by their surface.
@@ -320,41 +136,12 @@ impl Faces {
     }
 }
 
-impl<'a> File<'a> {
-    fn new(graph: &'a Graph) -> Self {
-        let mut file = Self { graph, contexts: BTreeMap::new() };
-        file.contexts = file.contexts_of_faces();
-        file
-    }
-
-    /// An entity as the first of some types that it is.
-    fn entity(&self, id: u64, kinds: &[&str]) -> Result<Entity<'a>> {
-        let found =
-            self.graph.get(id).map(|raw| kinds.iter().find_map(|kind| parts(raw).find(|part| part.kind == *kind)));
-        match found {
-            Some(Some(entity)) => Ok(entity),
-            Some(None) => Err(self.first(id)?.fail(format!("stands where {} is expected", kinds.join(" or ")))),
-            None => Err(self.dangling(id)),
-        }
-    }
-
-    fn dangling(&self, id: u64) -> ImportError {
-        ImportError::new(
-            format!("#{id} is referred to and not there"),
-            "the file is cut short or damaged: export it anew",
-        )
-    }
-
-    /// The first type of an entity: of a complex one, no more than a word for messages.
-    fn first(&self, id: u64) -> Result<Entity<'a>> {
-        self.graph.get(id).and_then(|raw| parts(raw).next()).ok_or_else(|| self.dangling(id))
-    }
-
-    fn faces(&self) -> Faces {
+impl File<'_> {
+    fn faces(&self, contexts: &BTreeMap<u64, Context>) -> Faces {
         let mut faces = Faces { planar: Vec::new(), curved: BTreeMap::new() };
         let of_kind = |entity: &Entity| matches!(entity.kind, "ADVANCED_FACE" | "FACE_SURFACE");
         for entity in self.graph.entities.values().flat_map(parts).filter(of_kind) {
-            let context = self.contexts.get(&entity.id);
+            let context = contexts.get(&entity.id);
             let uncertainty = context.and_then(|c| c.uncertainty).unwrap_or(0.0);
             match entity.reference(2).and_then(|surface| self.plane(surface, uncertainty)) {
                 Ok(Surface::Plane(frame)) => {
@@ -480,306 +267,5 @@ impl<'a> File<'a> {
             name: edge.name().map_or_else(|| format!("edge #{}", edge.id), str::to_owned),
             entity: format!("EDGE_CURVE #{} of face #{face}", edge.id),
         })
-    }
-}
-
-// ---- geometry (ISO 10303-42) ----
-
-/// Curves that stand for another, which is their second attribute.
-const STAND_INS: [&str; 5] =
-    ["SURFACE_CURVE", "SEAM_CURVE", "INTERSECTION_CURVE", "BOUNDED_SURFACE_CURVE", "TRIMMED_CURVE"];
-
-/// The types that hold a spline's degree and control points; of a complex entity, the first.
-const SPLINES: [&str; 5] =
-    ["B_SPLINE_CURVE", "B_SPLINE_CURVE_WITH_KNOTS", "BEZIER_CURVE", "QUASI_UNIFORM_CURVE", "UNIFORM_CURVE"];
-
-enum Surface {
-    Plane(Frame),
-    /// The name of its type.
-    Curved(String),
-}
-
-impl File<'_> {
-    fn triple(&self, entity: &Entity) -> Result<[f64; 3]> {
-        let reals = entity.reals(1)?;
-        reals.try_into().map_err(|reals: Vec<f64>| entity.fail(format!("has {} coordinates, not 3", reals.len())))
-    }
-
-    fn point(&self, id: u64) -> Result<[f64; 3]> {
-        let entity = self.entity(id, &["CARTESIAN_POINT"])?;
-        let point = self.triple(&entity)?;
-        if point.iter().all(|x| x.is_finite()) { Ok(point) } else { Err(entity.fail("is nowhere")) }
-    }
-
-    fn vertex(&self, id: u64) -> Result<[f64; 3]> {
-        self.point(self.entity(id, &["VERTEX_POINT"])?.reference(1)?)
-    }
-
-    /// A direction where there is one.
-    fn direction(&self, entity: &Entity, i: usize) -> Result<Option<[f64; 3]>> {
-        match entity.attributes.get(i) {
-            Some(Attribute::EntityRef(id)) => {
-                let direction = self.entity(*id, &["DIRECTION"])?;
-                let [x, y, z] = self.triple(&direction)?;
-                if unit([x, y, z]).is_none() {
-                    return Err(direction.fail("has no direction"));
-                }
-                Ok(Some([x, y, z]))
-            }
-            _ => Ok(None),
-        }
-    }
-
-    /// The axes of a placement in space; those left out are the coordinate axes.
-    fn placement(&self, id: u64) -> Result<Frame> {
-        let entity = self.entity(id, &["AXIS2_PLACEMENT_3D"])?;
-        let axis = self.direction(&entity, 2)?.unwrap_or([0.0, 0.0, 1.0]);
-        let toward = self.direction(&entity, 3)?.unwrap_or([1.0, 0.0, 0.0]);
-        Frame::of_plane(self.point(entity.reference(1)?)?, axis, toward).ok_or_else(|| entity.fail("has no axes"))
-    }
-
-    /// The frame of a surface that is a plane, by its type or by its control points.
-    fn plane(&self, id: u64, uncertainty: f64) -> Result<Surface> {
-        if let Ok(plane) = self.entity(id, &["PLANE"]) {
-            return Ok(Surface::Plane(self.placement(plane.reference(1)?)?));
-        }
-        let nets = ["B_SPLINE_SURFACE", "B_SPLINE_SURFACE_WITH_KNOTS", "BEZIER_SURFACE", "QUASI_UNIFORM_SURFACE"];
-        let Ok(net) = self.entity(id, &nets) else {
-            return Ok(Surface::Curved(self.first(id)?.kind.to_owned()));
-        };
-        // The part of a complex entity has no name before its attributes.
-        let simple = usize::from(matches!(net.attributes.first(), Some(Attribute::String(_))));
-        let mut rows = Vec::new();
-        for row in net.list(2 + simple)? {
-            let Attribute::List(row) = row else { return Err(net.fail("has a row that is no list")) };
-            let row = row.iter().map(|p| reference(p).ok_or_else(|| net.fail("has a control point that is none")));
-            rows.push(row.map(|id| self.point(id?)).collect::<Result<Vec<_>>>()?);
-        }
-        Ok(plane_of_net(&rows, uncertainty).map_or_else(|| Surface::Curved("B_SPLINE_SURFACE".into()), Surface::Plane))
-    }
-
-    /// The curve in space that an entity is or stands for, and whether it runs the same way.
-    fn curve(&self, id: u64) -> Result<(SpaceCurve, bool)> {
-        let (mut id, mut along) = (id, true);
-        for _ in 0..MOST_NESTING {
-            let Ok(stand_in) = self.entity(id, &STAND_INS) else { return Ok((self.space_curve(id)?, along)) };
-            id = stand_in.reference(1)?;
-            if stand_in.kind == "TRIMMED_CURVE" {
-                along = along == stand_in.flag(4)?;
-            }
-        }
-        Err(self.first(id)?.fail("stands for itself"))
-    }
-
-    fn space_curve(&self, id: u64) -> Result<SpaceCurve> {
-        if let Ok(spline) = self.entity(id, &SPLINES) {
-            return self.spline(id, &spline);
-        }
-        let Ok(entity) = self.entity(id, &["LINE", "POLYLINE", "CIRCLE", "ELLIPSE", "PARABOLA", "HYPERBOLA"]) else {
-            return Err(self.first(id)?.fail("is no curve that is read here"));
-        };
-        match entity.kind {
-            "LINE" => Ok(SpaceCurve::Line),
-            "POLYLINE" => self.polyline(&entity),
-            _ => self.conic(&entity),
-        }
-    }
-
-    fn polyline(&self, entity: &Entity) -> Result<SpaceCurve> {
-        let points = entity.references(1)?.into_iter().map(|id| self.point(id)).collect::<Result<Vec<_>>>()?;
-        // Clamped: the first knot and the last are twofold.
-        let last = points.len().saturating_sub(1);
-        let knots = (0..points.len() + 2).map(|i| i.saturating_sub(1).min(last) as f64).collect();
-        Ok(SpaceCurve::Nurbs { degree: 1, knots, points, weights: None })
-    }
-
-    fn conic(&self, entity: &Entity) -> Result<SpaceCurve> {
-        let size = |i: usize| match entity.real(i)? {
-            size if size > 0.0 => Ok(size),
-            size => Err(entity.fail(format!("has the size {size}"))),
-        };
-        let Frame { origin, x, y } = self.placement(entity.reference(1)?)?;
-        let first = size(2)?;
-        Ok(match entity.kind {
-            "CIRCLE" => SpaceCurve::Ellipse { center: origin, u: times(x, first), v: times(y, first) },
-            "ELLIPSE" => SpaceCurve::Ellipse { center: origin, u: times(x, first), v: times(y, size(3)?) },
-            // The first size is the focal distance.
-            "PARABOLA" => SpaceCurve::Parabola { apex: origin, u: times(x, first), v: times(y, 2.0 * first) },
-            _ => SpaceCurve::Hyperbola { center: origin, u: times(x, first), v: times(y, size(3)?) },
-        })
-    }
-
-    fn spline(&self, id: u64, entity: &Entity) -> Result<SpaceCurve> {
-        let simple = usize::from(matches!(entity.attributes.first(), Some(Attribute::String(_))));
-        let degree = entity.whole(simple)?;
-        if degree > MOST_DEGREE {
-            return Err(entity.fail(format!("is of degree {degree}; at most {MOST_DEGREE} is read")));
-        }
-        let points = entity.references(1 + simple)?.into_iter().map(|id| self.point(id)).collect::<Result<Vec<_>>>()?;
-        let knots = match self.entity(id, &["B_SPLINE_CURVE_WITH_KNOTS"]) {
-            // A simple entity holds the attributes of its supertypes first.
-            Ok(knots) => with_multiplicities(&knots, 6 * simple, degree, points.len())?,
-            Err(_) => implied_knots(entity, self.graph.get(id), degree, points.len())?,
-        };
-        let weights = self.entity(id, &["RATIONAL_B_SPLINE_CURVE"]).ok().map(|part| part.reals(0)).transpose()?;
-        Ok(SpaceCurve::Nurbs { degree, knots, points, weights })
-    }
-}
-
-/// The frame of the plane of control points, its normal that of the surface; `None` where they do not lie in one.
-fn plane_of_net(rows: &[Vec<[f64; 3]>], uncertainty: f64) -> Option<Frame> {
-    let origin = *rows.first()?.first()?;
-    let offsets = || rows.iter().flatten().map(|p| minus(*p, origin));
-    let extent = offsets().map(length).fold(0.0, f64::max);
-    // What the cells of the net span together by their diagonals: u × v is the surface's normal, and rows follow each other along u.
-    let mut normal = [0.0; 3];
-    for (below, above) in rows.iter().zip(rows.iter().skip(1)) {
-        for (a, b) in below.windows(2).zip(above.windows(2)) {
-            normal = plus(normal, cross(minus(b[1], a[0]), minus(a[1], b[0])));
-        }
-    }
-    let along = rows.last()?.first().map(|p| minus(*p, origin))?;
-    let frame = Frame::of_plane(origin, normal, along)?;
-    let slack = uncertainty.max(1e-7 * extent);
-    offsets().all(|d| dot(d, frame.normal()).abs() <= slack).then_some(frame)
-}
-
-/// The knots of a spline that gives each distinct one with its multiplicity.
-fn with_multiplicities(entity: &Entity, first: usize, degree: usize, points: usize) -> Result<Vec<f64>> {
-    let (counts, distinct) = (entity.reals(first)?, entity.reals(first + 1)?);
-    let total: f64 = counts.iter().sum();
-    let expected = points + degree + 1;
-    if counts.len() != distinct.len() || counts.iter().any(|n| *n < 1.0) || total != expected as f64 {
-        return Err(entity.fail(format!("has multiplicities that do not give {expected} knots")));
-    }
-    // The total bounds each of them.
-    let knots = distinct.iter().zip(&counts).flat_map(|(knot, count)| std::iter::repeat_n(*knot, *count as usize));
-    Ok(knots.collect())
-}
-
-/// The knots that a type of spline implies: evenly spaced; clamped but of a uniform one; full inside of a chain of Béziers.
-fn implied_knots(entity: &Entity, raw: Option<&RawEntity>, degree: usize, points: usize) -> Result<Vec<f64>> {
-    let is = |kind: &str| raw.is_some_and(|raw| parts(raw).any(|part| part.kind == kind));
-    let whole = points.checked_sub(1).filter(|n| degree > 0 && n % degree == 0).map(|n| n / degree);
-    if is("UNIFORM_CURVE") {
-        return Ok((0..points + degree + 1).map(|i| i as f64).collect());
-    }
-    if is("QUASI_UNIFORM_CURVE") && points > degree {
-        let inner = points - degree;
-        return Ok((0..points + degree + 1).map(|i| i.clamp(degree, degree + inner) as f64).collect());
-    }
-    match (is("BEZIER_CURVE"), whole) {
-        (true, Some(spans)) => {
-            let inner = (0..=spans).flat_map(|i| std::iter::repeat_n(i as f64, degree));
-            Ok([0.0].into_iter().chain(inner).chain([spans as f64]).collect())
-        }
-        _ => Err(entity.fail("has no knots")),
-    }
-}
-
-// ---- units ----
-
-/// What the numbers of a representation are measured in.
-#[derive(Clone, Debug, Default)]
-struct Context {
-    unit: Option<(String, String)>,
-    /// In the unit.
-    uncertainty: Option<f64>,
-}
-
-impl<'a> File<'a> {
-    /// The context of every face: that of the representation whose items lead to it, but for items that show another representation.
-    fn contexts_of_faces(&self) -> BTreeMap<u64, Context> {
-        let mut contexts = BTreeMap::new();
-        let mut seen = BTreeSet::new();
-        for entity in self.graph.entities.values().flat_map(parts) {
-            let (Some(Attribute::List(items)), Some(Attribute::EntityRef(context))) =
-                (entity.attributes.get(1), entity.attributes.get(2))
-            else {
-                continue;
-            };
-            let Ok(units) = self.entity(*context, &["GLOBAL_UNIT_ASSIGNED_CONTEXT"]) else { continue };
-            let mut found = Vec::new();
-            let mut waiting: Vec<u64> = items.iter().filter_map(reference).collect();
-            while let Some(id) = waiting.pop() {
-                let Some(raw) = self.graph.get(id).filter(|_| seen.insert(id)) else { continue };
-                if parts(raw).any(|part| matches!(part.kind, "ADVANCED_FACE" | "FACE_SURFACE")) {
-                    found.push(id);
-                } else if !parts(raw).any(|part| part.kind == "MAPPED_ITEM") {
-                    parts(raw).for_each(|part| referred(part.attributes, &mut waiting));
-                }
-            }
-            if !found.is_empty() {
-                let context = self.context(&units);
-                contexts.extend(found.into_iter().map(|face| (face, context.clone())));
-            }
-        }
-        contexts
-    }
-
-    fn context(&self, units: &Entity) -> Context {
-        let ids = units.references(0).unwrap_or_default();
-        let unit = ids.into_iter().find_map(|id| self.unit_of_length(id, MOST_NESTING));
-        let uncertainty = self.entity(units.id, &["GLOBAL_UNCERTAINTY_ASSIGNED_CONTEXT"]).and_then(|e| e.references(0));
-        let measures = uncertainty.unwrap_or_default().into_iter();
-        let lengths = measures.filter_map(|id| {
-            let measure = self.entity(id, &["UNCERTAINTY_MEASURE_WITH_UNIT"]).ok()?;
-            let Attribute::Typed { type_name, .. } = measure.attributes.first()? else { return None };
-            let factor = match (&unit, self.unit_of_length(measure.reference(1).ok()?, MOST_NESTING)) {
-                (Some((_, own, _)), Some((_, other, _))) => other / own,
-                _ => 1.0,
-            };
-            (type_name == "LENGTH_MEASURE").then_some(measure.real(0).ok()? * factor)
-        });
-        let uncertainty = lengths.filter(|u| u.is_finite() && *u >= 0.0).reduce(f64::max);
-        Context { unit: unit.map(|(name, _, from)| (name, from)), uncertainty }
-    }
-
-    /// The name of a unit of length, its size in metres, and the entity that says so.
-    fn unit_of_length(&self, id: u64, nesting: usize) -> Option<(String, f64, String)> {
-        let raw = self.graph.get(id)?;
-        if let Some(si) = parts(raw).find(|part| part.kind == "SI_UNIT") {
-            let [.., prefix, Attribute::Enum(name)] = si.attributes else { return None };
-            let prefix = match prefix {
-                Attribute::Enum(prefix) => prefix.as_str(),
-                _ => "",
-            };
-            let unit = match (name.as_str(), prefix) {
-                ("METRE", "") => "m",
-                ("METRE", "MILLI") => "mm",
-                ("METRE", "CENTI") => "cm",
-                ("METRE", "DECI") => "dm",
-                ("METRE", "MICRO") => "um",
-                ("METRE", "NANO") => "nm",
-                ("METRE", "KILO") => "km",
-                _ => return None,
-            };
-            return Some((unit.into(), metres(unit)?, format!("SI_UNIT #{id}")));
-        }
-        let converted = parts(raw).find(|part| part.kind == "CONVERSION_BASED_UNIT").filter(|_| nesting > 0)?;
-        let measure =
-            self.entity(converted.reference(1).ok()?, &["LENGTH_MEASURE_WITH_UNIT", "MEASURE_WITH_UNIT"]).ok()?;
-        let (_, base, _) = self.unit_of_length(measure.reference(1).ok()?, nesting - 1)?;
-        let size = measure.real(0).ok()? * base;
-        // Inches are written with four digits, survey feet differ in the sixth.
-        let known = ["m", "mm", "cm", "dm", "um", "nm", "km", "in", "ft", "yd", "mi"];
-        let same = |unit: &&&str| metres(unit).is_some_and(|m| (size - m).abs() <= 1e-6 * m);
-        let name = known
-            .iter()
-            .find(same)
-            .map_or_else(|| converted.name().unwrap_or("?").to_lowercase(), |unit| (*unit).into());
-        Some((name, size, format!("CONVERSION_BASED_UNIT #{id}")))
-    }
-}
-
-/// The entities that attributes name, at any depth of lists.
-fn referred(attributes: &[Attribute], found: &mut Vec<u64>) {
-    let mut waiting: Vec<&Attribute> = attributes.iter().collect();
-    while let Some(attribute) = waiting.pop() {
-        match attribute {
-            Attribute::EntityRef(id) => found.push(*id),
-            Attribute::List(list) => waiting.extend(list),
-            _ => {}
-        }
     }
 }

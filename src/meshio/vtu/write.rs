@@ -34,6 +34,8 @@ use crate::meshio::groups;
 use crate::meshio::names::xml_attribute;
 use crate::threads;
 use base64::Engine;
+use flate2::{Compress, Compression, FlushCompress, Status};
+use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::io::{self, Write};
 
@@ -267,8 +269,22 @@ fn write_compressed(bytes: &[u8], out: &mut impl Write) -> io::Result<()> {
     out.write_all(base64.encode(blocks.concat()).as_bytes())
 }
 
+thread_local! {
+    /// Each thread keeps its compressor: to make one, a third of a megabyte has to be cleared.
+    static DEFLATE: RefCell<Compress> = RefCell::new(Compress::new(Compression::fast(), true));
+}
+
+/// A block as a zlib stream.
 fn compressed(block: &[u8]) -> io::Result<Vec<u8>> {
-    let mut encoder = flate2::write::ZlibEncoder::new(Vec::with_capacity(BLOCK / 4), flate2::Compression::fast());
-    encoder.write_all(block)?;
-    encoder.finish()
+    DEFLATE.with_borrow_mut(|deflate| {
+        deflate.reset();
+        let mut out = Vec::with_capacity(BLOCK / 4);
+        loop {
+            let done = deflate.total_in() as usize;
+            match deflate.compress_vec(&block[done..], &mut out, FlushCompress::Finish)? {
+                Status::StreamEnd => return Ok(out),
+                Status::Ok | Status::BufError => out.reserve(BLOCK / 4),
+            }
+        }
+    })
 }
