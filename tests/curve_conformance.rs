@@ -6,6 +6,8 @@
 use kurbo::{Affine, Point, Vec2};
 use proptest::prelude::*;
 use squinch::curve::{BreakKind, Curve, End};
+use squinch::domain::Drawing;
+use squinch::import::outline;
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_3, PI, TAU};
 
 fn p(x: f64, y: f64) -> Point {
@@ -955,5 +957,16 @@ proptest! {
             prop_assert!(curve.turning(pair[0], pair[1]) <= 0.5 + 1e-9);
         }
         prop_assert!(curve.inflections().len() <= 2 && curve.turning(0.0, 1.0) <= 3.0 * PI);
+    }
+}
+
+#[test]
+fn outlines_hold_every_kind_to_the_last_bit() {
+    for (name, curve) in samples() {
+        let mut drawing = Drawing::default();
+        drawing.add(curve, "rim", name.to_owned());
+        let text = outline::to_json(&drawing);
+        let again = outline::read(text.as_bytes(), "sample").unwrap_or_else(|e| panic!("{name}: {e}"));
+        assert_eq!(again.curves[0].curve, drawing.curves[0].curve, "{name}");
     }
 }

@@ -8,10 +8,8 @@ use squinch::generate::curved_complex;
 use squinch::geometry::Point;
 use squinch::import;
 use squinch::mesh::{InsertionKind, Mesh};
-use squinch::plane::gcdr::steiner::{
-    BySize, Center, Encroached, Extreme, Grid, OffCenter, Optimal, Places, Random, Skinny,
-};
-use squinch::plane::gcdr::{self, Options, Regions, SteinerStrategy};
+use squinch::plane::gcdr::steiner::{BySize, Center, Encroached, Grid, OffCenter, Optimal, Places, Random, Skinny};
+use squinch::plane::gcdr::{self, Choices, Options, Regions, SnapTo, Steiner, SteinerStrategy};
 use squinch::refine::{StopReason, Until};
 use squinch::size::Sizing;
 use squinch::verify::{Status, Verdict, densities, verify};
@@ -171,19 +169,17 @@ impl SteinerStrategy for Stubborn {
 fn any_strategy_keeps_the_promises() {
     let angle = 20.7f64.to_radians();
     let regions = Regions { delta2: 0.9, delta1: 0.9, mu: 0.6 };
-    let strategies: Vec<Box<dyn SteinerStrategy>> = vec![
-        Box::new(Center),
-        Box::new(OffCenter::new(angle, false)),
-        Box::new(Optimal::new(angle, false)),
-        Box::new(Extreme),
-        Box::new(Random::new(3)),
-        Box::new(Grid { pitch: 0.01 }),
-        Box::new(Places::new(
-            (0..400).map(|k| Point::new(0.05 * f64::from(k % 20) - 0.5, 0.05 * f64::from(k / 20) - 0.5)),
-        )),
-        Box::new(BySize),
-        Box::new(Stubborn(0)),
-    ];
+    // All that can be asked for and are not free, and others.
+    let choices = |steiner: Steiner| {
+        let snap = (steiner == Steiner::Snap).then_some(SnapTo::Pitch(0.01));
+        Choices { steiner, snap, seed: 3, ..Choices::default() }
+    };
+    let asked = Steiner::ALL.into_iter().filter(|steiner| !steiner.is_free());
+    let mut strategies: Vec<Box<dyn SteinerStrategy>> = asked.map(|steiner| choices(steiner).strategy(angle)).collect();
+    strategies.push(Box::new(Places::new(
+        (0..400).map(|k| Point::new(0.05 * f64::from(k % 20) - 0.5, 0.05 * f64::from(k / 20) - 0.5)),
+    )));
+    strategies.push(Box::new(Stubborn(0)));
     for mut strategy in strategies {
         for drawing in [squares(), touching_circles(), wedge(25.0, [1.0, 0.7])] {
             let options = options(20.7, regions);

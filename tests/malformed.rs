@@ -90,6 +90,11 @@ fn a_sample_cut_at_any_tenth_is_a_drawing_or_an_error_with_its_line() {
 
 #[test]
 fn a_sample_under_a_wrong_suffix_is_a_mesh_or_a_refusal() {
+    // Vertices alone are a part of a .poly file; solids are read with a feature only.
+    let elsewhere = [Format::Node, Format::Step];
+    for format in Format::ALL.into_iter().filter(|format| !elsewhere.contains(format)) {
+        assert!(SAMPLES.iter().any(|(_, of)| *of == format), "{format:?} has no sample");
+    }
     for &(name, format) in SAMPLES {
         let bytes = sample(name);
         for wrong in Format::ALL.into_iter().filter(|&f| f != format) {

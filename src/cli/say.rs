@@ -250,10 +250,10 @@ pub fn kinds(kinds: &BTreeMap<&'static str, usize>) -> String {
 }
 
 fn many(kind: &str) -> String {
-    match kind {
-        "bezier" => "beziers".into(),
-        "nurbs" => "nurbs".into(),
-        _ => format!("{kind}s"),
+    match kind.strip_suffix('y') {
+        _ if kind.ends_with('s') => kind.into(),
+        Some(stem) => format!("{stem}ies"),
+        None => format!("{kind}s"),
     }
 }
 

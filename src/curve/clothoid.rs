@@ -233,14 +233,6 @@ impl Clothoid {
         &self.chain
     }
 
-    /// The same with this end, if that is its own up to the rounding of one that was moved and turned before.
-    pub(super) fn with_end(&self, end: Point) -> Option<Self> {
-        let [start, own] = self.chain.ends();
-        let rounding = ROUNDED_END * (length(start.to_vec2()) + length(end.to_vec2()) + self.length);
-        let is_own = length(end - own) <= rounding;
-        is_own.then(|| Self::made(start, self.heading_rad, self.curvatures, self.length, Some(end)))
-    }
-
     fn shape(&self) -> Shape {
         shape_of(self.curvatures, self.length)
     }
@@ -339,6 +331,13 @@ impl Kind for Clothoid {
     /// Points come of what is run to them along it, which may be much longer than it is across.
     fn reach(&self) -> f64 {
         self.length
+    }
+    /// Its own is one up to the rounding of a curve that was moved and turned before.
+    fn with_rounded_end(&self, end: Point) -> Option<Curve> {
+        let [start, own] = self.chain.ends();
+        let rounding = ROUNDED_END * (length(start.to_vec2()) + length(end.to_vec2()) + self.length);
+        let is_own = length(end - own) <= rounding;
+        is_own.then(|| boxed(Self::made(start, self.heading_rad, self.curvatures, self.length, Some(end))))
     }
     fn knots(&self) -> Vec<f64> {
         self.chain.knots.clone()

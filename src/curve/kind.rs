@@ -3,7 +3,7 @@
 //! A kind says what only it knows: its ends, points and derivatives, its Bézier pieces ([`Kind::spans`]), and its images. Every other
 //! question has an answer here that goes span by span; kinds that know a closed form (lines, arcs) give theirs instead. A kind that is no
 //! rational curve has no exact pieces: its own follow it to a few units in the last place of its coordinates and of [`Kind::reach`], and its
-//! points are theirs.
+//! points are theirs (`clothoid.rs` shows how: a chain of Hermite pieces, the drift of its end spread along it).
 //!
 //! ```text
 //!   Curve ──▶ &dyn Kind ──┬─▶ line.rs  arc.rs  ellipse.rs  bezier.rs  spline.rs  clothoid.rs     what only the kind knows
@@ -64,6 +64,10 @@ pub(super) trait Kind {
     /// Whether its curvature is the same everywhere, and its parameter runs evenly: a line or a circular arc.
     fn is_round(&self) -> bool {
         false
+    }
+    /// See [`Curve::with_rounded_end`].
+    fn with_rounded_end(&self, _end: Point) -> Option<Curve> {
+        None
     }
     /// 0, the parameters at which one formula ends and the next begins, and 1.
     fn knots(&self) -> Vec<f64> {

@@ -403,10 +403,10 @@ impl Curve {
     pub fn reversed(&self) -> Self {
         self.as_kind().reversed()
     }
-    /// A clothoid with this very end, if that is its own up to rounding; `None` where it is not, and of other kinds.
+    /// The curve with this very end, of a kind whose end comes of its other numbers, if that is its own up to rounding; `None` where it is
+    /// not, and of other kinds.
     pub(crate) fn with_rounded_end(&self, end: Point) -> Option<Self> {
-        let Curve::Clothoid(clothoid) = self else { return None };
-        clothoid.with_end(end).map(|c| Curve::Clothoid(Box::new(c)))
+        self.as_kind().with_rounded_end(end)
     }
     /// The curve moved by the similarity that takes its ends to `start` and `end` (exactly those bits). For a small move: welding.
     /// A closed curve is translated. Where the similarity would move other points much farther than the ends (a curve that nearly

@@ -105,7 +105,8 @@ struct Facts {
 /// How surely first bytes tell a format.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Certainty {
-    /// They say which it is: JSON starts with a brace, DXF with its sentinel or a section, XML and gzip each in their own way.
+    /// They say which it is, and no other file begins so: JSON starts with a brace, DXF with its sentinel or a section, XML and gzip each in
+    /// their own way. Only a mark is held against a wrong suffix, and is asked before files of other kinds are told by name.
     Mark,
     /// They have a shape of their own, which no mark contradicts.
     Shape,

@@ -355,6 +355,7 @@ impl fmt::Display for MaxTurning {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::options::Kind;
     use crate::size::{ChordError, EdgeTurning, SizeOf};
 
     #[test]
@@ -426,6 +427,14 @@ mod tests {
         assert_eq!(refused(&|r| r.max_vertices = 2), "max-vertices");
         assert_eq!(refused(&|r| r.airfoil.far_field = 0.5), "far-field");
         assert_eq!(refused(&|r| (r.limits.min_edge, r.limits.max_edge) = (Some(2.0), Some(1.0))), "min-edge");
+    }
+
+    #[test]
+    fn every_number_has_bounds() {
+        for option in Request::options().iter().filter(|option| option.kind == Kind::Number) {
+            let request: Request = toml::from_str(&format!("{} = nan", option.key)).unwrap();
+            assert_eq!(request.validate().map_err(|e| e.option), Err(&*option.key));
+        }
     }
 
     #[test]

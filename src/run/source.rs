@@ -1,10 +1,11 @@
 //! Bytes → drawing, as the request wants it read, scaled and named.
 
 use super::report::{FailureKind, FailureReport};
-use super::request::Request;
+use super::request::{Engine, Request};
 use crate::domain::{Drawing, DrawnCurve, SizeRequest, Unmatched};
 use crate::geometry::{Point, metres};
 use crate::import::{self, Format, SvgOptions};
+use crate::options::Group;
 use crate::section;
 use kurbo::Affine;
 use std::path::Path;
@@ -37,7 +38,6 @@ pub fn read(source: &Source, request: &Request) -> Result<Drawing, FailureReport
     let found = import::read(source.bytes, format, stem, &options)?;
     let mut drawing = section::drawn(found, &request.airfoil)?;
     drawing.notes.extend(unused_options(format, request));
-    drawing.notes.extend(unused_face(format, request));
     tell_unmatched(&mut drawing, source.of_many)?;
     let mut drawing = in_units(drawing, request)?;
     give_names(&mut drawing, request, source.of_many)?;
@@ -60,23 +60,24 @@ fn give_names(drawing: &mut Drawing, request: &Request, of_many: bool) -> Result
     Ok(())
 }
 
-/// Says which options a drawing of this format has no use for.
-fn unused_options(format: Format, request: &Request) -> Option<String> {
-    let (asked, default) = (&request.airfoil, section::Options::default());
-    let of_airfoils = [
-        ("--trailing-edge", asked.trailing_edge != default.trailing_edge),
-        ("--far-field", asked.far_field != default.far_field),
-        ("--incidence", asked.incidence_deg != default.incidence_deg),
-        ("--chord", asked.chord.is_some()),
+/// Says which options were given that the run has no use for: those of other formats, and of the engine that is not asked.
+fn unused_options(format: Format, request: &Request) -> Vec<String> {
+    let written = |request: &Request| toml::Table::try_from(request).expect("options are words, numbers and lists");
+    let (asked, usual) = (written(request), written(&Request::default()));
+    let given = |group| {
+        let of_group = Request::options().iter().filter(move |option| option.group == group);
+        of_group.filter(|option| asked.get(&option.key) != usual.get(&option.key)).map(|o| format!("--{}", o.key))
+    };
+    let unused = [
+        (Group::Airfoils, format != Format::Airfoil, "only for airfoils"),
+        (Group::Solids, format != Format::Step, "only for solids"),
+        (Group::Gcdr, request.engine != Engine::Gcdr, "only for --engine gcdr"),
     ];
-    let given: Vec<&str> = of_airfoils.into_iter().filter(|(_, given)| *given).map(|(option, _)| option).collect();
-    let unused = format != Format::Airfoil && !given.is_empty();
-    unused.then(|| format!("{}: only for airfoils, and not used here", given.join(", ")))
-}
-
-/// Says that a drawing of this format has no faces to choose from.
-fn unused_face(format: Format, request: &Request) -> Option<String> {
-    (format != Format::Step && request.face.is_some()).then(|| "--face: only for solids, and not used here".into())
+    let told = unused.into_iter().filter(|(_, unused, _)| *unused).filter_map(|(group, _, why)| {
+        let given: Vec<String> = given(group).collect();
+        (!given.is_empty()).then(|| format!("{}: {why}, and not used here", given.join(", ")))
+    });
+    told.collect()
 }
 
 /// Names of layers that the file does not have: an error, or a note where the request is that of many inputs.

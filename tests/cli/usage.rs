@@ -173,7 +173,7 @@ fn short_help_is_for_jobs_and_long_help_for_all() {
 fn help_lists_every_format() {
     let bench = Bench::new("help-formats");
     let help = |verb| printed(&bench.ends(0, &[verb, "--help"])).split_whitespace().collect::<Vec<_>>().join(" ");
-    let [mesh, convert, check] = ["mesh", "convert", "check"].map(help);
+    let [mesh, convert, check, inspect] = ["mesh", "convert", "check", "inspect"].map(help);
     let all = meshio::Format::ALL.map(|f| f.name()).into_iter().chain(picture::Format::ALL.map(|f| f.name()));
     let refused = said(&bench.ends(2, &["mesh", "square.poly", "-o", "square.vtu", "--format", "none"]));
     for name in all {
@@ -195,6 +195,7 @@ fn help_lists_every_format() {
     for format in import::Format::ALL {
         let suffix = format!(".{}", format.suffixes()[0]);
         assert!(mesh.contains(&suffix), "{suffix} is not among the drawings of `squinch mesh`");
+        assert!(inspect.contains(&suffix), "{suffix} is not among the drawings of `squinch inspect`");
     }
     let readme = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/README.md")).expect("a README");
     let bullet = |word: &str| {
@@ -204,6 +205,11 @@ fn help_lists_every_format() {
     let (reads, writes) = (bullet("Reads"), bullet("Writes"));
     import::Format::ALL.iter().for_each(|f| assert!(reads.contains(f.name()), "{f:?} is not in the README"));
     meshio::Format::ALL.iter().for_each(|f| assert!(writes.contains(f.name()), "{f:?} is not in the README"));
+    for steiner in squinch::plane::gcdr::Steiner::ALL {
+        let word = serde_json::to_value(steiner).expect("a word");
+        let quoted = format!("`{}`", word.as_str().expect("a word"));
+        assert!(readme.contains(&quoted), "{quoted} is not in the README");
+    }
 }
 
 /// The commands that a help text shows.

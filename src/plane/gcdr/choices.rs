@@ -15,7 +15,7 @@ use std::fmt;
 #[serde(rename_all = "kebab-case", default)]
 pub struct Choices {
     /// With gcdr: points in triangles lie within r(1 - delta2) of the circumcenter, off-centres and optimal points within r - delta2 l/(2 sin
-    /// angle), where l is the shortest edge [default: 1; with --steiner extreme, random, snap and size the least that the angle allows]
+    /// angle), where l is the shortest edge [default: 1; with strategies that choose within disks that are alike the least that the angle allows]
     #[schemars(extend("group" = "gcdr", "value" = "D", "rare" = true))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub delta2: Option<f64>,
@@ -143,9 +143,26 @@ pub enum Steiner {
 }
 
 impl Steiner {
-    /// Whether its points are taken wherever they lie.
+    pub const ALL: [Self; 9] = [
+        Self::Center,
+        Self::Offcenter,
+        Self::Optimal,
+        Self::Extreme,
+        Self::Random,
+        Self::Snap,
+        Self::Size,
+        Self::OffcenterFree,
+        Self::OptimalFree,
+    ];
+
+    /// Whether its points are taken wherever they lie, as [`SteinerStrategy::is_free`] says: nothing is promised then.
     pub fn is_free(self) -> bool {
-        matches!(self, Self::OffcenterFree | Self::OptimalFree)
+        match self {
+            Self::OffcenterFree | Self::OptimalFree => true,
+            Self::Center | Self::Offcenter | Self::Optimal | Self::Extreme | Self::Random | Self::Snap | Self::Size => {
+                false
+            }
+        }
     }
 }
 
@@ -184,6 +201,26 @@ impl fmt::Display for SnapTo {
         match self {
             Self::Pitch(pitch) => write!(f, "{pitch}"),
             Self::Places(places) => write!(f, "{} places", places.len()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::options::{Kind, described};
+
+    #[test]
+    fn every_strategy_is_listed_and_as_free_as_it_says() {
+        let options = described::<Choices>();
+        let Some(Kind::Word(words)) = options.iter().find(|o| o.key == "steiner").map(|o| &o.kind) else {
+            panic!("a strategy is a word")
+        };
+        let listed = Steiner::ALL.map(|steiner| serde_json::to_value(steiner).unwrap());
+        assert_eq!(words.iter().map(|(word, _)| word.as_str().into()).collect::<Vec<serde_json::Value>>(), listed);
+        for steiner in Steiner::ALL {
+            let choices = Choices { steiner, ..Choices::default() };
+            assert_eq!(choices.strategy(0.3).is_free(), steiner.is_free(), "{steiner:?}");
         }
     }
 }

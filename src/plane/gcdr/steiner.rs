@@ -64,11 +64,13 @@ pub trait SteinerStrategy {
         0.5
     }
 
+    /// Which triangle comes first: another order than by angle is for strategies whose points are far from the shortest edge.
     fn order(&self) -> Order {
         Order::SmallestAngle
     }
 
-    /// How large the disks are that its points of type A are kept in.
+    /// How large the disks are that its points of type A are kept in. `ByShape` is for points that are kept far from the shortest edge by
+    /// themselves: above 30° only disks that are alike shrink to centres, and points that come near edges there may go on to the budget.
     fn disks(&self) -> Disks {
         Disks::Alike
     }

@@ -1,11 +1,9 @@
-//! Triangles, least angle and time of every Steiner strategy at several angles, on one input.
+//! Triangles, least angle and time of every Steiner strategy but those of given places, at several angles, on one input.
 
 use crate::run;
 use squinch::domain::ArrangeOptions;
 use squinch::mesh::quality::angle_range;
-use squinch::plane::gcdr::parameters::radius_edge_of;
-use squinch::plane::gcdr::steiner::{Center, Extreme, OffCenter, Optimal, Random};
-use squinch::plane::gcdr::{self, Options, Regions, SteinerStrategy};
+use squinch::plane::gcdr::{self, Choices, Options, Steiner};
 use squinch::refine::{StopReason, Until};
 use squinch::size::Sizing;
 use std::time::Instant;
@@ -17,20 +15,12 @@ pub fn print(path: &str) -> Result<(), String> {
     println!("{path}: triangles / least° of all / ms");
     println!("| strategy |{}", ANGLES_DEG.map(|a| format!(" {a}° |")).concat());
     println!("|---|{}", ANGLES_DEG.map(|_| "---|").concat());
-    for name in ["center", "offcenter", "optimal", "extreme", "random", "offcenter-free", "optimal-free"] {
-        let mut row = format!("| {name} |");
+    for steiner in Steiner::ALL.into_iter().filter(|&steiner| steiner != Steiner::Snap) {
+        let choices = Choices { steiner, ..Choices::default() };
+        let mut row = format!("| {steiner:?} |");
         for degrees in ANGLES_DEG {
             let angle_min_rad = degrees.to_radians();
-            let free = name.ends_with("-free");
-            let mut strategy: Box<dyn SteinerStrategy> = match name {
-                "center" => Box::new(Center),
-                "offcenter" | "offcenter-free" => Box::new(OffCenter::new(angle_min_rad, free)),
-                "optimal" | "optimal-free" => Box::new(Optimal::new(angle_min_rad, free)),
-                "extreme" => Box::new(Extreme),
-                _ => Box::new(Random::new(0)),
-            };
-            let regions = Regions::widest_disks(radius_edge_of(angle_min_rad));
-            let regions = if free || name == "center" { Regions::CENTERS } else { regions };
+            let (mut strategy, regions) = (choices.strategy(angle_min_rad), choices.regions(angle_min_rad));
             let options =
                 Options { angle_min_rad, regions, sizing: Sizing::default(), max_vertices: 200_000, record: false };
             let start = Instant::now();
