@@ -125,12 +125,8 @@ impl Kind {
             Value::Array(kinds) => kinds.iter().any(|k| k == kind),
             only => only == kind,
         };
-        match () {
-            () if is("array") => Self::Texts,
-            () if is("integer") => Self::Integer,
-            () if is("number") => Self::Number,
-            () => Self::Text,
-        }
+        let plain = [("array", Self::Texts), ("integer", Self::Integer), ("number", Self::Number)];
+        plain.into_iter().find(|(kind, _)| is(kind)).map_or(Self::Text, |(_, kind)| kind)
     }
 }
 

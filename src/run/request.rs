@@ -27,6 +27,7 @@ const TAU_RAD: f64 = 0.5;
 const TAU_AUTO_LEAST_RAD: f64 = 0.1;
 
 /// The options of one run. [`Request::validate`] says what is out of bounds.
+// serde does not promise that unknown fields are denied beside flattened structs; a test holds it to that.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case", default, deny_unknown_fields)]
 pub struct Request {
