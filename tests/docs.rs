@@ -1,7 +1,8 @@
-//! The tables of guarantees, in the README and in `docs/guarantee.md`, are what their formulas give.
+//! The documents keep to what they speak of: tables of guarantees are what their formulas give, and links lead to files.
 
 use squinch::promise::guaranteed_angle;
 use std::f64::consts::{FRAC_PI_3, SQRT_2};
+use std::path::{Path, PathBuf};
 
 /// Rows of the tables of a file whose first cell is a τ: the τ, and the numbers of the other cells.
 fn rows(file: &str) -> Vec<(f64, Vec<f64>)> {
@@ -59,5 +60,49 @@ fn the_library_promises_what_the_theorem_gives() {
     for k in 0..=100 {
         let lambda = FRAC_PI_3 * f64::from(k) / 100.0;
         assert!((guaranteed_angle(lambda).to_degrees() - kappa_deg(lambda)).abs() < 1e-12, "{lambda}");
+    }
+}
+
+/// The documents: the Markdown files of the root, and all below some folders.
+fn documents() -> Vec<PathBuf> {
+    let mut found: Vec<PathBuf> =
+        ["README.md", "CHANGELOG.md", "src/README.md", "samples/README.md"].map(PathBuf::from).into();
+    let mut folders = vec![PathBuf::from("docs")];
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(&folder).expect("a folder of documents") {
+            let path = entry.expect("an entry").path();
+            match path.is_dir() {
+                true => folders.push(path),
+                false => found.push(path),
+            }
+        }
+    }
+    found
+}
+
+#[test]
+fn links_of_documents_lead_to_files() {
+    let mut count = 0;
+    for document in documents() {
+        let text = std::fs::read_to_string(&document).expect("a document");
+        let folder = document.parent().unwrap_or(Path::new("."));
+        for link in text.split("](").skip(1).filter_map(|rest| rest.split(')').next()) {
+            let target = link.split('#').next().unwrap_or(link);
+            if target.is_empty() || target.contains("://") {
+                continue;
+            }
+            assert!(folder.join(target).exists(), "{}: {link} leads nowhere", document.display());
+            count += 1;
+        }
+    }
+    assert!(count > 30, "links are found: {count}");
+}
+
+#[test]
+fn every_symbol_of_the_guarantee_is_in_the_list_of_terms() {
+    let terms = std::fs::read_to_string("docs/terms.md").expect("the terms");
+    for symbol in ["κ", "τ", "λ", "η", "μ", "ζ", "β", "C₀", "B(p)", "d(p)", "lfs₀", "ρ̄", "δ₂", "δ₁", "D(p)", "R(p)"]
+    {
+        assert!(terms.contains(symbol), "{symbol}");
     }
 }
