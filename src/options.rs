@@ -63,24 +63,6 @@ pub enum Kind {
     Texts,
 }
 
-/// The attributes of a field, as its schema has them.
-#[derive(Deserialize)]
-struct Attributes {
-    description: String,
-    group: Group,
-    value: String,
-    report: Option<String>,
-    #[serde(default)]
-    rare: bool,
-    #[serde(default)]
-    switch: bool,
-    #[serde(default)]
-    file: bool,
-    #[serde(default)]
-    commas: bool,
-    default: Option<Value>,
-}
-
 /// The options of a struct, those of the structs that it gathers among them, in the order of its fields.
 pub fn described<T: JsonSchema>() -> Vec<Described> {
     let inline = |settings: &mut SchemaSettings| settings.inline_subschemas = true;
@@ -91,18 +73,30 @@ pub fn described<T: JsonSchema>() -> Vec<Described> {
 }
 
 impl Described {
+    /// An option, from the schema of its field.
     fn new(key: &str, field: &Value) -> Self {
-        let attributes = Attributes::deserialize(field).unwrap_or_else(|e| panic!("the option {key}: {e}"));
-        let Attributes { group, value, rare, switch, file, commas, .. } = attributes;
-        let default = match &attributes.default {
-            Some(Value::String(word)) => format!(" [default: {word}]"),
-            Some(Value::Number(number)) => format!(" [default: {}]", plain(number)),
-            Some(Value::Null | Value::Bool(_) | Value::Array(_) | Value::Object(_)) | None => String::new(),
+        let text = |attribute: &str| field[attribute].as_str().map(str::to_owned);
+        let needed = |attribute: &str| text(attribute).unwrap_or_else(|| panic!("the option {key} has no {attribute}"));
+        let is = |attribute: &str| field[attribute] == Value::Bool(true);
+        let comment = needed("description");
+        let default = match &field["default"] {
+            Value::String(word) => format!(" [default: {word}]"),
+            Value::Number(number) => format!(" [default: {}]", plain(number)),
+            Value::Null | Value::Bool(_) | Value::Array(_) | Value::Object(_) => String::new(),
         };
-        let told = attributes.description.contains("[default");
-        let help = sentence(&attributes.description) + if told { "" } else { &default };
-        let report = attributes.report.unwrap_or_else(|| key.replace('-', "_"));
-        Self { key: key.into(), group, value, help, report, rare, switch, file, commas, kind: Kind::of(field) }
+        let told = comment.contains("[default");
+        Self {
+            key: key.into(),
+            group: Group::deserialize(&field["group"]).unwrap_or_else(|e| panic!("the group of the option {key}: {e}")),
+            value: needed("value"),
+            help: sentence(&comment) + if told { "" } else { &default },
+            report: text("report").unwrap_or_else(|| key.replace('-', "_")),
+            rare: is("rare"),
+            switch: is("switch"),
+            file: is("file"),
+            commas: is("commas"),
+            kind: Kind::of(field),
+        }
     }
 }
 
