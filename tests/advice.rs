@@ -394,9 +394,9 @@ fn examples_of_the_help_run() {
 #[cfg(unix)]
 #[test]
 fn commands_of_the_readme_run_as_printed() {
-    let readme = fs::read_to_string(Path::new(ROOT).join("README.md")).expect("README.md");
-    let blocks: Vec<&str> =
-        readme.split("```sh\n").skip(1).map(|rest| rest.split("```").next().unwrap_or("")).collect();
+    let read = |name: &str| fs::read_to_string(Path::new(ROOT).join(name)).expect(name);
+    let text = ["README.md", "docs/recipes.md", "docs/algorithms/gcdr.md"].map(read).concat();
+    let blocks: Vec<&str> = text.split("```sh\n").skip(1).map(|rest| rest.split("```").next().unwrap_or("")).collect();
     let lines: Vec<&str> = blocks.iter().flat_map(|block| block.lines()).filter(|line| !line.is_empty()).collect();
     for line in &lines {
         let program = line.split(' ').next();
