@@ -66,7 +66,9 @@ fn the_library_promises_what_the_theorem_gives() {
 /// The documents: the Markdown files of the root, and all below some folders.
 fn documents() -> Vec<PathBuf> {
     let mut found: Vec<PathBuf> =
-        ["README.md", "CHANGELOG.md", "src/README.md", "samples/README.md"].map(PathBuf::from).into();
+        ["README.md", "CHANGELOG.md", "CONTRIBUTING.md", "src/README.md", "samples/README.md"]
+            .map(PathBuf::from)
+            .into();
     let mut folders = vec![PathBuf::from("docs")];
     while let Some(folder) = folders.pop() {
         for entry in std::fs::read_dir(&folder).expect("a folder of documents") {
