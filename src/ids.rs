@@ -6,7 +6,9 @@ use std::ops::{Index, IndexMut};
 
 /// An index into one kind of table.
 pub trait Id: Copy + Eq + Ord + std::hash::Hash + std::fmt::Debug {
+    /// The id of row `index` of its table.
     fn from_index(index: usize) -> Self;
+    /// The row of the table, from 0.
     fn index(self) -> usize;
 }
 
@@ -72,52 +74,64 @@ pub struct IdVec<I, T> {
 }
 
 impl<I: Id, T> IdVec<I, T> {
+    /// A vector without items.
     pub const fn new() -> Self {
         Self { items: Vec::new(), kind: PhantomData }
     }
 
+    /// A vector without items that holds `n` before it allocates again.
     pub fn with_capacity(n: usize) -> Self {
         Vec::with_capacity(n).into()
     }
 
+    /// Appends an item and returns its id.
     pub fn push(&mut self, item: T) -> I {
         let id = I::from_index(self.items.len());
         self.items.push(item);
         id
     }
 
+    /// Number of items.
     pub fn len(&self) -> usize {
         self.items.len()
     }
 
+    /// Whether there are no items.
     pub fn is_empty(&self) -> bool {
         self.items.is_empty()
     }
 
+    /// The item of an id; `None` where the vector is too short.
     pub fn get(&self, id: I) -> Option<&T> {
         self.items.get(id.index())
     }
 
+    /// Every id, ascending.
     pub fn ids(&self) -> impl DoubleEndedIterator<Item = I> + ExactSizeIterator + use<I, T> {
         (0..self.items.len()).map(I::from_index)
     }
 
+    /// The items, by ascending id.
     pub fn iter(&self) -> std::slice::Iter<'_, T> {
         self.items.iter()
     }
 
+    /// The items by ascending id, to be changed.
     pub fn iter_mut(&mut self) -> std::slice::IterMut<'_, T> {
         self.items.iter_mut()
     }
 
+    /// The items with their ids, ascending.
     pub fn enumerate(&self) -> impl DoubleEndedIterator<Item = (I, &T)> + ExactSizeIterator {
         self.items.iter().enumerate().map(|(i, item)| (I::from_index(i), item))
     }
 
+    /// The items by ascending id, as a slice.
     pub fn as_slice(&self) -> &[T] {
         &self.items
     }
 
+    /// Cuts the vector to `n` items, or appends copies of `item` until it has `n`.
     pub fn resize(&mut self, n: usize, item: T)
     where
         T: Clone,
@@ -177,14 +191,17 @@ impl Names {
         id
     }
 
+    /// The id of `text`; `None` where it was never recorded.
     pub fn find(&self, text: &str) -> Option<NameId> {
         self.by_text.get(text).copied()
     }
 
+    /// The text of an id that this table gave.
     pub fn text(&self, id: NameId) -> &str {
         &self.texts[id]
     }
 
+    /// Ids and texts, in the order of first use.
     pub fn iter(&self) -> impl Iterator<Item = (NameId, &str)> {
         self.texts.enumerate().map(|(id, text)| (id, text.as_str()))
     }

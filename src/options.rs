@@ -24,11 +24,17 @@ use std::fmt;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Group {
+    /// The engine, and the rules of corner lopping.
     Engine,
+    /// Bounds on angles, sizes and the distance from the curves.
     Bounds,
+    /// How a drawing is read, healed and named.
     Input,
+    /// Where refinement stops early: vertices and seconds.
     Budget,
+    /// Only for airfoil coordinates.
     Airfoils,
+    /// Only for solids (STEP).
     Solids,
     /// Of the engine for generalized constrained refinement.
     Gcdr,
@@ -37,23 +43,34 @@ pub enum Group {
 /// An option, as its field describes it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Described {
+    /// Name in kebab-case, without dashes before it: `min-angle`.
     pub key: String,
+    /// The heading under which the help lists it.
     pub group: Group,
+    /// What stands for its value in the help: `LENGTH`.
     pub value: String,
     /// A sentence without its full stop, and the default where there is one.
     pub help: String,
+    /// Name in the report, in snake case, with the unit where it has one: `timeout_s`.
     pub report: String,
+    /// Whether only the long help lists it.
     pub rare: bool,
+    /// Whether the value `on` may be left out.
     pub switch: bool,
+    /// Whether the name of a file may stand for its content.
     pub file: bool,
+    /// Whether several values may stand between commas.
     pub commas: bool,
+    /// What values it takes.
     pub kind: Kind,
 }
 
 /// What an option's value is.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Kind {
+    /// A number, whole or not.
     Number,
+    /// A whole number, not negative.
     Integer,
     /// One of some words, each with what it means.
     Word(Vec<(String, Option<String>)>),
@@ -143,11 +160,14 @@ fn words(field: &Value) -> Option<Vec<(String, Option<String>)>> {
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 #[serde(rename_all = "lowercase")]
 pub enum Switch {
+    /// Turned on.
     On,
+    /// Turned off.
     Off,
 }
 
 impl Switch {
+    /// Whether it is `On`.
     pub fn is_on(self) -> bool {
         self == Self::On
     }
@@ -157,8 +177,11 @@ impl Switch {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("--{option} {value}: {why}")]
 pub struct OutOfBounds {
+    /// The option's key, without dashes before it.
     pub option: &'static str,
+    /// The refused value, as text.
     pub value: String,
+    /// The bounds, as a phrase: what is needed instead.
     pub why: &'static str,
 }
 
@@ -188,7 +211,9 @@ impl OutOfBounds {
 #[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum Scalar {
+    /// A plain number.
     Number(f64),
+    /// A word, or a number with a sign behind it: `auto`, `2%`.
     Text(String),
 }
 

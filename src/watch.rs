@@ -16,6 +16,7 @@ pub fn no_clock() -> f64 {
 /// How far the work has come.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Progress {
+    /// Name of the stage at work, in one word: `cutting`, `refining`.
     pub phase: &'static str,
     /// Vertices so far, or as many as there must be at least.
     pub vertices: usize,

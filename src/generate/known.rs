@@ -10,7 +10,9 @@ use std::f64::consts::{PI, TAU};
 /// A drawing with the area of its regions.
 #[derive(Clone, Debug)]
 pub struct Known {
+    /// The curves, with the fill rule by which the area holds.
     pub drawing: Drawing,
+    /// Area of all regions, in squared units of the drawing.
     pub area: f64,
     /// Length of the border of all regions, once: what an error of the coordinates acts along.
     pub perimeter: f64,
@@ -130,6 +132,7 @@ pub enum Near {
 }
 
 impl Near {
+    /// Every kind, in the order of the enum.
     pub const ALL: [Self; 6] = [Self::Lens, Self::Gap, Self::Inside, Self::Concentric, Self::Squares, Self::Arcs];
 }
 

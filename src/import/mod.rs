@@ -61,6 +61,7 @@ macro_rules! formats {
         }
 
         impl Format {
+            /// Every format, in the order of the enum, in which first bytes are compared too.
             pub const ALL: [Self; [$(Self::$format),*].len()] = [$(Self::$format),*];
 
             const fn facts(self) -> &'static Facts {
@@ -153,6 +154,7 @@ pub fn format_of(path: &Path) -> Option<Format> {
 /// What a file holds.
 #[derive(Clone, Debug)]
 pub enum Found {
+    /// The curves, points, names and sizes of the file.
     Drawing(Box<Drawing>),
     /// Coordinates of sections, of which a drawing is made as it is wanted: by [`crate::section`].
     Section(airfoil::Coordinates),
@@ -169,9 +171,11 @@ impl From<Drawing> for Found {
 pub struct Options {
     /// The `.node` file beside a `.poly` file that holds no vertices of its own.
     pub nodes: Option<Vec<u8>>,
+    /// For SVG files: the treatment of strokes, and pixels to an inch.
     pub svg: SvgOptions,
     /// The face of a solid: its number or name, or `largest`; `None`: the largest.
     pub face: Option<String>,
+    /// For DXF files: the treatment of line types and of heights.
     pub dxf: DxfOptions,
     /// Of formats that have layers.
     pub selection: Selection,

@@ -216,6 +216,9 @@ impl Markers {
 }
 
 /// Reads a `.poly` file; `nodes` is the `.node` file beside it, needed where the `.poly` itself says "0 vertices".
+///
+/// # Errors
+/// [`ImportError`] with the line where the file breaks its format, and where its `.node` file is needed but not given.
 pub fn read_poly(bytes: &[u8], stem: &str, nodes: Option<&[u8]>) -> Result<Drawing, ImportError> {
     let mut drawing = empty("poly", stem);
     let mut rows = Rows::new(bytes);
@@ -241,6 +244,9 @@ pub fn read_poly(bytes: &[u8], stem: &str, nodes: Option<&[u8]>) -> Result<Drawi
 }
 
 /// Reads a `.node` file: its points in their convex hull.
+///
+/// # Errors
+/// [`ImportError`] with the line where the file breaks its format.
 pub fn read_node(bytes: &[u8], stem: &str) -> Result<Drawing, ImportError> {
     let mut drawing = empty("node", stem);
     let mut rows = Rows::new(bytes);

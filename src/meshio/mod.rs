@@ -40,6 +40,7 @@ macro_rules! formats {
         }
 
         impl Format {
+            /// Every format, in the order in which they are listed and in which first bytes are compared.
             pub const ALL: [Self; [$(Self::$format),*].len()] = [$(Self::$format),*];
 
             const fn facts(self) -> &'static Facts {
@@ -225,6 +226,7 @@ pub struct WriteOptions {
     /// Whether the boundaries are written as lines, in formats that have readers who go wrong beside lines: glTF, OBJ, text VTK and
     /// plain VTU. `None`: in the first two.
     pub lines: Option<bool>,
+    /// Whether XDMF holds triangles and lines in one grid or in two.
     pub xdmf: XdmfGrids,
     /// The name without suffix by which the files of one output speak of each other: OBJ's of its `.mtl`. `None`: an output that is a
     /// stream, and its first file alone.
@@ -274,6 +276,7 @@ fn file(write: impl FnOnce(&mut Vec<u8>) -> io::Result<()>) -> io::Result<Vec<u8
 /// A mesh as read, with what was said of it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MeshFile {
+    /// The mesh, with the names that the file has.
     pub mesh: Mesh,
     /// Keys and values that our writer was given; empty of a foreign file.
     pub stamps: Vec<(String, String)>,
@@ -285,7 +288,9 @@ pub struct MeshFile {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{what}")]
 pub struct MeshError {
+    /// What is wrong, with the place in the file where there is one.
     pub what: String,
+    /// What the user can do.
     pub help: String,
 }
 

@@ -13,7 +13,9 @@ use crate::size::Sizing;
 pub struct Promise {
     /// κ, the smallest angle asked for; `None`: not asked.
     pub angle_min_rad: Option<f64>,
+    /// Bounds on edge lengths, areas, chord errors and turnings.
     pub sizing: Sizing,
+    /// Which engine made the mesh, with the bounds of that engine alone.
     pub engine: EnginePromise,
     /// A mesh from elsewhere: no links to curves, balls taken as (√2−1)·lfs₀.
     pub foreign: bool,
@@ -22,13 +24,16 @@ pub struct Promise {
 /// What the engine promises of itself.
 #[derive(Clone, Copy, Debug)]
 pub enum EnginePromise {
+    /// Corner lopping: the mesh is Delaunay.
     Lopping(LoppingPromise),
+    /// Generalized constrained refinement: the mesh is constrained Delaunay.
     Constrained(ConstrainedPromise),
 }
 
 /// What corner lopping promises: empty diametral circles, and balls around sharp corners.
 #[derive(Clone, Copy, Debug)]
 pub struct LoppingPromise {
+    /// β, the factor by which a protecting ball shrinks: from ½ to below 1.
     pub beta: f64,
     /// The largest turning of a corner arc, where corner arcs were on: which excuse holds, and C₀.
     pub arc_turning_rad: Option<f64>,

@@ -16,8 +16,10 @@ pub trait Engine {
     /// Refines no more; what a valid mesh needs is still done.
     fn cancel(&mut self);
 
+    /// Phase, vertices so far and steps that wait.
     fn progress(&self) -> Progress;
 
+    /// Ends the run and returns what it has come to. It may be called after any step.
     fn finish(self) -> Self::Outcome;
 }
 
@@ -27,6 +29,7 @@ pub const CONFORMING: &str = "conforming";
 /// How far an engine is driven.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Until {
+    /// Until no step is left, or the watch says stop.
     End,
     /// Until there is a valid mesh: that from which it refines.
     Conforming,
@@ -90,6 +93,7 @@ impl<T> WorstFirst<T> {
         self.len += 1;
     }
 
+    /// Removes the oldest item of the worst bucket; `None` where the queue is empty.
     pub fn pop(&mut self) -> Option<T> {
         loop {
             if let Some(item) = self.buckets[self.top].pop_front() {
@@ -109,10 +113,12 @@ impl<T> WorstFirst<T> {
         self.top as f64 / (BUCKETS - 1) as f64
     }
 
+    /// Number of items that wait.
     pub fn len(&self) -> usize {
         self.len
     }
 
+    /// Whether no item waits.
     pub fn is_empty(&self) -> bool {
         self.len == 0
     }
@@ -146,6 +152,7 @@ impl Headway {
     /// Small meshes grow by large factors and end all the same.
     const SMALL: f64 = 1000.0;
 
+    /// Headway of a refinement that has not begun, with no badness met yet.
     pub fn new(patience: Patience) -> Self {
         Self { patience, mildest: 1.0, since: 0 }
     }
@@ -172,8 +179,10 @@ impl Headway {
 /// Why a refinement ended.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, serde::Serialize, schemars::JsonSchema)]
 pub enum StopReason {
+    /// Nothing is left to refine.
     #[serde(rename = "done")]
     Done,
+    /// The mesh may have no more vertices.
     #[serde(rename = "vertex budget")]
     VertexBudget,
     /// The watch said stop.
@@ -193,6 +202,7 @@ pub enum StopReason {
 /// The end of a refinement: why, what is owed, and where.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Stop {
+    /// Why it ended.
     pub reason: StopReason,
     /// Cells that still miss a bound.
     pub owed: usize,
@@ -208,10 +218,12 @@ pub struct Stop {
 pub struct Counters(pub BTreeMap<&'static str, u64>);
 
 impl Counters {
+    /// Adds `n` to a counter, which starts at 0.
     pub fn add(&mut self, name: &'static str, n: u64) {
         *self.0.entry(name).or_default() += n;
     }
 
+    /// The count under a name; 0 where nothing was counted under it.
     pub fn get(&self, name: &str) -> u64 {
         self.0.get(name).copied().unwrap_or(0)
     }

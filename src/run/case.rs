@@ -20,7 +20,9 @@ pub struct Case {
     pub squinch: String,
     /// What came of the run, for people: "panic: …", "broken: manifold", "done".
     pub outcome: String,
+    /// The input, bytes included.
     pub input: CaseInput,
+    /// The options of the run.
     pub request: Request,
 }
 
@@ -50,8 +52,10 @@ enum Content {
 /// Why a case file cannot be repeated.
 #[derive(Debug, thiserror::Error)]
 pub enum CaseError {
+    /// The text is no TOML, or not the TOML of a case.
     #[error("no case file: {0}")]
     Shape(#[from] toml::de::Error),
+    /// The recorded bytes are not valid base64.
     #[error("the input recorded in the case is no base64: {0}")]
     Bytes(#[from] base64::DecodeError),
 }
@@ -74,16 +78,24 @@ impl Case {
     }
 
     /// The bytes of the input, and those of its `.node` file.
+    ///
+    /// # Errors
+    /// [`CaseError::Bytes`] where the recorded base64 is broken.
     pub fn bytes(&self) -> Result<(Vec<u8>, Option<Vec<u8>>), CaseError> {
         Ok((self.input.content.bytes()?, self.input.nodes.as_ref().map(Content::bytes).transpose()?))
     }
 
+    /// Reads a case file, and checks that its bytes can be restored.
+    ///
+    /// # Errors
+    /// [`CaseError::Shape`] where the text is not the TOML of a case, [`CaseError::Bytes`] where its base64 is broken.
     pub fn from_toml(text: &str) -> Result<Self, CaseError> {
         let case: Self = toml::from_str(text)?;
         case.bytes()?;
         Ok(case)
     }
 
+    /// The text of the case file, from which [`Case::from_toml`] restores the case exactly.
     pub fn to_toml(&self) -> String {
         toml::to_string(self).expect("a case holds only strings, numbers and tables of them")
     }
@@ -119,6 +131,7 @@ fn fnv1a(bytes: &[u8]) -> u64 {
 /// A panic that was caught: what it said and where.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Panic {
+    /// The panic's message.
     pub message: String,
     /// Source file and line.
     pub place: String,
@@ -138,6 +151,9 @@ thread_local! {
 }
 
 /// Runs `work`; a panic in it comes back as a value, and nothing is printed.
+///
+/// # Errors
+/// [`Panic`] with message and place, where `work` panicked.
 pub fn caught<T>(work: impl FnOnce() -> T) -> Result<T, Panic> {
     static HOOK: Once = Once::new();
     HOOK.call_once(|| {

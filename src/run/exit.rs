@@ -16,18 +16,24 @@ pub enum Exit {
     Done = 0,
     /// Of a batch: any input ended otherwise.
     SomeFailed = 1,
+    /// Wrong options, or a request that does not fit the drawing.
     Usage = 2,
+    /// The input cannot be read.
     Unreadable = 3,
+    /// The drawing has no valid arrangement, or features that coordinates cannot tell apart.
     Geometry = 4,
     /// A requested bound is missed outside the excused places, or a budget ran out.
     Missed = 5,
+    /// An output cannot be written.
     Unwritable = 6,
     /// Our own fault.
     Bug = 70,
+    /// The user interrupted the run.
     Cancelled = 130,
 }
 
 impl FailureKind {
+    /// The exit code of a run that failed so.
     pub fn exit(self) -> Exit {
         match self {
             Self::Request => Exit::Usage,

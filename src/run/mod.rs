@@ -30,11 +30,15 @@ use request::{Order, Request};
 /// What came of a run: as much of it as there is.
 #[derive(Debug)]
 pub struct Outcome {
+    /// How the run ended, as an exit code.
     pub exit: Exit,
+    /// The report, complete but for the time of writing and the memory.
     pub report: Report,
     /// The domain, its curves cut to τ.
     pub domain: Option<Domain>,
+    /// The mesh, valid if not complete; `None` where the run ended before there was one.
     pub mesh: Option<Mesh>,
+    /// The verifier's checks of the mesh; `None` where there is no mesh.
     pub verdict: Option<Verdict>,
 }
 
@@ -233,6 +237,9 @@ pub fn timer<'a>(request: &'a Request, clock: &'a Clock) -> impl FnMut(&Progress
 }
 
 /// Drawing → domain, as long as `watch` says to go on, within the request's tolerance or the one that `Healing` takes.
+///
+/// # Errors
+/// Where the drawing has no valid arrangement: the place and the way out. Where the watch says stop before the end.
 pub fn arrange(drawing: &Drawing, request: &Request, watch: &mut Watch) -> Result<Domain, FailureReport> {
     Healing::new(drawing, request).arrange(watch)
 }

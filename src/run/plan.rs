@@ -111,6 +111,7 @@ impl Plan {
         Self { tau_rad: request.tau_rad([]), options, gcdr }
     }
 
+    /// The sizes asked for, by the request and by the drawing, as the engine and the verifier use them.
     pub fn sizing(&self) -> &Sizing {
         &self.options.sizing
     }

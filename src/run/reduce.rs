@@ -10,9 +10,11 @@ use crate::watch::no_clock;
 /// A drawing from which nothing more could be taken, or not within the budget.
 #[derive(Clone, Debug)]
 pub struct Reduced {
+    /// What is left of the drawing.
     pub drawing: Drawing,
     /// How its run ends, as the first did.
     pub ending: String,
+    /// Number of runs made, the first included.
     pub runs: usize,
 }
 

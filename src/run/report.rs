@@ -37,35 +37,53 @@ pub const SCHEMA: u32 = 1;
 /// The report of one run. What the run did not come to is `null`.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Report {
+    /// Version of the schema: 1.
     pub schema: u32,
+    /// Version of squinch that wrote the report.
     pub version: &'static str,
+    /// What was read, and what was repaired in it.
     pub input: InputReport,
+    /// Every option as used.
     pub request: RequestReport,
+    /// Size and parts of the mesh.
     pub mesh: Option<MeshReport>,
+    /// Angles, sizes and other measures of the mesh.
     pub quality: Option<Quality>,
+    /// The verifier's checks of the mesh.
     pub promise: Option<PromiseReport>,
+    /// Why refinement ended, and what is unresolved.
     pub stop: Option<StopReport>,
     /// Why there is no mesh, or why it must not be used; absent of a run that came to its end.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub failure: Option<FailureReport>,
+    /// Counts of the engine's steps, by name.
     pub counters: Counters,
+    /// Wall-clock seconds of each stage.
     pub seconds: Seconds,
     /// Largest resident memory of the process, where the system tells it.
     pub peak_memory_bytes: Option<u64>,
 }
 
+/// The input of a run, as read.
 #[derive(Clone, Debug, Default, Serialize, JsonSchema)]
 pub struct InputReport {
     /// As given on the command line.
     pub path: String,
+    /// Name of the format.
     pub format: Option<String>,
+    /// Title that the file gives, else its name without suffix.
     pub title: Option<String>,
+    /// Unit of lengths: the file's, or the one asked for by `--unit`. `null` where neither is known.
     pub unit: Option<String>,
+    /// Where the unit was read from.
     pub unit_from: Option<String>,
     /// How many of each kind.
     pub curves: BTreeMap<&'static str, usize>,
+    /// Entities that were left out, by kind and reason.
     pub skipped: Vec<Skipped>,
+    /// Sentences on quirks of the file and liberties taken in reading it.
     pub notes: Vec<String>,
+    /// Flaws of the drawing that were healed.
     pub repairs: Vec<Repair>,
     /// Where nothing is to be healed (`tolerance` 0): what the default would have mended, as `repairs` would list it.
     pub unhealed: Vec<Repair>,
@@ -92,13 +110,20 @@ pub fn kinds(drawing: &Drawing) -> BTreeMap<&'static str, usize> {
     kinds
 }
 
+/// The mesh in numbers.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct MeshReport {
+    /// Number of nodes, those within edges (order 2) included.
     pub vertices: usize,
+    /// Number of triangles.
     pub triangles: usize,
+    /// Number of tetrahedra: 0 in the plane.
     pub tetrahedra: usize,
+    /// Number of edges on curves of the domain, interfaces and lines within regions included.
     pub boundary_edges: usize,
+    /// Measures of each region.
     pub regions: Vec<RegionMeasure>,
+    /// Measures of each boundary, by name.
     pub boundaries: Vec<BoundaryMeasure>,
     /// Polynomial order of the cells.
     pub order: u8,
@@ -109,11 +134,14 @@ pub struct MeshReport {
 /// A curved side that is straight in the mesh: the name of its boundary, and its middle.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct StraightenedReport {
+    /// Name of the boundary.
     pub boundary: String,
+    /// Middle of the side, x and y.
     pub at: [f64; 2],
 }
 
 impl MeshReport {
+    /// The numbers of a mesh, without straightened sides.
     pub fn new(mesh: &Mesh) -> Self {
         Self {
             vertices: mesh.nodes.len(),
@@ -138,20 +166,28 @@ impl MeshReport {
     }
 }
 
+/// What the verifier found.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct PromiseReport {
+    /// Whether no check is broken.
     pub kept: bool,
+    /// Every check, with its counts and the worst value met.
     pub checks: Vec<Check>,
+    /// Triangles that sharp corners exempt from the angle bound.
     pub excused: ExcusedReport,
 }
 
+/// The exempt triangles, by corner.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct ExcusedReport {
+    /// Number of exempt triangles.
     pub count: usize,
+    /// Each corner with its exempt triangles.
     pub by_corner: Vec<Excuse>,
 }
 
 impl PromiseReport {
+    /// The verifier's verdict, as the report tells it.
     pub fn new(verdict: &Verdict) -> Self {
         let count = verdict.excused.iter().map(|e| e.cells.len()).sum();
         let excused = ExcusedReport { count, by_corner: verdict.excused.clone() };
@@ -159,10 +195,14 @@ impl PromiseReport {
     }
 }
 
+/// The end of refinement.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct StopReport {
+    /// Why it ended.
     pub reason: StopReason,
+    /// Number of cells that still miss a bound.
     pub owed: usize,
+    /// Some of the places where a bound is missed, x and y each.
     pub places: Vec<[f64; 2]>,
     /// The smallest angle that the mesh was refined to, where it is another than was asked for: `--min-angle` with it ends.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -177,6 +217,7 @@ impl StopReport {
         }
     }
 
+    /// The end of a refinement, as the report tells it.
     pub fn new(stop: &Stop) -> Self {
         let places = stop.places.iter().map(|p| [p.x, p.y]).collect();
         Self { reason: stop.reason, owed: stop.owed, places, angle_deg: stop.angle_deg }
@@ -195,26 +236,35 @@ impl StopReport {
 /// What stood in the way, where, and the way out.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct FailureReport {
+    /// The kind of failure, from which the exit code follows.
     pub kind: FailureKind,
+    /// What is wrong, in a sentence without full stop.
     pub what: String,
+    /// Where in the drawing, x and y; `null` where it is at no one place.
     pub at: Option<[f64; 2]>,
     /// Further places of the same flaw, as many as `what` lists.
     #[serde(skip_serializing_if = "<[[f64; 2]]>::is_empty")]
     pub also_at: Box<[[f64; 2]]>,
+    /// Line of the file, from 1; `null` where it is at no one line.
     pub line: Option<u32>,
+    /// Byte in the line, from 1; `null` where it is not known.
     pub column: Option<u32>,
+    /// What the user can do.
     pub help: String,
     /// The end of the stage that a budget cut short: `stop` of the report.
     #[serde(skip)]
     pub stop: Option<Box<StopReport>>,
 }
 
+/// Kinds of failures; each has an exit code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum FailureKind {
     /// The request does not fit the drawing.
     Request,
+    /// The input is damaged or of no known format.
     Unreadable,
+    /// The drawing has no valid arrangement, or features that coordinates cannot tell apart.
     Geometry,
     /// The budget or the time ended before there was a valid mesh.
     NoMesh,
@@ -223,6 +273,7 @@ pub enum FailureKind {
 }
 
 impl FailureReport {
+    /// A failure at no place and no line.
     pub fn new(kind: FailureKind, what: impl Into<String>, help: impl Into<String>) -> Self {
         Self {
             kind,
@@ -236,6 +287,7 @@ impl FailureReport {
         }
     }
 
+    /// The failure at a place of the drawing.
     pub fn at(self, place: Point) -> Self {
         Self { at: Some([place.x, place.y]), ..self }
     }
@@ -244,11 +296,17 @@ impl FailureReport {
 /// Wall-clock seconds of each stage.
 #[derive(Clone, Copy, Debug, Default, Serialize, JsonSchema)]
 pub struct Seconds {
+    /// Reading the input.
     pub read: f64,
+    /// Arranging and healing the drawing, and cutting its curves to τ.
     pub arrange: f64,
+    /// Refining, with the estimate before it and the nodes of order 2.
     pub mesh: f64,
+    /// Verifying and measuring the mesh.
     pub verify: f64,
+    /// Writing the outputs; 0 where none was written.
     pub write: f64,
+    /// The whole run, writing included.
     pub total: f64,
 }
 

@@ -41,8 +41,10 @@ pub struct Request {
     /// Largest turning of a curve before it is meshed, at most π/3; auto: the largest whose guarantee covers the angle.
     #[schemars(extend("group" = "engine", "value" = "RAD|auto", "rare" = true))]
     pub max_turning: MaxTurning,
+    /// Rules of corner lopping: `beta` and where subcurves are split.
     #[serde(flatten)]
     pub rules: Rules,
+    /// Bounds on sizes, areas, chord errors and turnings.
     #[serde(flatten)]
     pub limits: Limits,
     /// Order of the cells: 2 puts a node on the curve within every edge.
@@ -72,6 +74,7 @@ pub struct Request {
     /// all: adds a box named `box` and keeps every bounded face.
     #[schemars(extend("group" = "input", "value" = "WHAT"))]
     pub keep: Keep,
+    /// Layers that are read, and those that are left out.
     #[serde(flatten)]
     pub selection: Selection,
     /// A name for the curve nearest to a place, for the region at a place (in:), or for a DXF entity (handle:); may be repeated.
@@ -81,6 +84,7 @@ pub struct Request {
     /// What has a name of its own: each layer, each closed outline (HOLES-1, HOLES-2) or each entity.
     #[schemars(extend("group" = "input", "value" = "WHAT"))]
     pub names: Naming,
+    /// How DXF files are read.
     #[serde(flatten)]
     pub dxf: DxfOptions,
     /// Unit of the mesh; the drawing's coordinates are converted where their unit is known.
@@ -97,6 +101,7 @@ pub struct Request {
     /// Arcs around sharp corners, which bound the largest angle.
     #[schemars(extend("group" = "engine", "value" = "on|off", "rare" = true))]
     pub corner_arcs: Switch,
+    /// Options of generalized constrained refinement, unused by the other engine.
     #[serde(flatten)]
     pub gcdr: gcdr::Choices,
     /// Vertices after which refinement stops.
@@ -107,6 +112,7 @@ pub struct Request {
     #[schemars(extend("group" = "budget", "value" = "S", "report" = "timeout_s"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub timeout: Option<f64>,
+    /// How a section of airfoil coordinates becomes a drawing; unused for other formats.
     #[serde(flatten)]
     pub airfoil: section::Options,
     /// The planar face to mesh, by its entity number or name, or largest; with batch, all gives each a mesh of its own [default: largest]
@@ -246,6 +252,7 @@ pub enum Engine {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(try_from = "u64", into = "u64")]
 pub enum Order {
+    /// Straight cells, with nodes at their corners only.
     First,
     /// A node within every edge, on the curve.
     Second,
@@ -271,6 +278,7 @@ impl From<Order> for u64 {
     }
 }
 
+/// Which faces of the arrangement are meshed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Keep {
@@ -290,6 +298,7 @@ pub enum Overlap {
     Fragment,
 }
 
+/// Which fill rule says what is inside.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum FillChoice {
@@ -304,6 +313,7 @@ pub enum FillChoice {
 }
 
 impl FillChoice {
+    /// The rule of this name; `None` for the file's own.
     pub fn rule(self) -> Option<FillRule> {
         match self {
             Self::Auto => None,
@@ -322,6 +332,7 @@ scalar!(MaxTurning);
 pub enum MaxTurning {
     /// The largest τ whose guarantee covers the angle asked for.
     Auto,
+    /// The largest turning in radians, above 0 and at most π/3.
     Rad(f64),
 }
 

@@ -15,7 +15,9 @@ use std::path::Path;
 pub struct Source<'a> {
     /// As given; its suffix tells the format where none is given, its stem is the title where the file has none.
     pub path: &'a str,
+    /// The whole content of the file.
     pub bytes: &'a [u8],
+    /// Format of the file; `None`: told from its name, else its content.
     pub format: Option<Format>,
     /// The `.node` file beside a `.poly` file, where there is one.
     pub nodes: Option<&'a [u8]>,
@@ -24,6 +26,9 @@ pub struct Source<'a> {
 }
 
 /// Bytes → drawing, in the unit asked for.
+///
+/// # Errors
+/// Where the format cannot be told, the file breaks it, or the request names a unit, layer or place that is not there.
 pub fn read(source: &Source, request: &Request) -> Result<Drawing, FailureReport> {
     let path = Path::new(source.path);
     let format = source.format.map_or_else(|| import::tell_format(path, source.bytes), Ok)?;

@@ -79,6 +79,7 @@ pub enum Strokes {
 /// How a drawing is read.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SvgOptions {
+    /// What becomes of strokes: centre lines, areas or nothing.
     pub strokes: Strokes,
     /// Pixels to an inch.
     pub dpi: f64,
