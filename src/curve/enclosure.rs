@@ -9,7 +9,9 @@ const ROUNDING: f64 = 64.0 * f64::EPSILON;
 /// Directions from `right` counter-clockwise to `left`, over less than π.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Cone {
+    /// The clockwise bound of the cone, of any length.
     pub right: Vec2,
+    /// The counter-clockwise bound of the cone, of any length; less than π to the left of `right`.
     pub left: Vec2,
 }
 

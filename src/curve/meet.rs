@@ -40,11 +40,13 @@ pub struct Meeting {
     pub t: f64,
     /// Parameter on the second curve; likewise.
     pub u: f64,
+    /// Whether the curves change sides at this place.
     pub kind: MeetingKind,
     /// How far around it the curves stay within the tolerance of each other.
     pub contact: Overlap,
 }
 
+/// How two curves lie to each other at a meeting.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum MeetingKind {
     /// The curves change sides, inside both.
@@ -57,14 +59,18 @@ pub enum MeetingKind {
 /// greatest (descending where the curves run against each other).
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Overlap {
+    /// The parameters on the first curve where the stretch begins and ends, ascending.
     pub t: [f64; 2],
+    /// The parameters on the second curve at the places of `t[0]` and `t[1]`.
     pub u: [f64; 2],
 }
 
 /// Everything that two curves have in common, by ascending t.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct Meetings {
+    /// The places where the curves meet, by ascending t on the first curve.
     pub points: Vec<Meeting>,
+    /// The stretches that the curves share, by ascending t on the first curve.
     pub overlaps: Vec<Overlap>,
 }
 

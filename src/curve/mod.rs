@@ -35,19 +35,24 @@ use std::f64::consts::{PI, TAU};
 /// One end of a curve.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum End {
+    /// The end at t = 0.
     Start,
+    /// The end at t = 1.
     Finish,
 }
 
 /// What breaks a curve's regularity: the curve is split there, and the point becomes an input corner.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Break {
+    /// The curve parameter of the break, strictly between 0 and 1.
     pub t: f64,
+    /// What breaks the regularity there.
     pub kind: BreakKind,
     /// How far the tangent turns at the point, in (0, π].
     pub turn_rad: f64,
 }
 
+/// The ways in which a curve fails to be regular at a point.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum BreakKind {
     /// The derivative vanishes and the tangent reverses.
@@ -59,26 +64,39 @@ pub enum BreakKind {
 /// A curve over t ∈ [0, 1].
 #[derive(Clone, PartialEq, Debug)]
 pub enum Curve {
+    /// A straight segment.
     Line(Line),
+    /// A circular arc, up to a full circle.
     Arc(CircularArc),
+    /// An elliptic arc, up to a full ellipse.
     Ellipse(Box<EllipticArc>),
+    /// A Bézier curve, polynomial or rational.
     Bezier(Box<Bezier>),
+    /// A B-spline or NURBS.
     Spline(Box<Spline>),
+    /// A clothoid (Euler spiral).
     Clothoid(Box<Clothoid>),
 }
 
+/// A straight segment; its length may be zero.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Line {
+    /// The start point.
     pub start: Point,
+    /// The end point.
     pub end: Point,
 }
 
 /// Part of a circle, at most once around; counter-clockwise where `sweep_rad` > 0.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct CircularArc {
+    /// The centre of the circle.
     pub center: Point,
+    /// The radius of the circle, positive.
     pub radius: f64,
+    /// The angle of the start point from the x axis, counter-clockwise, in radians.
     pub start_rad: f64,
+    /// The angle from start to end in radians, within ±2π and not zero; negative where the arc runs clockwise.
     pub sweep_rad: f64,
     /// The exact ends; equal for a full circle.
     pub ends: [Point; 2],
@@ -87,18 +105,26 @@ pub struct CircularArc {
 /// Part of an ellipse: center + cos θ · u + sin θ · v, for conjugate half axes u, v (need not be perpendicular).
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct EllipticArc {
+    /// The centre of the ellipse.
     pub center: Point,
+    /// The half axis at θ = 0, from the centre.
     pub u: Vec2,
+    /// The half axis at θ = π/2, from the centre; not parallel to `u`.
     pub v: Vec2,
+    /// The parameter angle θ of the start, in radians: not a polar angle where u and v differ in length.
     pub start_rad: f64,
+    /// The range of θ from start to end in radians, within ±2π and not zero; θ falls where it is negative.
     pub sweep_rad: f64,
+    /// The exact start and end; equal for a full ellipse.
     pub ends: [Point; 2],
 }
 
 /// A Bézier curve of any degree ≥ 1, rational where it has weights (all positive).
 #[derive(Clone, PartialEq, Debug)]
 pub struct Bezier {
+    /// The control points, one more than the degree; the first and the last are the ends.
     pub points: Vec<Point>,
+    /// One positive weight a control point, in their order; `None` of a polynomial curve.
     pub weights: Option<Vec<f64>>,
 }
 
@@ -107,6 +133,7 @@ pub struct Bezier {
 pub struct Spline {
     /// Distinct knots mapped to 0..1: `spans.len() + 1` of them, strictly ascending.
     pub knots: Vec<f64>,
+    /// The Bézier curves in order: `spans[i]` covers `knots[i]..knots[i + 1]`, and each ends at the start of the next.
     pub spans: Vec<Bezier>,
 }
 
@@ -123,22 +150,57 @@ pub struct Clothoid {
 /// Why a curve cannot be built.
 #[derive(Clone, PartialEq, Debug, thiserror::Error)]
 pub enum CurveError {
+    /// A coordinate, angle, weight or other number is infinite or not a number.
     #[error("a coordinate is not a finite number")]
     NotFinite,
+    /// The number of control points, knots or weights does not fit the kind of curve.
     #[error("{what} needs {needs}, but has {has}")]
-    Count { what: &'static str, needs: String, has: usize },
+    Count {
+        /// The kind of curve, for the message.
+        what: &'static str,
+        /// The number or condition that is required, in words.
+        needs: String,
+        /// The number that is given.
+        has: usize,
+    },
+    /// A knot is smaller than its predecessor.
     #[error("knots must ascend; knot {index} is below the one before it")]
-    Knots { index: usize },
+    Knots {
+        /// The place, from 0, of the knot that is smaller than its predecessor.
+        index: usize,
+    },
+    /// A weight is zero or negative.
     #[error("weight {index} is not positive")]
-    Weight { index: usize },
+    Weight {
+        /// The place, from 0, of the first weight that is not positive.
+        index: usize,
+    },
+    /// The radius is zero, negative or infinite, or an ellipse has parallel half axes.
     #[error("the radius {radius} is not positive")]
-    Radius { radius: f64 },
+    Radius {
+        /// The refused radius; of an ellipse, of the circle of equal area.
+        radius: f64,
+    },
+    /// The sweep of an arc is zero or beyond ±2π, or a clothoid of constant curvature turns more than once around.
     #[error("the sweep {sweep_rad} (radians) is zero or more than once around")]
-    Sweep { sweep_rad: f64 },
+    Sweep {
+        /// The refused sweep, in radians.
+        sweep_rad: f64,
+    },
+    /// The length of a clothoid is zero or negative.
     #[error("the length {length} is not positive")]
-    Length { length: f64 },
+    Length {
+        /// The refused length.
+        length: f64,
+    },
+    /// A clothoid turns too often.
     #[error("the curve turns {turns} times around, and {most} is the most; shorter ones can follow each other")]
-    Turns { turns: f64, most: f64 },
+    Turns {
+        /// How many times around the clothoid would turn.
+        turns: f64,
+        /// The largest number of turns allowed.
+        most: f64,
+    },
 }
 
 pub(crate) fn length(v: Vec2) -> f64 {
@@ -164,19 +226,33 @@ fn check_points(points: &[Point]) -> Result<(), CurveError> {
 // ---- constructors: each checks finiteness and shape, and returns CurveError ----
 impl Curve {
     /// A segment; one of zero length is a curve too (a reader may find it).
+    ///
+    /// # Errors
+    /// [`CurveError::NotFinite`] where a coordinate is not finite.
     pub fn line(start: Point, end: Point) -> Result<Self, CurveError> {
         check_points(&[start, end])?;
         Ok(Curve::Line(Line { start, end }))
     }
     /// A full circle, counter-clockwise from its rightmost point.
+    ///
+    /// # Errors
+    /// [`CurveError::NotFinite`] where a number is not finite, [`CurveError::Radius`] where the radius is not positive.
     pub fn circle(center: Point, radius: f64) -> Result<Self, CurveError> {
         Self::arc(center, radius, 0.0, TAU)
     }
     /// An arc from the angle `start_rad` over `sweep_rad` (at most 2π either way; negative: clockwise).
+    ///
+    /// # Errors
+    /// [`CurveError::NotFinite`] where a number or an end point is not finite, [`CurveError::Radius`] where the radius
+    /// is not positive, [`CurveError::Sweep`] where the sweep is zero or more than once around.
     pub fn arc(center: Point, radius: f64, start_rad: f64, sweep_rad: f64) -> Result<Self, CurveError> {
         CircularArc::new(center, radius, start_rad, sweep_rad).map(Curve::Arc)
     }
     /// The arc from `start` to `end` whose bulge is tan(sweep/4) (DXF); counter-clockwise where positive; a line where 0.
+    ///
+    /// # Errors
+    /// [`CurveError::NotFinite`] where a number or the centre is not finite, [`CurveError::Radius`] where the radius is
+    /// zero or infinite in `f64`.
     pub fn bulge(start: Point, end: Point, bulge: f64) -> Result<Self, CurveError> {
         check_finite([bulge])?;
         if bulge == 0.0 || start == end {
@@ -186,6 +262,10 @@ impl Curve {
     }
     /// The arc through three points; a line where they are collinear in this order, the circle with the diameter `start`–`through`
     /// where start and end are the same.
+    ///
+    /// # Errors
+    /// [`CurveError::NotFinite`] where a number or the centre is not finite; [`CurveError::Radius`] where the points
+    /// lie on a line with `through` outside of the segment from `start` to `end`, or where all three are the same.
     pub fn arc_through(start: Point, through: Point, end: Point) -> Result<Self, CurveError> {
         check_points(&[start, through, end])?;
         if start == end {
@@ -206,20 +286,38 @@ impl Curve {
         CircularArc::over_chord(start, end, 2.0 * turn).map(Curve::Arc)
     }
     /// Part of the ellipse center + cos θ · u + sin θ · v; u and v must not be parallel.
+    ///
+    /// # Errors
+    /// [`CurveError::NotFinite`] where a number or an end point is not finite, [`CurveError::Radius`] where u and v are
+    /// parallel, [`CurveError::Sweep`] where the sweep is zero or more than once around.
     pub fn ellipse(center: Point, u: Vec2, v: Vec2, start_rad: f64, sweep_rad: f64) -> Result<Self, CurveError> {
         EllipticArc::new(center, u, v, start_rad, sweep_rad).map(|e| Curve::Ellipse(Box::new(e)))
     }
     /// A Bézier curve of degree `points.len() − 1`, from 1 to 300.
+    ///
+    /// # Errors
+    /// [`CurveError::NotFinite`] where a coordinate is not finite, [`CurveError::Count`] where the degree is not from 1
+    /// to 300.
     pub fn bezier(points: Vec<Point>) -> Result<Self, CurveError> {
         Bezier::new(points, None).map(|b| Curve::Bezier(Box::new(b)))
     }
     /// A rational Bézier curve; all weights positive. Equal weights make it a plain one; weights more than 64 times apart another pace
     /// of the parameter, or a NURBS of several spans, which is the same curve up to rounding.
+    ///
+    /// # Errors
+    /// [`CurveError::NotFinite`] where a number is not finite, [`CurveError::Count`] where the degree is not from 1 to
+    /// 300 or there is not one weight a control point, [`CurveError::Weight`] where a weight is not positive.
     pub fn rational_bezier(points: Vec<Point>, weights: Vec<f64>) -> Result<Self, CurveError> {
         Bezier::new(points, Some(weights)).map(weights::evened)
     }
     /// B-spline or NURBS with the full knot vector (points.len() + degree + 1 knots); unclamped and periodic vectors are allowed. Weights
     /// far apart are evened as in [`Curve::rational_bezier`].
+    ///
+    /// # Errors
+    /// [`CurveError::NotFinite`] where a number is not finite, [`CurveError::Knots`] where the knots descend,
+    /// [`CurveError::Weight`] where a weight is not positive; [`CurveError::Count`] where the numbers of knots, points
+    /// and weights do not fit the degree, an inner knot is repeated so often that the curve has a gap, or the domain of
+    /// the knots has no length.
     pub fn nurbs(degree: usize, knots: &[f64], points: &[Point], weights: Option<&[f64]>) -> Result<Self, CurveError> {
         Spline::from_knots(degree, knots, points, weights).map(|s| Curve::Spline(Box::new(s)))
     }
@@ -233,15 +331,27 @@ impl Curve {
         Clothoid::new(start, heading_rad, curvatures, length, None).map(|c| Curve::Clothoid(Box::new(c)))
     }
     /// The natural cubic spline through ≥ 2 points (centripetal parameters; exact repeats are skipped).
+    ///
+    /// # Errors
+    /// [`CurveError::NotFinite`] where a coordinate is not finite, [`CurveError::Count`] where fewer than two points
+    /// are distinct.
     pub fn natural_spline(points: &[Point]) -> Result<Self, CurveError> {
         Spline::natural(points).map(|s| Curve::Spline(Box::new(s)))
     }
     /// The cubic spline through ≥ 2 points, parameters by chord length, with the given directions at start and end; natural at an end
     /// that has none. Points of no distance from the one before are skipped.
+    ///
+    /// # Errors
+    /// [`CurveError::NotFinite`] where a number is not finite, [`CurveError::Count`] where fewer than two points are
+    /// left without repeats.
     pub fn fitted_spline(points: &[Point], tangents: [Option<Vec2>; 2]) -> Result<Self, CurveError> {
         Spline::fitted(points, tangents).map(|s| Curve::Spline(Box::new(s)))
     }
     /// The closed C² cubic spline through ≥ 3 points (the first is not repeated; exact repeats are skipped).
+    ///
+    /// # Errors
+    /// [`CurveError::NotFinite`] where a coordinate is not finite, [`CurveError::Count`] where fewer than three points
+    /// are left without repeats.
     pub fn periodic_spline(points: &[Point]) -> Result<Self, CurveError> {
         Spline::periodic(points).map(|s| Curve::Spline(Box::new(s)))
     }
@@ -284,18 +394,23 @@ impl Curve {
     pub fn kind(&self) -> &'static str {
         self.as_kind().name()
     }
+    /// The exact start: `point(0)`.
     pub fn start(&self) -> Point {
         self.as_kind().ends()[0]
     }
+    /// The exact end: `point(1)`.
     pub fn end(&self) -> Point {
         self.as_kind().ends()[1]
     }
+    /// The point at t; exactly the start for t ≤ 0, the end for t ≥ 1.
     pub fn point(&self, t: f64) -> Point {
         self.as_kind().point(t)
     }
+    /// The derivative of the point by t.
     pub fn derivative(&self, t: f64) -> Vec2 {
         self.as_kind().derivative(t)
     }
+    /// The second derivative of the point by t.
     pub fn second_derivative(&self, t: f64) -> Vec2 {
         self.as_kind().second_derivative(t)
     }
@@ -331,9 +446,11 @@ impl Curve {
         let ends = Rect::from_points(self.point(t0), self.point(t1));
         bounds_of(extremes.into_iter().map(|t| self.point(t))).map_or(ends, |inner| inner.union(ends))
     }
+    /// The arc length of the whole curve.
     pub fn length(&self) -> f64 {
         self.length_of(0.0, 1.0)
     }
+    /// The arc length of the part t0..t1.
     pub fn length_of(&self, t0: f64, t1: f64) -> f64 {
         self.as_kind().length_of(t0, t1)
     }

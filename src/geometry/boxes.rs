@@ -60,14 +60,17 @@ impl BoxHierarchy {
         self.nodes[here].len = 0;
     }
 
+    /// The number of boxes.
     pub fn len(&self) -> usize {
         self.boxes.len()
     }
 
+    /// Whether there is no box.
     pub fn is_empty(&self) -> bool {
         self.boxes.is_empty()
     }
 
+    /// The boxes, in the order in which they were given.
     pub fn boxes(&self) -> &[Rect] {
         &self.boxes
     }
@@ -142,6 +145,9 @@ impl BoxHierarchy {
     }
 
     /// [`BoxHierarchy::pairs`] until the first error of `each`.
+    ///
+    /// # Errors
+    /// The first error of `each`, after which no further pair is visited.
     pub fn try_pairs<E>(
         &self,
         labels: impl Fn(usize) -> Labels,
@@ -152,6 +158,9 @@ impl BoxHierarchy {
     }
 
     /// The same of every item here and item of another hierarchy.
+    ///
+    /// # Errors
+    /// The first error of `each`, after which no further pair is visited.
     pub fn try_pairs_with<E>(
         &self,
         labels: impl Fn(usize) -> Labels,

@@ -5,6 +5,7 @@
 pub struct Dice(u64);
 
 impl Dice {
+    /// The sequence of a seed: equal seeds give equal numbers on every machine.
     pub fn new(seed: u64) -> Self {
         Self(seed)
     }

@@ -10,16 +10,22 @@ use robust::Coord;
 /// How three points lie.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Orientation {
+    /// The third point lies to the right of the line from the first to the second.
     Clockwise,
+    /// The points lie on one line, or two of them are equal.
     Collinear,
+    /// The third point lies to the left of the line from the first to the second.
     CounterClockwise,
 }
 
 /// How a point lies to a circle.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum CircleSide {
+    /// Strictly inside the circle.
     Inside,
+    /// Exactly on the circle.
     On,
+    /// Strictly outside the circle.
     Outside,
 }
 

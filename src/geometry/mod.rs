@@ -71,9 +71,11 @@ pub fn turn_from(u: Vec2, v: Vec2) -> f64 {
 /// An orthonormal frame of a plane in space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frame {
+    /// The place in space of the plane's origin.
     pub origin: [f64; 3],
     /// Unit vectors along the plane's coordinates.
     pub x: [f64; 3],
+    /// The unit vector along the plane's y axis, perpendicular to `x`.
     pub y: [f64; 3],
 }
 

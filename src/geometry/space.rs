@@ -2,26 +2,32 @@
 
 use super::{Frame, Point, Vec2};
 
+/// The vector sum a + b.
 pub fn plus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     std::array::from_fn(|k| a[k] + b[k])
 }
 
+/// The difference a − b.
 pub fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     std::array::from_fn(|k| a[k] - b[k])
 }
 
+/// The vector `a` times a number.
 pub fn times(a: [f64; 3], factor: f64) -> [f64; 3] {
     a.map(|x| x * factor)
 }
 
+/// The dot product a · b.
 pub fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
+/// The cross product a × b.
 pub fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
+/// The Euclidean length of a vector.
 pub fn length(a: [f64; 3]) -> f64 {
     libm::hypot(libm::hypot(a[0], a[1]), a[2])
 }

@@ -21,6 +21,7 @@ pub struct Mesh {
     /// Every mesh edge that lies on a curve, along the curve's direction, grouped by curve and in order along it where
     /// links are known.
     pub edges: Vec<CurveEdge>,
+    /// The texts of all names that regions, edges, colours and nodes refer to.
     pub names: Names,
     /// The colours of regions, by name, where the drawing has some.
     pub colours: std::collections::BTreeMap<NameId, Colour>,
@@ -43,23 +44,31 @@ pub struct Mesh {
 /// A mesh edge on a curve of the domain, or on a named boundary of a foreign mesh.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CurveEdge {
+    /// The end nodes, in the direction of the curve where it is linked.
     pub nodes: [VertexId; 2],
+    /// The name of the boundary.
     pub name: NameId,
     /// Curve and parameters of the two nodes, where known (ours always; a foreign mesh never).
     pub link: Option<CurveLink>,
 }
 
+/// The part of a curve of the domain that a mesh edge stands for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CurveLink {
+    /// The curve in the domain.
     pub curve: CurveId,
+    /// The curve parameters of the edge's two nodes, in their order and within 0..1; the engines write them ascending.
     pub t: [f64; 2],
 }
 
 /// A ball B(p) around an acute corner (Pav & Walkington 2005, section 3).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ball {
+    /// The point of P that is the centre of the ball.
     pub corner: PointId,
+    /// The radius d(p), in units of the mesh.
     pub radius: f64,
+    /// What set the radius.
     pub why: BallReason,
 }
 
@@ -82,7 +91,9 @@ pub enum BallReason {
 /// A vertex as a refinement inserted it that promises a density for it (Foteinos, Chernikov & Chrisochoides 2010, section 2).
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Insertion {
+    /// The type of the insertion.
     pub kind: InsertionKind,
+    /// The place of the vertex.
     pub at: Point,
     /// R(p): the distance to the nearest vertex that it saw (Definition 2.4).
     pub radius: f64,

@@ -11,7 +11,9 @@ use serde::{Serialize, Serializer};
 /// smallest is 180, the largest 0.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Quality {
+    /// The smallest angle of all triangles, in degrees, between their corners.
     pub min_angle_deg: f64,
+    /// The largest angle of all triangles, in degrees, between their corners.
     pub max_angle_deg: f64,
     /// The smallest angle of the triangles that no corner excuses.
     pub min_unexcused_angle_deg: f64,
@@ -34,16 +36,22 @@ fn as_sequence<S: Serializer>(histogram: &[u64; 180], serializer: S) -> Result<S
 /// Cells and area of one region name.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct RegionMeasure {
+    /// The name that one or several regions bear.
     pub name: String,
+    /// The number of triangles in all regions of this name.
     pub cells: usize,
+    /// The area of these triangles, in square units of the drawing.
     pub measure: f64,
 }
 
 /// Mesh edges and their length on one boundary name.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct BoundaryMeasure {
+    /// The name of the boundary.
     pub name: String,
+    /// The number of mesh edges on the boundary.
     pub edges: usize,
+    /// The length of these edges, in units of the drawing; of order 2, along the curve, extrapolated.
     pub length: f64,
 }
 

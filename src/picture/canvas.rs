@@ -135,6 +135,7 @@ impl Canvas {
         Self { width: side(width), height: side(height), frame, layers: Vec::new() }
     }
 
+    /// The map from the drawing to pixels.
     pub fn frame(&self) -> &Frame {
         &self.frame
     }
@@ -149,12 +150,15 @@ impl Canvas {
         self.layers.push(Layer { id, clip: true, crisp: true, items: Vec::new() });
     }
 
+    /// Adds a path to the current layer; an empty path is left out.
     pub fn path(&mut self, path: Path, paint: Paint) {
         if !path.is_empty() {
             self.push(Item::Path { path, paint });
         }
     }
 
+    /// Adds a circle to the current layer, centre and radius in pixels. It is left out where it is clearly out of
+    /// sight, or the radius is not above 0 and below 1e7.
     pub fn circle(&mut self, at: Pixel, radius: f64, paint: Paint) {
         let reach = radius + self.frame.plot().width();
         let near = Rect::new(at.x - reach, at.y - reach, at.x + reach, at.y + reach);
@@ -164,12 +168,14 @@ impl Canvas {
         }
     }
 
+    /// Adds a rectangle, in pixels, to the current layer.
     pub fn rect(&mut self, r: Rect, paint: Paint) {
         let mut path = Path::default();
         path.add([px(r.x0, r.y0), px(r.x1, r.y0), px(r.x1, r.y1), px(r.x0, r.y1)], true);
         self.path(path, paint);
     }
 
+    /// Adds a line of text to the current layer.
     pub fn text(&mut self, label: Label) {
         self.push(Item::Text(label));
     }
@@ -184,6 +190,9 @@ impl Canvas {
     }
 
     /// The picture as SVG text.
+    ///
+    /// # Errors
+    /// Where a layer that is embedded as an image does not fit into memory or cannot be encoded.
     pub fn svg(&self) -> io::Result<String> {
         let (w, h) = (number(self.width), number(self.height));
         let mut text = format!(
@@ -218,6 +227,9 @@ impl Canvas {
     }
 
     /// The picture as a PNG file, `scale` image pixels to a pixel of the scene.
+    ///
+    /// # Errors
+    /// Where the image does not fit into memory or cannot be encoded.
     pub fn png(&self, scale: f64) -> io::Result<Vec<u8>> {
         encode(self.paint(&self.layers, scale, Some(tiny_skia::Color::WHITE))?)
     }

@@ -35,6 +35,7 @@ pub enum Format {
 }
 
 impl Format {
+    /// Every format.
     pub const ALL: [Self; 2] = [Self::Svg, Self::Png];
 
     /// The name by which a user asks for the format, which is the suffix of its files.
@@ -78,6 +79,7 @@ pub enum MeshColour {
     /// The smallest angle, 0–60°.
     #[default]
     Quality,
+    /// The name of the region: one colour a name.
     Region,
     /// The colour of the region in the drawing; that of `Region` where it has none.
     Paint,
@@ -88,6 +90,7 @@ pub enum MeshColour {
 /// How a picture is made.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PictureOptions {
+    /// The width of the picture in pixels; 120 to 8192, others are clamped.
     pub width_px: u32,
     /// The window to show, in the drawing's units; `None`: all of it.
     pub view: Option<Rect>,

@@ -52,9 +52,11 @@ const CAUTION: f64 = 0.5;
 /// A stretch of a curve with another curve near beside it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sliver {
+    /// The point of the curve in the middle of the stretch, by parameter.
     pub at: Point,
     /// Its largest width.
     pub width: f64,
+    /// The arc length of the stretch, in units of the drawing.
     pub length: f64,
     /// Whether it belongs to a region.
     pub kept: bool,
@@ -66,7 +68,9 @@ pub struct Sliver {
 /// Whether the engine keeps the diametral circles of edges on curves empty, as corner lopping does.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Circles {
+    /// The diametral circles of curve edges have no vertex inside (corner lopping).
     Empty,
+    /// The diametral circles of curve edges may have vertices inside (constrained refinement).
     Any,
 }
 
@@ -75,7 +79,9 @@ pub enum Circles {
 pub struct Asked<'a> {
     /// κ.
     pub angle_min_rad: f64,
+    /// The limits on cells.
     pub sizing: &'a Sizing,
+    /// What the engine guarantees of the diametral circles of curve edges.
     pub circles: Circles,
     /// Whether arcs stand around sharp corners.
     pub corner_arcs: bool,
@@ -115,6 +121,7 @@ impl Demand {
         Ok(demand)
     }
 
+    /// The number of vertices that the slivers of regions take together.
     pub fn by_slivers(&self) -> f64 {
         self.slivers.iter().map(|(n, _)| n).sum()
     }

@@ -131,10 +131,12 @@ impl Expression {
         Ok(Self { text: text.trim().to_owned(), steps })
     }
 
+    /// The text that the expression was read from, without blanks around it.
     pub fn text(&self) -> &str {
         &self.text
     }
 
+    /// The value at a point; infinite or not a number where the arithmetic has no finite result.
     pub fn at(&self, p: Point) -> f64 {
         let mut stack: Vec<f64> = Vec::with_capacity(8);
         for step in &self.steps {

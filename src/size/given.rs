@@ -14,6 +14,7 @@ pub const SAMPLE_GRADE: f64 = 0.3;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(try_from = "Form", into = "Form")]
 pub enum Given {
+    /// A formula in x and y.
     Expression(Expression),
     /// x, y and the size there, which grows with the distance.
     Samples(Vec<[f64; 3]>),

@@ -131,6 +131,7 @@ scalar!(ChordError, EdgeTurning);
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(try_from = "crate::options::Scalar", into = "crate::options::Scalar")]
 pub enum ChordError {
+    /// A length in the units of the mesh.
     Length(f64),
     /// Percent of the drawing's diagonal.
     Percent(f64),
@@ -175,11 +176,14 @@ impl fmt::Display for ChordError {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(try_from = "crate::options::Scalar", into = "crate::options::Scalar")]
 pub enum EdgeTurning {
+    /// No limit.
     Off,
+    /// The largest turning, in degrees.
     Deg(f64),
 }
 
 impl EdgeTurning {
+    /// The limit in degrees; `None` where it is off.
     pub fn deg(self) -> Option<f64> {
         match self {
             Self::Off => None,
@@ -211,7 +215,9 @@ impl fmt::Display for EdgeTurning {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(try_from = "String", into = "String")]
 pub struct SizeOf {
+    /// The name of a boundary or of a region.
     pub name: String,
+    /// The largest length of an edge there, in the units of the mesh.
     pub edge: f64,
 }
 

@@ -20,7 +20,9 @@ use crate::ids::{CurveId, IdVec, PointId, RegionId};
 /// What is asked of cell sizes, in the drawing's units. `None` and empty: no limit.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Sizing {
+    /// Largest area of a triangle.
     pub max_area: Option<f64>,
+    /// Largest length of an edge.
     pub max_edge: Option<f64>,
     /// Triangles with a circumradius below this are not refined for their angles.
     pub min_edge: Option<f64>,
@@ -30,6 +32,7 @@ pub struct Sizing {
     pub edge_turning_rad: Option<f64>,
     /// Growth of the limit of a named boundary or region, a unit of distance away from it; `None`: the limit acts there alone.
     pub grade: Option<f64>,
+    /// Limits of named boundaries, of named regions and around places.
     pub sources: Vec<Source>,
     /// Edges no longer than the value of an expression at their place.
     pub by_place: Option<ByPlace>,
@@ -38,7 +41,9 @@ pub struct Sizing {
 /// An expression in coordinates that are those of the field over `scale`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ByPlace {
+    /// The longest edge as a function of the place; a value that is not positive sets no limit there.
     pub expression: Expression,
+    /// Units of the field in one unit of the expression, for coordinates and values alike; a power of two.
     pub scale: f64,
 }
 
@@ -54,11 +59,30 @@ impl ByPlace {
 #[derive(Clone, Debug, PartialEq)]
 pub enum Source {
     /// Edges on the boundary of this name.
-    Boundary { name: String, edge: f64 },
+    Boundary {
+        /// The name of the boundary.
+        name: String,
+        /// The largest length of an edge on it.
+        edge: f64,
+    },
     /// Edges in the region of this name.
-    Region { name: String, edge: f64 },
+    Region {
+        /// The name of the region.
+        name: String,
+        /// The largest length of an edge in it.
+        edge: f64,
+    },
     /// Cells near a segment, growing by `grade` a unit of distance.
-    Near { from: Point, to: Point, edge: f64, grade: f64 },
+    Near {
+        /// The start of the segment.
+        from: Point,
+        /// The end of the segment; equal to `from` for a single place.
+        to: Point,
+        /// The largest length of an edge on the segment.
+        edge: f64,
+        /// The growth of that limit a unit of distance from the segment; 0: it holds everywhere.
+        grade: f64,
+    },
 }
 
 impl Sizing {
@@ -158,6 +182,7 @@ fn distance_to_segment(p: Point, a: Point, b: Point) -> f64 {
 }
 
 impl SizeField {
+    /// Resolves limits against a domain: names become curves and regions.
     pub fn new(sizing: &Sizing, domain: &Domain) -> Self {
         let everywhere = sizing.max_edge.unwrap_or(f64::INFINITY);
         let named_curve = |name: &str| {
@@ -208,6 +233,7 @@ impl SizeField {
         }
     }
 
+    /// The limits that the field was made of.
     pub fn sizing(&self) -> &Sizing {
         &self.sizing
     }
