@@ -12,11 +12,15 @@ pub struct Drawing {
     pub format: String,
     /// A short title: the header line, or the file's stem.
     pub title: String,
+    /// The names of all boundaries, regions and points, by the ids used in the other fields.
     pub names: Names,
     /// The colours of regions, where the file has some; of shapes of one name that of most of their area.
     pub colours: BTreeMap<NameId, Colour>,
+    /// The curves, in the order of the file; they may cross, overlap or leave gaps.
     pub curves: Vec<DrawnCurve>,
+    /// Points that become vertices of the mesh, on a curve or not.
     pub points: Vec<DrawnPoint>,
+    /// Points that mark the faces they lie in as holes or as named regions.
     pub seeds: Vec<Seed>,
     /// Texts; one that stands alone in a region names it, where nothing else does.
     pub labels: Vec<Label>,
@@ -26,6 +30,7 @@ pub struct Drawing {
     pub clips: IdVec<ClipId, Clip>,
     /// The layers of the file, in its order.
     pub layers: IdVec<LayerId, Layer>,
+    /// The rule by which bounded faces are inside.
     pub fill: FillRule,
     /// A picture whose numbers have the digits of a picture: what is hardly to be seen was hardly meant.
     pub sketch: bool,
@@ -51,17 +56,41 @@ pub struct Drawing {
 #[derive(Clone, Debug, PartialEq)]
 pub enum SizeRequest {
     /// Mesh edges on the boundary of this name no longer than `edge`.
-    Boundary { name: NameId, edge: f64 },
+    Boundary {
+        /// The name of the boundary.
+        name: NameId,
+        /// The largest edge length, in units of the drawing.
+        edge: f64,
+    },
     /// Mesh edges in the region of this name no longer than `edge`.
-    Region { name: NameId, edge: f64 },
+    Region {
+        /// The name of the region.
+        name: NameId,
+        /// The largest edge length, in units of the drawing.
+        edge: f64,
+    },
     /// Cells near the segment `from`–`to` no larger than `edge`, growing by `grade` a unit of distance away from it.
-    Near { from: Point, to: Point, edge: f64, grade: f64 },
+    Near {
+        /// The start of the segment.
+        from: Point,
+        /// The end of the segment; equal to `from` for a point source.
+        to: Point,
+        /// The largest edge length at the segment, in units of the drawing.
+        edge: f64,
+        /// The growth of that length, a unit of distance away from the segment.
+        grade: f64,
+    },
     /// Everywhere.
-    Everywhere { edge: f64 },
+    Everywhere {
+        /// The largest edge length, in units of the drawing.
+        edge: f64,
+    },
 }
 
+/// A curve of a drawing, with its name and origin.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DrawnCurve {
+    /// The geometry, in units of the drawing.
     pub curve: Curve,
     /// Name of the boundary that the curve belongs to.
     pub name: NameId,
@@ -105,6 +134,7 @@ impl DrawnCurve {
 /// A layer of a drawing.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Layer {
+    /// The name of the layer as the file writes it.
     pub name: String,
     /// How many entities are drawn on it, by their line type; by the empty text where the format has none.
     pub line_types: BTreeMap<String, usize>,
@@ -122,6 +152,7 @@ pub struct Unmatched {
 /// An entity that was left out because it leaves the plane of the drawing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OffPlane {
+    /// Where it came from, for messages.
     pub entity: String,
     /// Its ends, projected onto the plane.
     pub ends: [Point; 2],
@@ -134,6 +165,7 @@ pub struct Shape {
     pub name: NameId,
     /// Filled where its outlines wind an odd number of times; else where they wind at all.
     pub even_odd: bool,
+    /// Where it came from, for messages.
     pub entity: String,
     /// What it is cut by.
     pub clip: Option<ClipId>,
@@ -159,32 +191,46 @@ pub struct Clip {
 /// A point to be kept as a vertex.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DrawnPoint {
+    /// The coordinates of the point.
     pub at: Point,
+    /// The name of the point, where the file gives one.
     pub name: Option<NameId>,
+    /// Where it came from, for messages.
     pub entity: String,
 }
 
 /// A text of a drawing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Label {
+    /// The point at which the text is placed.
     pub at: Point,
+    /// The text as the file has it.
     pub text: String,
 }
 
 /// A point that says something of the face it lies in.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Seed {
+    /// A point inside the face.
     pub at: Point,
+    /// What is said of the face.
     pub kind: SeedKind,
+    /// Where it came from, for messages.
     pub entity: String,
 }
 
+/// What a seed says of its face.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SeedKind {
     /// The face, and every face reached from it without crossing a curve, is no part of the domain.
     Hole,
     /// The face belongs to the region of this name, with an area limit where given.
-    Region { name: NameId, max_area: Option<f64> },
+    Region {
+        /// The name of the region.
+        name: NameId,
+        /// The largest area of a triangle, in the square of the drawing's unit; `None`: no limit.
+        max_area: Option<f64>,
+    },
 }
 
 /// Which bounded faces are inside.
@@ -214,14 +260,18 @@ pub struct FaceInfo {
     pub area: Option<f64>,
     /// Unit vector out of the solid.
     pub normal: [f64; 3],
+    /// Why the face cannot be drawn; `None` where it can.
     pub flaw: Option<String>,
 }
 
 /// Entities that a reader left out.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, schemars::JsonSchema)]
 pub struct Skipped {
+    /// The kind of entity: a tag, a type or a keyword of the format.
     pub entity: String,
+    /// How many of them were left out for this reason.
     pub count: usize,
+    /// The reason.
     pub why: String,
 }
 

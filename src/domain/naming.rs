@@ -14,7 +14,9 @@ use std::str::FromStr;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(try_from = "String", into = "String")]
 pub struct NameBy {
+    /// The name to be given.
     pub name: String,
+    /// What is given the name.
     pub target: Target,
 }
 

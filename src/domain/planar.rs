@@ -32,12 +32,16 @@ pub struct Domain {
     pub(super) stars: IdVec<PointId, Vec<Incident>>,
 }
 
+/// A curve of the domain, from one point of P to another.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DomainCurve {
+    /// The geometry, in units of the drawing; its parameter runs from 0 to 1.
     pub curve: Curve,
+    /// The points of P at the start and the end of the curve.
     pub ends: [PointId; 2],
     /// The kept region on the left and on the right of the curve; `None`: outside.
     pub sides: [Option<RegionId>; 2],
+    /// The name of the boundary that the curve belongs to.
     pub name: NameId,
     /// The drawn curve that it is a part of (the first, where several overlapped).
     pub source: u32,
@@ -46,35 +50,44 @@ pub struct DomainCurve {
 /// A curve at a point.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Incident {
+    /// A curve that ends at the point.
     pub curve: CurveId,
     /// Which end of the curve lies at the point.
     pub end: End,
 }
 
+/// A face of the arrangement that is meshed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Region {
+    /// The name of the region; several regions may have the same one.
     pub name: NameId,
     /// Whether the drawing or the user gave the name: else it is that of the layer of its outline, or `region`, with a number.
     pub is_named: bool,
     /// Exact area, by Green over the curves themselves.
     pub area: f64,
+    /// The largest area of a triangle, in the square of the drawing's unit; `None`: no limit of its own.
     pub max_area: Option<f64>,
 }
 
 /// The smallest angle between two curves at a point.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Corner {
+    /// The angle between the tangents, in radians, from 0 to π.
     pub angle_rad: f64,
+    /// The two curves that enclose the angle, neighbours in the star of the point.
     pub between: [CurveId; 2],
 }
 
 impl Domain {
+    /// The points P: the ends of the curves, and the points that the drawing asks to keep.
     pub fn points(&self) -> &IdVec<PointId, Point> {
         &self.points
     }
+    /// The curves between points of P; two of them meet in common ends only.
     pub fn curves(&self) -> &IdVec<CurveId, DomainCurve> {
         &self.curves
     }
+    /// The faces that are meshed.
     pub fn regions(&self) -> &IdVec<RegionId, Region> {
         &self.regions
     }
@@ -82,21 +95,27 @@ impl Domain {
     pub fn colours(&self) -> &std::collections::BTreeMap<NameId, Colour> {
         &self.colours
     }
+    /// The names of boundaries, regions and points, by id.
     pub fn names(&self) -> &Names {
         &self.names
     }
+    /// The text of a name of this domain.
     pub fn name(&self, id: NameId) -> &str {
         self.names.text(id)
     }
+    /// The names of points, where the drawing gave one; other points have no entry.
     pub fn point_names(&self) -> &std::collections::BTreeMap<PointId, NameId> {
         &self.point_names
     }
+    /// What was mended in the drawing, with places; empty where nothing was.
     pub fn repairs(&self) -> &[Repair] {
         &self.repairs
     }
+    /// What arranging noticed of the drawing as a whole, one sentence each.
     pub fn notes(&self) -> &[String] {
         &self.notes
     }
+    /// The welding distance that was used, in units of the drawing.
     pub fn tolerance(&self) -> f64 {
         self.tolerance
     }

@@ -23,7 +23,9 @@ pub enum Look {
 /// What keeps two vertices from being joined.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Obstacle {
+    /// A vertex on the segment between them.
     Vertex(VertexId),
+    /// A piece that crosses the segment between them.
     Piece(PieceId),
 }
 
@@ -69,6 +71,7 @@ impl Constrained {
         Ok(Self { delaunay: Kernel::new(points)?, touched: Vec::new(), search: Search::default() })
     }
 
+    /// The triangles, with their pieces and regions.
     pub fn topology(&self) -> &Triangulation {
         self.delaunay.topology()
     }
@@ -83,6 +86,7 @@ impl Constrained {
         &mut self.delaunay
     }
 
+    /// The coordinates of a vertex.
     #[inline]
     pub fn point(&self, v: VertexId) -> Point {
         self.delaunay.point(v)

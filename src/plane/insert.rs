@@ -20,15 +20,26 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// Why points have no Delaunay triangulation here.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, thiserror::Error)]
 pub enum Degenerate {
+    /// There are fewer than three points.
     #[error("fewer than three points span no triangle")]
     TooFew,
+    /// All points lie on one line.
     #[error("all points lie on one line")]
     Collinear,
+    /// Two points have the same coordinates.
     #[error("points {first} and {second} have the same coordinates")]
-    Duplicate { first: usize, second: usize },
+    Duplicate {
+        /// The index of one of the points, the smaller one.
+        first: usize,
+        /// The index of the other point.
+        second: usize,
+    },
     /// A coordinate is not a number, infinite, or beyond 2^±180, where exact signs would overflow.
     #[error("point {index} has a coordinate that is no number within 2^±180")]
-    OutOfRange { index: usize },
+    OutOfRange {
+        /// The index of the first such point.
+        index: usize,
+    },
 }
 
 /// Where a point lies.
@@ -56,11 +67,15 @@ pub struct Cavity {
 /// How much work was done.
 #[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
 pub struct Counters {
+    /// Orientation signs that were evaluated.
     pub orient: u64,
+    /// In-circle signs that were evaluated.
     pub in_circle: u64,
     /// Signs that the static filter could not tell.
     pub exact_fallbacks: u64,
+    /// Triangles that were visited to locate points.
     pub walk_steps: u64,
+    /// Triangles in all cavities that were collected.
     pub cavity_triangles: u64,
 }
 
@@ -290,6 +305,10 @@ pub struct Kernel {
 impl Kernel {
     /// The Delaunay triangulation of some points, in any unit; vertex i is `points[i]`. Expected time O(n log n), most
     /// of it linear.
+    ///
+    /// # Errors
+    /// Where there are fewer than three points, all lie on one line, two have the same coordinates, or a
+    /// coordinate is not a number within 2^±180.
     pub fn new(points: Vec<Point>) -> Result<Self, Degenerate> {
         if points.len() < 3 {
             return Err(Degenerate::TooFew);
@@ -323,11 +342,13 @@ impl Kernel {
         &self.points
     }
 
+    /// The coordinates of a vertex.
     #[inline]
     pub fn point(&self, v: VertexId) -> Point {
         self.points[v]
     }
 
+    /// The triangles, with their labels.
     pub fn topology(&self) -> &Triangulation {
         &self.topology
     }

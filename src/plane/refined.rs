@@ -12,7 +12,9 @@ pub struct Refined {
     pub mesh: Option<Mesh>,
     /// Of the triangulation, inside of kept regions or not.
     pub vertices: usize,
+    /// Why refinement ended, and what is unresolved.
     pub stop: Stop,
+    /// How much work was done, by name.
     pub counters: Counters,
     /// What was inserted, in order, by an engine that was asked to record it.
     pub insertions: Vec<Insertion>,
@@ -22,8 +24,11 @@ pub struct Refined {
 #[derive(Clone, PartialEq, Debug, thiserror::Error)]
 #[error("{what} at ({}, {})", at.x, at.y)]
 pub struct RefineError {
+    /// What is wrong.
     pub what: String,
+    /// The place, in the domain's coordinates.
     pub at: Point,
+    /// What the user can do.
     pub help: String,
 }
 

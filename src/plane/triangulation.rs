@@ -249,12 +249,14 @@ impl Triangulation {
         self.net.record(t).corners
     }
 
+    /// The vertex at which a side starts; the triangle lies on the left of the side.
     #[inline]
     pub fn origin(&self, s: Side) -> VertexId {
         let (t, i) = s.split();
         self.corners(t)[i]
     }
 
+    /// The vertex at which a side ends.
     #[inline]
     pub fn target(&self, s: Side) -> VertexId {
         self.origin(s.next())
@@ -319,11 +321,13 @@ impl Triangulation {
         }
     }
 
+    /// The region of a triangle; `None` outside all regions, and before one was given.
     #[inline]
     pub fn region(&self, t: TriangleId) -> Option<RegionId> {
         label(self.regions[t.index()])
     }
 
+    /// Gives a triangle a region, or takes it away.
     pub fn set_region(&mut self, t: TriangleId, region: Option<RegionId>) {
         self.regions[t.index()] = region.map_or(NONE, |r| r.0);
     }

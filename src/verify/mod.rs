@@ -41,12 +41,17 @@ use circles::Circles;
 use evidence::Evidence;
 use tally::Tally;
 
+/// The outcome of a check.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, schemars::JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Status {
+    /// The check holds, and follows from the theory for this input or was made on this very output.
     Proven,
+    /// The check holds for this mesh; no theorem says that it had to.
     Reached,
+    /// The check fails.
     Broken,
+    /// The check was not made: it does not apply to the mesh, was not promised, or lacks the curves.
     #[serde(rename = "n/a")]
     NotAsked,
 }
@@ -54,10 +59,13 @@ pub enum Status {
 /// One check of the verdict.
 #[derive(Clone, Debug, serde::Serialize, schemars::JsonSchema)]
 pub struct Check {
+    /// The name of the check, as in the contract.
     pub name: &'static str,
+    /// The outcome.
     pub status: Status,
     /// How many things were checked, and how many failed.
     pub checked: usize,
+    /// How many of them failed.
     pub broken: usize,
     /// How many things the check does not apply to, for a reason that stands elsewhere (balls that a size limit
     /// capped).
@@ -70,25 +78,36 @@ pub struct Check {
     pub flaws: Vec<String>,
 }
 
+/// The worst value that a check met.
 #[derive(Clone, Copy, Debug, serde::Serialize, schemars::JsonSchema)]
 pub struct Worst {
+    /// The value, in the unit of the check: degrees for angles of triangles, radians for turning, units of the drawing
+    /// for lengths, their square for areas, else a ratio.
     pub value: f64,
+    /// The place where it was met, in the drawing's coordinates: [x, y].
     pub at: [f64; 2],
 }
 
 /// Triangles below the angle that a corner excuses.
 #[derive(Clone, Debug, serde::Serialize, schemars::JsonSchema)]
 pub struct Excuse {
+    /// The corner, [x, y]; where `why` is `min_edge`, the centroid of the first triangle.
     pub at: [f64; 2],
+    /// The radius of the corner's ball, or the largest distance from the corner to a node of the triangles; where `why`
+    /// is `min_edge`, that limit. In units of the drawing.
     pub radius: f64,
+    /// The reason, as the report spells it: that of the corner's ball, `input_angle`, or `min_edge`.
     pub why: &'static str,
+    /// The ids of the triangles, ascending.
     pub cells: Vec<u32>,
 }
 
 /// The judge's verdict: `promise` of the report.
 #[derive(Clone, Debug)]
 pub struct Verdict {
+    /// The checks, each once, in the contract's order.
     pub checks: Vec<Check>,
+    /// The triangles that are exempt from the smallest angle, by corner; empty where there are none.
     pub excused: Vec<Excuse>,
 }
 

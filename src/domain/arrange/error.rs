@@ -9,6 +9,7 @@ use crate::watch::Stopped;
 pub struct ArrangeError {
     /// What is wrong, with the entities.
     pub what: String,
+    /// The first place of the flaw, in the drawing's coordinates.
     pub at: Point,
     /// Further places of the same flaw, as many as `what` lists.
     pub also_at: Vec<Point>,
@@ -21,8 +22,10 @@ pub struct ArrangeError {
 /// Why there is no domain.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Unarranged {
+    /// The drawing has a flaw that cannot be repaired.
     #[error(transparent)]
     Invalid(#[from] ArrangeError),
+    /// The `watch` function ended the run.
     #[error(transparent)]
     Stopped(#[from] Stopped),
 }

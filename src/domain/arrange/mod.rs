@@ -95,6 +95,7 @@ pub struct ArrangeOptions {
     pub fragments: bool,
     /// Free ends that are each other's nearest, or that stop short of an open line, are joined up to this far, and nothing else is welded by it.
     pub close: Option<f64>,
+    /// What becomes of lines that bound no region.
     pub loose: Loose,
     /// Whether `tolerance` was chosen for the user: ends that meet nothing else are joined as by default then.
     pub raised: bool,

@@ -6,13 +6,17 @@ use std::collections::BTreeMap;
 /// between curves was that became one, how large what was lost; 0 where nothing moved.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, schemars::JsonSchema)]
 pub struct Repair {
+    /// What was mended.
     pub kind: RepairKind,
+    /// The place, in the drawing's coordinates: [x, y].
     pub at: [f64; 2],
+    /// A length in units of the drawing, at least 0; what it measures depends on the kind.
     pub size: f64,
     /// One sentence with the entities.
     pub what: String,
 }
 
+/// The kinds of repair.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum RepairKind {

@@ -143,6 +143,7 @@ pub enum Steiner {
 }
 
 impl Steiner {
+    /// Every strategy, in the order in which the option `--steiner` lists them.
     pub const ALL: [Self; 9] = [
         Self::Center,
         Self::Offcenter,
@@ -172,6 +173,7 @@ impl Steiner {
 pub enum SnapTo {
     /// The points of a square grid through the origin, so far apart.
     Pitch(f64),
+    /// Given places, each [x, y].
     Places(Vec<[f64; 2]>),
 }
 

@@ -62,7 +62,9 @@ pub use steiner::SteinerStrategy;
 pub struct Options {
     /// Smallest angle; ρ̄ = 1/(2 sin κ).
     pub angle_min_rad: f64,
+    /// The sizes of the selection regions: δ₂, δ₁ and μ.
     pub regions: Regions,
+    /// The limits on edges and areas.
     pub sizing: Sizing,
     /// Vertices after which nothing is split any more.
     pub max_vertices: usize,
@@ -161,6 +163,7 @@ impl Options {
 
 /// What came of the beginning.
 pub enum Start<'s> {
+    /// There is a triangulation to refine.
     Ready(Box<Gcdr<'s>>),
     /// The watch said stop, or the budget ended, before there was a triangulation.
     Ended(Box<Refined>),

@@ -20,9 +20,13 @@ pub struct Regions {
 pub struct Violation {
     /// As in the paper.
     pub number: &'static str,
+    /// The inequality in symbols.
     pub inequality: &'static str,
+    /// The symbol of the parameter: δ₂, δ₁ or μ.
     pub name: &'static str,
+    /// The value that was given.
     pub value: f64,
+    /// The smallest value that satisfies the inequality, at most 1.
     pub least: f64,
 }
 

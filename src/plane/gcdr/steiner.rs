@@ -13,7 +13,9 @@ pub struct Skinny {
     pub corners: [Point; 3],
     /// The corner across each side (0: between corners 0 and 1, and so on); `None` where a segment stands, or nothing is beyond.
     pub across: [Option<Point>; 3],
+    /// The circumcenter.
     pub center: Point,
+    /// The circumradius.
     pub radius: f64,
     /// Radius of the disk around `center`, as the strategy's [`Disks`] say.
     pub reach: f64,
@@ -24,6 +26,7 @@ pub struct Skinny {
 /// An encroached segment, and the interval from which its point is chosen.
 #[derive(Clone, Copy, Debug)]
 pub struct Encroached {
+    /// The start and the end of the segment.
     pub ends: [Point; 2],
     /// Shares of the way from end to end: the middle part of 1−δ₁ (type B) or 1−μ (type C).
     pub interval: [f64; 2],
@@ -34,8 +37,11 @@ pub struct Encroached {
 /// Which skinny triangle is refined first: Algorithm 2 leaves it open, and it makes up to a fourth of the triangles.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Order {
+    /// The triangle with the smallest angle.
     SmallestAngle,
+    /// The triangle with the shortest edge.
     ShortestEdge,
+    /// The triangle with the smallest circumcircle.
     SmallestCircle,
 }
 
@@ -229,6 +235,7 @@ impl SteinerStrategy for Extreme {
 pub struct Random(Dice);
 
 impl Random {
+    /// The strategy with a seed: equal seeds choose equal points in equal runs.
     pub fn new(seed: u64) -> Self {
         Self(Dice::new(seed))
     }
@@ -249,6 +256,7 @@ impl SteinerStrategy for Random {
 /// The point of a square grid nearest to the centre, where the region has one; else the centre.
 #[derive(Clone, Copy, Debug)]
 pub struct Grid {
+    /// The distance between neighbouring grid points; the origin is one of them.
     pub pitch: f64,
 }
 
@@ -267,6 +275,7 @@ pub struct Places {
 }
 
 impl Places {
+    /// The strategy that chooses among the given places.
     pub fn new(places: impl IntoIterator<Item = Point>) -> Self {
         let places: Vec<Point> = places.into_iter().collect();
         let boxes = BoxHierarchy::new(places.iter().map(|&p| Rect::from_points(p, p)));

@@ -63,9 +63,11 @@ use std::f64::consts::FRAC_PI_3;
 pub struct Options {
     /// κ.
     pub angle_min_rad: f64,
+    /// The choices that the algorithm leaves open: β, shrinking and midpoints.
     pub rules: Rules,
     /// Largest turning of a corner arc; `None`: no corner arcs.
     pub corner_arcs: Option<f64>,
+    /// The limits on edges and areas.
     pub sizing: Sizing,
     /// Vertices after which no triangle is split any more.
     pub max_vertices: usize,
@@ -190,6 +192,10 @@ enum Rule {
 
 impl Lopping {
     /// P, its balls, and D of both.
+    ///
+    /// # Errors
+    /// Where the points have no triangulation: two of them coincide, all lie on one line, or a coordinate is out of the
+    /// range of exact signs.
     pub fn start(domain: &Domain, options: &Options) -> Result<Self, RefineError> {
         let [sin_min, sin_detail] = [options.angle_min_rad, DETAIL_RAD].map(libm::sin);
         let patience = suspects::by_angle(1.0 - sin_detail * sin_detail / (sin_min * sin_min));
