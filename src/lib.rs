@@ -27,6 +27,7 @@
 //!
 //! [`run::run`] does all of this from the bytes of a file, as the command line does.
 #![forbid(unsafe_code)]
+#![warn(missing_docs, clippy::missing_errors_doc)]
 
 #[cfg(feature = "cad")]
 pub mod cad;
