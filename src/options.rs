@@ -143,14 +143,17 @@ impl Kind {
 
 /// The words of a choice, from the schema of its enum: in their order where each has a doc comment, else those without one first.
 fn words(field: &Value) -> Option<Vec<(String, Option<String>)>> {
-    let word = |choice: &Value| {
-        let help = choice["description"].as_str().map(sentence);
+    let word = |choice: &Value, help: Option<String>| {
         let list = choice["enum"].as_array().into_iter().flatten();
         list.chain(choice.get("const")).filter_map(Value::as_str).map(|w| (w.to_owned(), help.clone())).collect()
     };
     let choices: Vec<(String, Option<String>)> = match field["oneOf"].as_array() {
-        Some(choices) => choices.iter().flat_map(|choice| -> Vec<_> { word(choice) }).collect(),
-        None => word(field),
+        Some(choices) => {
+            let documented = |choice: &Value| -> Vec<_> { word(choice, choice["description"].as_str().map(sentence)) };
+            choices.iter().flat_map(documented).collect()
+        }
+        // The description beside the words is the option's.
+        None => word(field, None),
     };
     (!choices.is_empty()).then_some(choices)
 }

@@ -326,7 +326,8 @@ impl Curve {
     /// once around, and zeros a line, of this kind still. Points are right to three roundings of the length and the coordinates.
     ///
     /// # Errors
-    /// Where a number is not finite, the length is not positive, or the curve turns more than 100 times around.
+    /// [`CurveError::NotFinite`] where a number is not finite, [`CurveError::Length`] where the length is not positive, [`CurveError::Turns`]
+    /// where the curve turns more than 100 times around, [`CurveError::Sweep`] where equal curvatures go around more than once.
     pub fn clothoid(start: Point, heading_rad: f64, curvatures: [f64; 2], length: f64) -> Result<Self, CurveError> {
         Clothoid::new(start, heading_rad, curvatures, length, None).map(|c| Curve::Clothoid(Box::new(c)))
     }

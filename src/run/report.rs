@@ -306,7 +306,7 @@ pub struct Seconds {
     pub verify: f64,
     /// Writing the outputs; 0 where none was written.
     pub write: f64,
-    /// The whole run, writing included.
+    /// The whole run, writing included; 0 of a run that did not read a file.
     pub total: f64,
 }
 

@@ -26,7 +26,7 @@
 //! - *Rounded circumcenters.* Each decision (ball, encroachment, cavity) is made on the rounded point. A circumcenter outside its own
 //!   cavity would not remove its triangle: it is not inserted, and the triangle is owed.
 //!
-//! Termination is Corollary 3's for κ below [`guaranteed_angle`]; beyond it the vertex budget ends what does not end by itself. The
+//! Termination is Corollary 3's for κ below [`guaranteed_angle`](crate::promise::guaranteed_angle); beyond it the vertex budget ends what does not end by itself. The
 //! result says which it was. A piece that coordinates cannot split any more ends the run with its place.
 
 mod balls;
