@@ -8,7 +8,7 @@ pub mod known;
 
 use crate::curve::Curve;
 use crate::domain::{Drawing, FillRule};
-pub use crate::geometry::dice::Dice;
+pub use crate::geometry::rng::Rng;
 use crate::geometry::{Point, Vec2};
 use std::f64::consts::{PI, TAU};
 
@@ -29,26 +29,26 @@ impl Place {
 
 /// A complex of curves with angles down to zero in a frame; the same seed gives the same drawing.
 pub fn curved_complex(seed: u64) -> Drawing {
-    let mut dice = Dice::new(seed);
-    let cells = 1 + dice.below(3);
+    let mut rng = Rng::new(seed);
+    let cells = 1 + rng.below(3);
     let mut drawing = Drawing { format: "generated".into(), fill: FillRule::Regions, ..Drawing::default() };
     let size = cells as f64 * 2.2;
-    frame(&mut drawing, &mut dice, size);
+    frame(&mut drawing, &mut rng, size);
     for i in 0..cells {
         for j in 0..cells {
             let center = Point::new(2.2 * (i as f64 + 0.5), 2.2 * (j as f64 + 0.5));
-            let place = Place { center, radius: dice.between(0.5, 1.0), turn: dice.between(0.0, TAU) };
-            motif(&mut drawing, &mut dice, &place);
+            let place = Place { center, radius: rng.between(0.5, 1.0), turn: rng.between(0.0, TAU) };
+            motif(&mut drawing, &mut rng, &place);
         }
     }
     drawing
 }
 
 /// A square of side `size`, or one with a bulging side.
-fn frame(drawing: &mut Drawing, dice: &mut Dice, size: f64) {
+fn frame(drawing: &mut Drawing, rng: &mut Rng, size: f64) {
     let corners = [(0.0, 0.0), (size, 0.0), (size, size), (0.0, size)].map(|(x, y)| Point::new(x, y));
     for i in 0..4 {
-        let bulge = if dice.below(3) == 0 { dice.between(0.05, 0.6) } else { 0.0 };
+        let bulge = if rng.below(3) == 0 { rng.between(0.05, 0.6) } else { 0.0 };
         add(drawing, Curve::bulge(corners[i], corners[(i + 1) % 4], bulge), "frame");
     }
 }
@@ -58,24 +58,24 @@ fn add<E: std::fmt::Debug>(drawing: &mut Drawing, curve: Result<Curve, E>, name:
     drawing.add(curve.expect("a generated curve is sound"), name, entity);
 }
 
-fn motif(drawing: &mut Drawing, dice: &mut Dice, place: &Place) {
-    match dice.below(9) {
-        0 => tangent_circles(drawing, dice, place),
-        1 => tangent_fan(drawing, dice, place),
-        2 => lens(drawing, dice, place),
-        3 => tangent_cubics(drawing, dice, place),
-        4 => blob(drawing, dice, place),
-        5 => wedge(drawing, dice, place),
-        6 => ellipse_and_chord(drawing, dice, place),
-        7 => half_disk(drawing, dice, place),
-        _ => spline_and_point(drawing, dice, place),
+fn motif(drawing: &mut Drawing, rng: &mut Rng, place: &Place) {
+    match rng.below(9) {
+        0 => tangent_circles(drawing, rng, place),
+        1 => tangent_fan(drawing, rng, place),
+        2 => lens(drawing, rng, place),
+        3 => tangent_cubics(drawing, rng, place),
+        4 => blob(drawing, rng, place),
+        5 => wedge(drawing, rng, place),
+        6 => ellipse_and_chord(drawing, rng, place),
+        7 => half_disk(drawing, rng, place),
+        _ => spline_and_point(drawing, rng, place),
     }
 }
 
 /// Two circles that touch from inside or outside.
-fn tangent_circles(drawing: &mut Drawing, dice: &mut Dice, place: &Place) {
-    let inner = dice.below(2) == 0;
-    let (r, s) = if inner { (0.9, dice.between(0.2, 0.8)) } else { (0.45, dice.between(0.15, 0.45)) };
+fn tangent_circles(drawing: &mut Drawing, rng: &mut Rng, place: &Place) {
+    let inner = rng.below(2) == 0;
+    let (r, s) = if inner { (0.9, rng.between(0.2, 0.8)) } else { (0.45, rng.between(0.15, 0.45)) };
     let first = if inner { 0.0 } else { -0.45 };
     let second = if inner { r - s } else { s };
     let touch = place.at(first + r, 0.0);
@@ -91,12 +91,12 @@ fn circle_from(place: &Place, x: f64, radius: f64, start: f64) -> Result<Curve, 
 }
 
 /// Arcs that leave one point along one tangent, each with its own curvature.
-fn tangent_fan(drawing: &mut Drawing, dice: &mut Dice, place: &Place) {
-    let k = 2 + dice.below(4);
+fn tangent_fan(drawing: &mut Drawing, rng: &mut Rng, place: &Place) {
+    let k = 2 + rng.below(4);
     let root = place.at(-0.8, 0.0);
     for i in 0..k {
-        let curvature = (i as f64 - (k - 1) as f64 / 2.0) * 0.45 + dice.between(-0.15, 0.15);
-        let length = dice.between(0.8, 1.4);
+        let curvature = (i as f64 - (k - 1) as f64 / 2.0) * 0.45 + rng.between(-0.15, 0.15);
+        let length = rng.between(0.8, 1.4);
         // End of the arc of that curvature and length that leaves the root along +x of the frame.
         let half = curvature * length / 2.0;
         let chord = if half.abs() < 1e-9 { length } else { length * libm::sin(half) / half };
@@ -106,31 +106,31 @@ fn tangent_fan(drawing: &mut Drawing, dice: &mut Dice, place: &Place) {
 }
 
 /// Two arcs with both ends in common, at a small or zero angle.
-fn lens(drawing: &mut Drawing, dice: &mut Dice, place: &Place) {
+fn lens(drawing: &mut Drawing, rng: &mut Rng, place: &Place) {
     let (a, b) = (place.at(-0.8, 0.0), place.at(0.8, 0.0));
-    let low = dice.between(0.0, 0.3);
-    let high = low + dice.between(0.02, 0.3);
+    let low = rng.between(0.0, 0.3);
+    let high = low + rng.between(0.02, 0.3);
     add(drawing, Curve::bulge(a, b, low), "lens");
     add(drawing, Curve::bulge(a, b, high), "lens");
 }
 
 /// Cubics tangent to a line at one point: y = c·x² there.
-fn tangent_cubics(drawing: &mut Drawing, dice: &mut Dice, place: &Place) {
+fn tangent_cubics(drawing: &mut Drawing, rng: &mut Rng, place: &Place) {
     let root = place.at(-0.7, 0.0);
     add(drawing, Curve::line(root, place.at(0.7, 0.0)), "cubic");
     for sign in [-1.0, 1.0] {
-        let lift = sign * dice.between(0.2, 0.6);
+        let lift = sign * rng.between(0.2, 0.6);
         let points = vec![root, place.at(-0.3, 0.0), place.at(0.2, 0.5 * lift), place.at(0.6, lift)];
         add(drawing, Curve::bezier(points), "cubic");
     }
 }
 
 /// A closed spline through points round a circle.
-fn blob(drawing: &mut Drawing, dice: &mut Dice, place: &Place) {
-    let n = 5 + dice.below(8);
+fn blob(drawing: &mut Drawing, rng: &mut Rng, place: &Place) {
+    let n = 5 + rng.below(8);
     let points: Vec<Point> = (0..n)
         .map(|i| {
-            let (angle, r) = (TAU * i as f64 / n as f64, dice.between(0.5, 0.9));
+            let (angle, r) = (TAU * i as f64 / n as f64, rng.between(0.5, 0.9));
             place.at(r * libm::cos(angle), r * libm::sin(angle))
         })
         .collect();
@@ -138,20 +138,20 @@ fn blob(drawing: &mut Drawing, dice: &mut Dice, place: &Place) {
 }
 
 /// Straight segments at a small angle, and an arc across their ends.
-fn wedge(drawing: &mut Drawing, dice: &mut Dice, place: &Place) {
-    let angle = dice.between(0.02, 0.6);
+fn wedge(drawing: &mut Drawing, rng: &mut Rng, place: &Place) {
+    let angle = rng.between(0.02, 0.6);
     let (apex, end) = (place.at(-0.8, 0.0), place.at(0.7, 0.0));
     let other = place.at(-0.8 + 1.5 * libm::cos(angle), 1.5 * libm::sin(angle) * 0.6);
     add(drawing, Curve::line(apex, end), "wedge");
     add(drawing, Curve::line(apex, other), "wedge");
-    if dice.below(2) == 0 {
+    if rng.below(2) == 0 {
         add(drawing, Curve::bulge(end, other, 0.2), "wedge");
     }
 }
 
 /// An ellipse and a line that touches it at its vertex.
-fn ellipse_and_chord(drawing: &mut Drawing, dice: &mut Dice, place: &Place) {
-    let (a, b) = (0.8, dice.between(0.25, 0.6));
+fn ellipse_and_chord(drawing: &mut Drawing, rng: &mut Rng, place: &Place) {
+    let (a, b) = (0.8, rng.between(0.25, 0.6));
     let (u, v) = (place.at(a, 0.0) - place.center, place.at(0.0, b) - place.center);
     let touch = place.at(0.0, b);
     let ellipse = Curve::ellipse(place.center, u, v, PI / 2.0, TAU);
@@ -160,17 +160,17 @@ fn ellipse_and_chord(drawing: &mut Drawing, dice: &mut Dice, place: &Place) {
 }
 
 /// A D: an arc and its chord.
-fn half_disk(drawing: &mut Drawing, dice: &mut Dice, place: &Place) {
+fn half_disk(drawing: &mut Drawing, rng: &mut Rng, place: &Place) {
     let (a, b) = (place.at(-0.7, -0.3), place.at(0.7, -0.3));
     add(drawing, Curve::line(a, b), "half disk");
-    add(drawing, Curve::bulge(b, a, dice.between(0.1, 0.9)), "half disk");
+    add(drawing, Curve::bulge(b, a, rng.between(0.1, 0.9)), "half disk");
 }
 
 /// An open spline, and a point beside it.
-fn spline_and_point(drawing: &mut Drawing, dice: &mut Dice, place: &Place) {
-    let points: Vec<Point> = (0..5).map(|i| place.at(-0.8 + 0.4 * f64::from(i), dice.between(-0.3, 0.3))).collect();
+fn spline_and_point(drawing: &mut Drawing, rng: &mut Rng, place: &Place) {
+    let points: Vec<Point> = (0..5).map(|i| place.at(-0.8 + 0.4 * f64::from(i), rng.between(-0.3, 0.3))).collect();
     add(drawing, Curve::natural_spline(&points), "spline");
-    let at = place.at(0.0, dice.between(0.5, 0.8));
+    let at = place.at(0.0, rng.between(0.5, 0.8));
     drawing.points.push(crate::domain::DrawnPoint { at, name: None, entity: "point".into() });
 }
 

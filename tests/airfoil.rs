@@ -42,7 +42,7 @@ fn length(drawing: &Drawing, name: &str) -> f64 {
 }
 
 fn area(drawing: &Drawing) -> f64 {
-    drawing.curves.iter().map(|c| c.curve.green(Point::ORIGIN)).sum()
+    drawing.curves.iter().map(|c| c.curve.signed_area(Point::ORIGIN)).sum()
 }
 
 #[track_caller]

@@ -652,9 +652,9 @@ fn curves_that_stand_for_themselves_are_refused() {
 }
 
 /// A generator of small numbers, the same on every machine (Marsaglia's xorshift).
-struct Dice(u64);
+struct Rng(u64);
 
-impl Dice {
+impl Rng {
     fn below(&mut self, n: usize) -> usize {
         self.0 ^= self.0 << 13;
         self.0 ^= self.0 >> 7;
@@ -672,26 +672,26 @@ fn damaged_files_give_errors_or_drawings_and_never_panic() {
     let bound = step.bound(&[rim]);
     step.face("disk", &[bound]);
     let text = step.text().into_bytes();
-    let mut dice = Dice(0x9e37_79b9_7f4a_7c15);
+    let mut rng = Rng(0x9e37_79b9_7f4a_7c15);
     let (mut refused, rounds) = (0, 3000);
     for round in 0..rounds {
         let mut bytes = text.clone();
         match round % 4 {
-            0 => bytes.truncate(dice.below(text.len())),
+            0 => bytes.truncate(rng.below(text.len())),
             1 => {
-                let at = dice.below(text.len());
-                bytes[at] = dice.below(256) as u8;
+                let at = rng.below(text.len());
+                bytes[at] = rng.below(256) as u8;
             }
             2 => {
-                let (at, length) = (dice.below(text.len()), dice.below(60));
+                let (at, length) = (rng.below(text.len()), rng.below(60));
                 bytes.drain(at..(at + length).min(text.len()));
             }
             // Digits into other digits: the syntax stands, what it says does not.
             _ => {
                 for _ in 0..4 {
                     let digits: Vec<usize> = (0..bytes.len()).filter(|i| bytes[*i].is_ascii_digit()).collect();
-                    let at = digits[dice.below(digits.len())];
-                    bytes[at] = b'0' + dice.below(10) as u8;
+                    let at = digits[rng.below(digits.len())];
+                    bytes[at] = b'0' + rng.below(10) as u8;
                 }
             }
         }

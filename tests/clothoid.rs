@@ -152,7 +152,7 @@ fn areas_are_those_of_slow_quadrature() {
             area += 0.5 * (rate(0.0) + 4.0 * rate(0.5) + rate(1.0)) * (h / 6.0);
             at += run(1.0);
         }
-        let found = curve.green(Point::ZERO);
+        let found = curve.signed_area(Point::ZERO);
         assert!((found - area).abs() <= 1e-12 * area.abs(), "{curvatures:?}: {found}, not {area}");
     }
 }
@@ -328,7 +328,8 @@ fn the_railway_loop_is_meshed_with_every_promise_kept() {
             .iter()
             .filter(|c| domain.names().text(c.name) != "joint")
             .map(|c| {
-                c.curve.green(Point::ZERO).abs() * if domain.names().text(c.name) == "rail side" { 1.0 } else { -1.0 }
+                c.curve.signed_area(Point::ZERO).abs()
+                    * if domain.names().text(c.name) == "rail side" { 1.0 } else { -1.0 }
             })
             .sum();
         assert!((drawn - LOOP_AREA).abs() <= 1e-12 * LOOP_AREA, "{drawn}");

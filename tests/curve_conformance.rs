@@ -519,22 +519,22 @@ fn lengths_and_areas_are_the_limits_of_polylines() {
             curve.length()
         );
         assert!(
-            (curve.green(origin) - area).abs() <= (rough * size + 8.0 * grain) * size,
+            (curve.signed_area(origin) - area).abs() <= (rough * size + 8.0 * grain) * size,
             "{name}: {} {area}",
-            curve.green(origin)
+            curve.signed_area(origin)
         );
         let (t0, t1) = (0.1, 0.83);
         let parts = curve.length_of(0.0, t0) + curve.length_of(t0, t1) + curve.length_of(t1, 1.0);
         assert!((parts - curve.length()).abs() <= 1e-12 * size, "{name}: {parts} {}", curve.length());
-        let sum: f64 = [(0.0, t0), (t0, t1), (t1, 1.0)].iter().map(|r| curve.part(r.0, r.1).green(origin)).sum();
+        let sum: f64 = [(0.0, t0), (t0, t1), (t1, 1.0)].iter().map(|r| curve.part(r.0, r.1).signed_area(origin)).sum();
         assert!(
-            (sum - curve.green(origin)).abs() <= 1e-13 * size * size + 32.0 * grain * size,
+            (sum - curve.signed_area(origin)).abs() <= 1e-13 * size * size + 32.0 * grain * size,
             "{name}: {sum} {}",
-            curve.green(origin)
+            curve.signed_area(origin)
         );
     }
     let circle = nurbs_circle();
-    assert!((circle.length() - TAU).abs() < 1e-14 && (circle.green(p(5.0, -3.0)) - PI).abs() < 1e-13);
+    assert!((circle.length() - TAU).abs() < 1e-14 && (circle.signed_area(p(5.0, -3.0)) - PI).abs() < 1e-13);
     // A parabola: asinh form.
     let parabola = bezier(&[(0., 0.), (0.5, 0.), (1., 1.)]);
     assert!((parabola.length() - (5f64.sqrt() / 2.0 + 2f64.asinh() / 4.0)).abs() < 1e-15);
@@ -773,7 +773,11 @@ fn scaling_by_a_power_of_two_scales_every_answer_exactly() {
             same(curve.lens_angle(0.1, 0.9), big.lens_angle(0.1, 0.9), "lens angle");
             same(curve.chord_error(0.1, 0.9) * factor, big.chord_error(0.1, 0.9), "chord error");
             same(curve.length() * factor, big.length(), "length");
-            same(curve.green(q) * factor * factor, big.green(squinch::geometry::scaled(q, factor)), "green");
+            same(
+                curve.signed_area(q) * factor * factor,
+                big.signed_area(squinch::geometry::scaled(q, factor)),
+                "green",
+            );
             same(curve.bisector_crossing(0.1, 0.9), big.bisector_crossing(0.1, 0.9), "bisector");
             let leaves = |c: &Curve, r: f64| c.leaves_ball(End::Start, r, 0.0, 1.0).unwrap_or(2.0);
             same(leaves(&curve, 0.3), leaves(&big, 0.3 * factor), "leaves");
@@ -879,7 +883,7 @@ fn ask_everything(curve: &Curve, q: Point) {
             c.bounds(),
             c.length(),
             c.nearest(q, t0, t1),
-            c.green(q),
+            c.signed_area(q),
             c.turning(0.0, 1.0),
             c.breaks(),
             c.inflections(),

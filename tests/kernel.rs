@@ -40,9 +40,9 @@ impl Frame {
 }
 
 /// A fixed sequence of whole numbers below `bound`.
-struct Dice(u64);
+struct Rng(u64);
 
-impl Dice {
+impl Rng {
     fn below(&mut self, bound: i64) -> i64 {
         self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
         ((self.0 >> 33) as i64) % bound
@@ -55,8 +55,8 @@ fn distinct(points: impl IntoIterator<Item = Whole>) -> Vec<Whole> {
 }
 
 fn random(n: usize, size: i64, seed: u64) -> Vec<Whole> {
-    let mut dice = Dice(seed);
-    distinct((0..n).map(|_| (dice.below(size), dice.below(size))))
+    let mut rng = Rng(seed);
+    distinct((0..n).map(|_| (rng.below(size), rng.below(size))))
 }
 
 fn grid(n: i64) -> Vec<Whole> {
@@ -64,10 +64,10 @@ fn grid(n: i64) -> Vec<Whole> {
 }
 
 fn clusters() -> Vec<Whole> {
-    let mut dice = Dice(5);
+    let mut rng = Rng(5);
     distinct((0..300).map(|i| {
         let (cx, cy) = [(0, 0), (1 << 19, 77), (3000, 1 << 19)][i % 3];
-        (cx + dice.below(40), cy + dice.below(40))
+        (cx + rng.below(40), cy + rng.below(40))
     }))
 }
 
@@ -431,11 +431,11 @@ fn flips_between_cocircular_points_are_no_flaw_and_others_are_found() {
 fn a_walk_through_a_triangulation_spoilt_by_flips_still_ends() {
     let points = random(200, 1000, 4);
     let mut d = Kernel::new(PLAIN.place_all(&points)).unwrap();
-    let mut dice = Dice(8);
+    let mut rng = Rng(8);
     let n = d.topology().triangle_capacity() as i64;
     let mut flips = 0;
     while flips < 300 {
-        let s = Side(dice.below(3 * n) as u32);
+        let s = Side(rng.below(3 * n) as u32);
         let topology = d.topology();
         let corners = [topology.origin(s), topology.target(s), topology.apex(s), topology.apex(topology.twin(s))];
         if corners.contains(&GHOST) {

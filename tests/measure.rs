@@ -183,7 +183,7 @@ fn conics_of_any_weight_have_the_area_and_turning_of_closed_forms() {
         // Near the shoulder the radius of curvature is 1/w: coordinates rounded there turn its tangents by some ε·w.
         let rounding = 1e-12 + 16.0 * f64::EPSILON * w;
         assert!((arc.turning(0.0, 1.0) - PI / 2.0).abs() < rounding, "weight {w:e}: turns {}", arc.turning(0.0, 1.0));
-        let green = arc.green(Point::new(0.0, 1.0));
+        let green = arc.signed_area(Point::new(0.0, 1.0));
         assert!((green - area).abs() < 1e-14, "weight {w:e}: {green} and not {area}");
     }
 }

@@ -131,7 +131,7 @@ impl FlatFace {
         let Some(bounds) = boxes.reduce(|a, b| a.union(b)) else { return };
         self.diagonal = libm::hypot(bounds.width(), bounds.height());
         let enclosed = |curves: &Vec<(Curve, usize)>| -> f64 {
-            let area: f64 = curves.iter().map(|(curve, _)| curve.green(bounds.center())).sum();
+            let area: f64 = curves.iter().map(|(curve, _)| curve.signed_area(bounds.center())).sum();
             area.abs()
         };
         let areas: Vec<f64> = self.loops.iter().map(enclosed).collect();

@@ -461,7 +461,7 @@ impl Curve {
         (t, length(self.point(t) - p))
     }
     /// ½∮(x dy − y dx) along the curve relative to `origin`: summed over a closed loop, the enclosed area.
-    pub fn green(&self, origin: Point) -> f64 {
+    pub fn signed_area(&self, origin: Point) -> f64 {
         let chord = self.end() - self.start();
         let triangle = 0.5 * (self.start() - origin).cross(chord);
         triangle + self.as_kind().area_over_chord()

@@ -253,10 +253,10 @@ impl Domain {
         // A relative 1e-12 a term, as the integrals are computed, of the sum of their sizes; and what rounded coordinates do along the border.
         let mut slack = 0.0;
         for curve in self.curves.iter().filter(|c| c.sides[0] != c.sides[1]) {
-            let (green, bounds) = (curve.curve.green(origin), curve.curve.bounds());
-            slack += 1e-12 * green.abs() + rounding * (bounds.width() + bounds.height());
-            curve.sides[0].iter().for_each(|&left| enclosed[left] += green);
-            curve.sides[1].iter().for_each(|&right| enclosed[right] -= green);
+            let (area, bounds) = (curve.curve.signed_area(origin), curve.curve.bounds());
+            slack += 1e-12 * area.abs() + rounding * (bounds.width() + bounds.height());
+            curve.sides[0].iter().for_each(|&left| enclosed[left] += area);
+            curve.sides[1].iter().for_each(|&right| enclosed[right] -= area);
         }
         for (id, region) in self.regions.enumerate() {
             if (enclosed[id] - region.area).abs() > slack {

@@ -1,6 +1,6 @@
 //! Drawings that are hard to arrange and whose area is known by formula.
 
-use super::Dice;
+use super::Rng;
 use crate::curve::{Curve, CurveError};
 use crate::domain::{Drawing, FillRule};
 use crate::geometry::{Point, Vec2, direction, magnitude};
@@ -63,11 +63,10 @@ fn is_power_of_two(factor: f64) -> bool {
 
 /// The union of `n` circles that cross each other at random.
 pub fn crossing_circles(seed: u64, n: usize) -> Known {
-    let mut dice = Dice::new(seed);
+    let mut rng = Rng::new(seed);
     let side = 1.2 * (n as f64).sqrt();
-    let circles: Vec<(Point, f64)> = (0..n)
-        .map(|_| (Point::new(dice.between(0.0, side), dice.between(0.0, side)), dice.between(0.3, 1.2)))
-        .collect();
+    let circles: Vec<(Point, f64)> =
+        (0..n).map(|_| (Point::new(rng.between(0.0, side), rng.between(0.0, side)), rng.between(0.3, 1.2))).collect();
     let (area, perimeter) = union_of(&circles);
     let mut known = Known::new(FillRule::NonZero, area, perimeter);
     circles.iter().for_each(|&(center, radius)| known.add(Curve::circle(center, radius)));
@@ -174,14 +173,14 @@ pub fn nearly(near: Near, separation: f64, turn_rad: f64) -> Known {
 
 /// A square plate with n × n round holes of random sizes.
 pub fn plate_with_holes(seed: u64, n: usize) -> Known {
-    let mut dice = Dice::new(seed);
+    let mut rng = Rng::new(seed);
     let side = n as f64;
     let mut known = Known::new(FillRule::EvenOdd, side * side, 4.0 * side);
     known.add_polygon(&[(0.0, 0.0), (side, 0.0), (side, side), (0.0, side)].map(|(x, y)| Point::new(x, y)));
     for i in 0..n * n {
-        let radius = dice.between(0.05, 0.3);
-        let at = |k: usize, dice: &mut Dice| k as f64 + 0.5 + dice.between(-0.1, 0.1);
-        let center = Point::new(at(i % n, &mut dice), at(i / n, &mut dice));
+        let radius = rng.between(0.05, 0.3);
+        let at = |k: usize, rng: &mut Rng| k as f64 + 0.5 + rng.between(-0.1, 0.1);
+        let center = Point::new(at(i % n, &mut rng), at(i / n, &mut rng));
         known.add(Curve::circle(center, radius));
         known.area -= PI * radius * radius;
         known.perimeter += TAU * radius;
@@ -191,13 +190,13 @@ pub fn plate_with_holes(seed: u64, n: usize) -> Known {
 
 /// `n` circles around one point, filled in turn.
 pub fn rings(seed: u64, n: usize) -> Known {
-    let mut dice = Dice::new(seed);
-    let center = Point::new(dice.between(-1.0, 1.0), dice.between(-1.0, 1.0));
+    let mut rng = Rng::new(seed);
+    let center = Point::new(rng.between(-1.0, 1.0), rng.between(-1.0, 1.0));
     let mut known = Known::new(FillRule::EvenOdd, 0.0, 0.0);
     let mut radius = 0.0;
     for k in 0..n {
-        radius += dice.between(0.2, 1.0);
-        known.add(Curve::arc(center, radius, dice.between(0.0, TAU), TAU));
+        radius += rng.between(0.2, 1.0);
+        known.add(Curve::arc(center, radius, rng.between(0.0, TAU), TAU));
         // The outermost ring is filled.
         let sign = if (n - k) % 2 == 1 { 1.0 } else { -1.0 };
         known.area += sign * PI * radius * radius;

@@ -1,9 +1,9 @@
 //! Ground floor: points and vectors, exact signs, insertion order, box hierarchy, planes in space, numbers as text has them. Numbers only, nothing of meshes.
 
 pub mod boxes;
-pub mod dice;
 pub mod exact;
 pub mod order;
+pub mod rng;
 pub mod space;
 pub mod triangle;
 pub mod written;

@@ -164,12 +164,12 @@ fn add_lenses(ev: &Evidence, domain: &Domain, sums: &mut [Sums]) {
         domain.curves().as_slice()[curve].sides[side].map(|r| ev.classes.of_domain[r] as usize)
     };
     for (id, curve) in domain.curves().enumerate().filter(|(_, c)| is_kept(c.sides)) {
-        // Green about the curve's own start, so that an offset costs no digits.
-        let green = curve.curve.green(curve.curve.start());
+        // About the curve's own start, so that an offset costs no digits.
+        let area = curve.curve.signed_area(curve.curve.start());
         let length = curve.curve.length();
         for (s, sign) in [(0, 1.0), (1, -1.0)] {
             if let Some(class) = side(id.index(), s) {
-                sums[class].lenses += sign * green;
+                sums[class].lenses += sign * area;
                 sums[class].rim += length;
             }
         }

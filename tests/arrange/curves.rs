@@ -116,7 +116,7 @@ fn closed_splines_are_regions() {
         .map(|i| p(2.0, 1.0) + Vec2::from_angle(f64::from(i) * TAU / 12.0) * (1.0 + 0.3 * f64::from(i % 2)))
         .collect();
     let star = Curve::periodic_spline(&points).unwrap();
-    let area = star.green(p(2.0, 1.0));
+    let area = star.signed_area(p(2.0, 1.0));
     let domain = regions(&drawing([star]));
     close(&areas(&domain), &[area]);
     assert!(domain.repairs().is_empty(), "{:?}", domain.repairs());
@@ -203,7 +203,7 @@ fn a_handle_a_last_digit_from_its_end_makes_a_corner_not_a_hook() {
         line((267.4106, 494.79561), (444.69, 265.88936)),
         line((444.69, 265.88936), (start.x, start.y)),
     ];
-    let area: f64 = curves.iter().map(|c| c.green(start)).sum();
+    let area: f64 = curves.iter().map(|c| c.signed_area(start)).sum();
     let domain = regions(&drawing(curves));
     assert!((domain.measure() - area.abs()).abs() < 1e-9 * area.abs());
     assert_eq!(repairs(&domain, RepairKind::Corner), 1, "{:?}", domain.repairs());

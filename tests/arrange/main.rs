@@ -91,7 +91,7 @@ fn outlines(width: f64) -> Vec<(&'static str, Vec<Curve>, f64)> {
     let halves = [Curve::bulge(west, east, 1.0).unwrap(), Curve::bulge(east, west, 1.0).unwrap()];
     let (low, high) = (around(PI, width), around(0.0, width));
     let cap = vec![Curve::line(low, high).unwrap(), Curve::bulge(high, low, 1.0).unwrap()];
-    let (spline_area, tear_area) = (spline.green(p(o, o)), tear.green(p(o, o)));
+    let (spline_area, tear_area) = (spline.signed_area(p(o, o)), tear.signed_area(p(o, o)));
     vec![
         ("circle", vec![circle(o, o, r)], PI * r * r),
         ("ellipse", vec![ellipse(0.0)], 3.0 * PI * r * r),

@@ -75,7 +75,7 @@ fn only(drawing: &Drawing) -> &Curve {
 
 /// The area that the curves go around, drawn as closed outlines in one direction.
 fn area(drawing: &Drawing) -> f64 {
-    drawing.curves.iter().map(|c| c.curve.green(Point::ORIGIN)).sum()
+    drawing.curves.iter().map(|c| c.curve.signed_area(Point::ORIGIN)).sum()
 }
 
 /// The area of the kept regions.

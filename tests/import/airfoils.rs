@@ -30,7 +30,7 @@ fn a_section_is_smooth_surfaces_through_its_points() {
     assert_eq!((upper.start(), upper.end()), (Point::new(1.0, 0.001), Point::ORIGIN));
     assert_eq!((lower.start(), lower.end()), (upper.end(), te.start()));
     assert_eq!(te.end(), upper.start());
-    let area: f64 = drawing.curves.iter().map(|c| c.curve.green(Point::ORIGIN)).sum();
+    let area: f64 = drawing.curves.iter().map(|c| c.curve.signed_area(Point::ORIGIN)).sum();
     let polygon: f64 = contour().windows(2).map(|w| 0.5 * (w[0].0 * w[1].1 - w[1].0 * w[0].1)).sum();
     assert!(area > polygon && area < 1.03 * polygon, "{area} {polygon}");
     // No corner at the nose.

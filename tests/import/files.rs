@@ -76,7 +76,7 @@ fn the_sample_section_is_naca_4412() {
         2.0 * half(x) * (1.0 + slope(x) * slope(x)).sqrt() * 1e-4
     };
     let area: f64 = (0..10_000).map(strip).sum();
-    let found: f64 = drawing.curves.iter().map(|c| c.curve.green(Point::ORIGIN)).sum();
+    let found: f64 = drawing.curves.iter().map(|c| c.curve.signed_area(Point::ORIGIN)).sum();
     assert!((found - area).abs() < 1e-5, "{found} {area}");
 }
 

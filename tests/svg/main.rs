@@ -62,7 +62,7 @@ fn kinds(drawing: &Drawing) -> Vec<&'static str> {
 fn areas(drawing: &Drawing) -> Vec<f64> {
     let of = |shape| {
         let curves = drawing.curves.iter().filter(|c| c.shape == Some(shape));
-        curves.map(|c| c.curve.green(Point::ORIGIN)).sum()
+        curves.map(|c| c.curve.signed_area(Point::ORIGIN)).sum()
     };
     drawing.shapes.ids().map(of).collect()
 }

@@ -197,16 +197,16 @@ impl<'n, 'a> Ways<'n, 'a> {
             match via {
                 Via::Piece(id) => {
                     let piece = &self.network.pieces[id];
-                    let green = piece.curve.green(origin);
-                    area += if piece.ends[0].index() == from { green } else { -green };
+                    let swept = piece.curve.signed_area(origin);
+                    area += if piece.ends[0].index() == from { swept } else { -swept };
                     length += extent(piece.bounds);
                 }
                 Via::Part(_, [t0, t1]) if t0 == t1 => {}
                 Via::Part(id, [t0, t1]) => {
                     let part = self.network.pieces[id].curve.part(t0, t1);
-                    let green = part.green(origin);
+                    let swept = part.signed_area(origin);
                     area +=
-                        if a.distance_squared(part.start()) <= a.distance_squared(part.end()) { green } else { -green };
+                        if a.distance_squared(part.start()) <= a.distance_squared(part.end()) { swept } else { -swept };
                     length += extent(part.bounds());
                 }
                 Via::OffPlane(_) | Via::Gap(_) | Via::Short(_) => {

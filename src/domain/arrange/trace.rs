@@ -156,7 +156,7 @@ fn area(domain: &Domain, halves: &[Half]) -> f64 {
     let origin = domain.points[first.tail(domain)];
     let (mut sum, mut lost) = (0.0f64, 0.0);
     for half in halves {
-        let forward = domain.curves[half.curve].curve.green(origin);
+        let forward = domain.curves[half.curve].curve.signed_area(origin);
         let term = if half.side == Side::Left { forward } else { -forward };
         let next = sum + term;
         lost += if sum.abs() >= term.abs() { (sum - next) + term } else { (term - next) + sum };

@@ -57,7 +57,7 @@ impl Reader<'_> {
             if let Some(colour) = element.colour.filter(|_| element.filled) {
                 let curves = element.subpaths.iter().flat_map(|s| &s.curves);
                 *areas.entry((name, colour)).or_default() +=
-                    curves.map(|c| c.green(bounds.center())).sum::<f64>().abs();
+                    curves.map(|c| c.signed_area(bounds.center())).sum::<f64>().abs();
             }
             beyond += usize::from(on_page == OnPage::Beyond);
             if element.filled { self.add_shape(element, name, clip) } else { self.add_lines(element, name, clip) }

@@ -109,7 +109,7 @@ impl Pen {
     /// Adds an outline that runs from corner to corner, turned so that it winds in the positive sense.
     fn add(&self, curves: Vec<Curve>, covered: &mut Covered) {
         let origin = curves.first().map_or(Point::ORIGIN, Curve::start);
-        let area: f64 = curves.iter().map(|c| c.green(origin)).sum();
+        let area: f64 = curves.iter().map(|c| c.signed_area(origin)).sum();
         let curves = if area < 0.0 { curves.iter().rev().map(Curve::reversed).collect() } else { curves };
         covered.outlines.push(Subpath { curves, closed: true });
     }

@@ -3,7 +3,7 @@
 
 use super::*;
 use crate::geometry::Vec2;
-use crate::geometry::dice::Dice;
+use crate::geometry::rng::Rng;
 use crate::ids::Id;
 use std::collections::BTreeSet;
 
@@ -15,12 +15,12 @@ struct Scene {
 
 impl Scene {
     fn random(seed: u64, points: usize, segments: usize) -> Self {
-        let mut dice = Dice::new(seed);
+        let mut rng = Rng::new(seed);
         let points: Vec<Point> =
-            (0..points).map(|_| Point::new(dice.between(0.0, 1.0), dice.between(0.0, 1.0))).collect();
+            (0..points).map(|_| Point::new(rng.between(0.0, 1.0), rng.between(0.0, 1.0))).collect();
         let mut scene = Self { points, segments: Vec::new() };
         for _ in 0..segments {
-            let [a, b] = [0, 1].map(|_| dice.below(scene.points.len()));
+            let [a, b] = [0, 1].map(|_| rng.below(scene.points.len()));
             let ends = [scene.points[a], scene.points[b]];
             if a != b && !scene.segments.contains(&[a, b]) && !scene.segments.contains(&[b, a]) && !scene.hides(ends) {
                 scene.segments.push([a, b]);
@@ -146,11 +146,11 @@ fn a_parted_segment_leaves_what_is_built_with_its_parts() {
         let first = scene.points.len();
         scene.points.extend([(-1.0, -1.0), (2.0, -1.0), (2.0, 2.0), (-1.0, 2.0)].map(|(x, y)| Point::new(x, y)));
         scene.segments.extend([0, 1, 2, 3].map(|k| [first + k, first + (k + 1) % 4]));
-        let mut dice = Dice::new(seed);
+        let mut rng = Rng::new(seed);
         for (i, &[a, b]) in scene.segments.iter().enumerate() {
             let [x, y] = [scene.points[a], scene.points[b]];
-            let bulge = if dice.below(2) == 0 { 0.0 } else { dice.between(-0.2, 0.2) };
-            let p = x.lerp(y, dice.between(0.3, 0.7)) + bulge * Vec2::new(y.y - x.y, x.x - y.x);
+            let bulge = if rng.below(2) == 0 { 0.0 } else { rng.between(-0.2, 0.2) };
+            let p = x.lerp(y, rng.between(0.3, 0.7)) + bulge * Vec2::new(y.y - x.y, x.x - y.x);
             let mut built = scene.build();
             let side = built.topology().side_between(VertexId::from_index(a), VertexId::from_index(b)).unwrap();
             if !built.can_part(side, p) {
@@ -179,11 +179,11 @@ fn a_parted_segment_leaves_what_is_built_with_its_parts() {
 fn a_removed_vertex_of_any_degree_leaves_what_is_built_without_it() {
     for degree in [3, 4, 5, 8, 40] {
         // A ring around the vertex, no four points on a circle; two segments behind which it is not seen.
-        let mut dice = Dice::new(degree);
+        let mut rng = Rng::new(degree);
         let mut points: Vec<Point> = (0..degree)
             .map(|k| {
                 let angle = std::f64::consts::TAU * k as f64 / degree as f64;
-                Point::ORIGIN + crate::geometry::direction(angle) * dice.between(1.0, 1.01)
+                Point::ORIGIN + crate::geometry::direction(angle) * rng.between(1.0, 1.01)
             })
             .collect();
         points.extend([Point::new(-9.0, -7.0), Point::new(8.0, -6.0), Point::new(1.0, 11.0)]);
@@ -250,11 +250,11 @@ fn a_line_of_sight_ends_at_the_nearest_segment() {
     let (mut free, mut blocked) = (0, 0);
     for (seed, scene) in scenes() {
         let built = scene.build();
-        let mut dice = Dice::new(1000 + seed);
+        let mut rng = Rng::new(1000 + seed);
         for t in built.topology().triangles() {
             let [a, b, c] = built.topology().corners(t).map(|v| built.point(v));
             let from = a + ((b - a) + (c - a)) / 3.0;
-            let to = Point::new(dice.between(0.2, 0.8), dice.between(0.2, 0.8));
+            let to = Point::new(rng.between(0.2, 0.8), rng.between(0.2, 0.8));
             let share = |s: &[usize; 2]| {
                 let [x, y] = s.map(|v| scene.points[v]);
                 (x - from).cross(y - x) / (to - from).cross(y - x)

@@ -2,7 +2,7 @@
 
 use super::parameters::radius_edge_of;
 use crate::geometry::boxes::BoxHierarchy;
-use crate::geometry::dice::Dice;
+use crate::geometry::rng::Rng;
 use crate::geometry::{Point, Rect, direction};
 use std::f64::consts::TAU;
 
@@ -232,12 +232,12 @@ impl SteinerStrategy for Extreme {
 
 /// Anywhere in the region, by seeded chance (experiment 2).
 #[derive(Clone, Debug)]
-pub struct Random(Dice);
+pub struct Random(Rng);
 
 impl Random {
     /// The strategy with a seed: equal seeds choose equal points in equal runs.
     pub fn new(seed: u64) -> Self {
-        Self(Dice::new(seed))
+        Self(Rng::new(seed))
     }
 }
 

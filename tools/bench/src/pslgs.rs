@@ -3,8 +3,8 @@
 use squinch::curve::Curve;
 use squinch::domain::{ArrangeOptions, Drawing, FillRule};
 use squinch::geometry::Point;
-use squinch::geometry::dice::Dice;
 use squinch::geometry::exact::{Orientation, orient};
+use squinch::geometry::rng::Rng;
 use squinch::plane::gcdr::steiner::{Center, Extreme, Optimal, Random};
 use squinch::plane::gcdr::{self, Options, Regions, SteinerStrategy};
 use squinch::refine::{StopReason, Until};
@@ -62,13 +62,13 @@ fn refined(drawing: &Drawing, degrees: f64, strategy: &str, seed: u64) -> Result
 
 /// Up to thirty segments between up to thirty points in a box, of which no two cross, or meet at less than an angle.
 fn random(seed: u64, least_deg: f64) -> Drawing {
-    let mut dice = Dice::new(seed);
-    let n = 3 + dice.below(28);
-    let mut points: Vec<Point> = (0..n).map(|_| Point::new(dice.between(-0.9, 0.9), dice.between(-0.9, 0.9))).collect();
+    let mut rng = Rng::new(seed);
+    let n = 3 + rng.below(28);
+    let mut points: Vec<Point> = (0..n).map(|_| Point::new(rng.between(-0.9, 0.9), rng.between(-0.9, 0.9))).collect();
     points.extend([(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|(x, y)| Point::new(x, y)));
     let mut segments: Vec<[usize; 2]> = (0..4).map(|k| [n + k, n + (k + 1) % 4]).collect();
     for _ in 0..2 * n {
-        let new = [dice.below(n), dice.below(n)];
+        let new = [rng.below(n), rng.below(n)];
         if new[0] != new[1] && segments.iter().all(|&old| agree(&points, old, new, least_deg)) {
             segments.push(new);
         }

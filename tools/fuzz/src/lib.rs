@@ -220,7 +220,7 @@ fn check_outcome(outcome: &Outcome, request: &Request) {
         let curve = &domain.curves()[link.curve];
         let kept = |side: usize| f64::from(u8::from(curve.sides[side].is_some()));
         let part = curve.curve.part(link.t[0], link.t[1]);
-        let between = part.green(part.start());
+        let between = part.signed_area(part.start());
         area += (kept(0) - kept(1)) * between;
         gross += between.abs();
         border += part.start().distance(part.end());

@@ -2,9 +2,9 @@
 
 /// A sequence of numbers that depends on its seed alone (SplitMix64, Steele, Lea & Flood 2014).
 #[derive(Clone, Debug)]
-pub struct Dice(u64);
+pub struct Rng(u64);
 
-impl Dice {
+impl Rng {
     /// The sequence of a seed: equal seeds give equal numbers on every machine.
     pub fn new(seed: u64) -> Self {
         Self(seed)
