@@ -72,9 +72,10 @@ impl Network<'_> {
             if found.cuts.len() > most {
                 return Err(too_many_cuts(most, self.pieces[a].bounds.center()).into());
             }
-            match (&self.pieces[a].curve, &self.pieces[b].curve) {
-                (Curve::Line(_), Curve::Line(_)) => self.cross_lines(a, b, &mut found),
-                _ => self.meet_curves(a, b, &mut found)?,
+            if [a, b].iter().all(|&id| self.pieces[id].curve.as_line().is_some()) {
+                self.cross_lines(a, b, &mut found);
+            } else {
+                self.meet_curves(a, b, &mut found)?;
             }
         }
         // New nodes are looked at in the next round, when pieces end at them.
