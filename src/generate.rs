@@ -1,8 +1,8 @@
 //! Seeded hard inputs: complexes of curves that meet at every angle down to zero.
 //!
-//! A complex is a grid of cells in a frame; each cell holds one *motif*, turned and sized at random, so that nothing crosses by accident.
-//! Curves that share a tangent at a point differ there in curvature by at least 0.1 / radius: below it, the separation σ of the pair
-//! asks for more vertices than a test can hold.
+//! A complex is a grid of cells in a frame; each cell holds one *motif*, turned and sized at random, so that nothing
+//! crosses by accident. Curves that share a tangent at a point differ there in curvature by at least 0.1 / radius:
+//! below it, the separation σ of the pair asks for more vertices than a test can hold.
 
 pub mod known;
 

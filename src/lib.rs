@@ -1,7 +1,8 @@
 //! squinch: provably good triangle meshes of domains with curved boundaries.
 //!
-//! Curves stay curves: lines, arcs, Béziers, splines and clothoids are split to a bounded turning and meshed by corner-lopping Delaunay refinement
-//! (Pav & Walkington 2005), which ends whatever angles they meet at. An independent judge then checks the mesh against the curves.
+//! Curves stay curves: lines, arcs, Béziers, splines and clothoids are split to a bounded turning and meshed by
+//! corner-lopping Delaunay refinement (Pav & Walkington 2005), which ends whatever angles they meet at. An independent
+//! judge then checks the mesh against the curves.
 //!
 //! ```
 //! use squinch::plane::lopping::{Options, refine};
@@ -33,6 +34,7 @@
 pub mod cad;
 pub mod curve;
 pub mod domain;
+mod formats;
 pub mod generate;
 pub mod geometry;
 pub mod ids;

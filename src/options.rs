@@ -1,7 +1,8 @@
 //! What an option is: a field of the options of the room that it is for, written once.
 //!
-//! The field's name in kebab-case is its key, on the command line, in a `--config` file and in a case file alike. Its doc comment is its
-//! help, the default of its struct is its default, and `#[schemars(extend(…))]` says what no type can:
+//! The field's name in kebab-case is its key, on the command line, in a `--config` file and in a case file alike. Its
+//! doc comment is its help, the default of its struct is its default, and `#[schemars(extend(…))]` says what no type
+//! can:
 //!
 //! | attribute | says |
 //! |---|---|
@@ -141,7 +142,8 @@ impl Kind {
     }
 }
 
-/// The words of a choice, from the schema of its enum: in their order where each has a doc comment, else those without one first.
+/// The words of a choice, from the schema of its enum: in their order where each has a doc comment, else those without
+/// one first.
 fn words(field: &Value) -> Option<Vec<(String, Option<String>)>> {
     let word = |choice: &Value, help: Option<String>| {
         let list = choice["enum"].as_array().into_iter().flatten();
@@ -226,7 +228,8 @@ impl From<String> for Scalar {
     }
 }
 
-/// Lets types that are written as text (`FromStr`, `Display`) stand in a file as a [`Scalar`]: for `#[serde(try_from, into)]`.
+/// Lets types that are written as text (`FromStr`, `Display`) stand in a file as a [`Scalar`]: for
+/// `#[serde(try_from, into)]`.
 macro_rules! scalar {
     ($($name:ident),*) => {$(
         impl TryFrom<$crate::options::Scalar> for $name {

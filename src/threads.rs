@@ -1,7 +1,8 @@
-//! Work on several threads; one after the other without the feature `parallel`. What comes of it is the same either way.
+//! Work on several threads; one after the other without the feature `parallel`. What comes of it is the same either
+//! way.
 //!
-//! The threads are a pool of squinch's own, made at its first use: a process that forks after that has none of them in its child, which makes
-//! a pool of its own then.
+//! The threads are a pool of squinch's own, made at its first use: a process that forks after that has none of them in
+//! its child, which makes a pool of its own then.
 
 #[cfg(feature = "parallel")]
 pub use pooled::{count, for_each, join, map, set_count};
@@ -26,7 +27,8 @@ mod pooled {
         pool: Arc<ThreadPool>,
     }
 
-    /// Sets how many threads there are, before any work: the pool that is made first keeps its size. 0: as many as cores.
+    /// Sets how many threads there are, before any work: the pool that is made first keeps its size. 0: as many as
+    /// cores.
     pub fn set_count(threads: usize) {
         COUNT.store(threads, Ordering::Relaxed);
     }

@@ -1,6 +1,7 @@
 //! What long work tells and asks between its steps: how far it has come, and whether to go on.
 //!
-//! The library has no clock. Whoever calls it may have one ([`Clock`]), or a count that must not be passed: then the watch says stop.
+//! The library has no clock. Whoever calls it may have one ([`Clock`]), or a count that must not be passed: then the
+//! watch says stop.
 
 /// Asked between the steps of long work, a few microseconds to a few milliseconds apart; `false` ends the work.
 pub type Watch<'a> = dyn FnMut(&Progress) -> bool + 'a;

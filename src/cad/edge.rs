@@ -166,7 +166,8 @@ impl Edge {
     }
 }
 
-/// Ends the first and the last of some curves at the vertices, bit for bit, and those between where the one before ends.
+/// Ends the first and the last of some curves at the vertices, bit for bit, and those between where the one before
+/// ends.
 fn meet_ends(curves: &mut [Curve], ends: [Point; 2]) {
     let last = curves.len().saturating_sub(1);
     let mut from = ends[0];
@@ -252,7 +253,8 @@ impl Conic {
         (d.cross(self.v) / area, self.u.cross(d) / area)
     }
 
-    /// The largest height over a part, from seventeen places of it: the height is a smooth function without bends between them.
+    /// The largest height over a part, from seventeen places of it: the height is a smooth function without bends
+    /// between them.
     fn off_plane(&self, at: impl Fn(f64) -> (f64, f64)) -> f64 {
         let [center, u, v] = self.heights;
         let height = |i: u8| {

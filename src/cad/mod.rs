@@ -1,6 +1,7 @@
 //! Planar faces of solids → [`Drawing`]: curves in space are laid into the plane of the face, each in its own kind.
 //!
-//! `truck.rs` brings the faces of truck's solids, `import/step.rs` those of STEP files. Curved faces and solids are later work.
+//! `truck.rs` brings the faces of truck's solids, `import/step.rs` those of STEP files. Curved faces and solids are
+//! later work.
 
 mod edge;
 pub mod truck;
@@ -11,8 +12,9 @@ use crate::curve::Curve;
 use crate::domain::{Drawing, DrawnCurve, FillRule, Shape};
 use crate::geometry::{Frame, Point, Rect, bounds_of};
 
-/// How far, as a share of the face's diagonal, an edge may leave the plane or miss its vertices, where the file does not ask for
-/// more: what modellers with six digits write. It is also the widest gap that [`Drawing::arrange`] closes unasked.
+/// How far, as a share of the face's diagonal, an edge may leave the plane or miss its vertices, where the file does
+/// not ask for more: what modellers with six digits write. It is also the widest gap that [`Drawing::arrange`] closes
+/// unasked.
 const SLACK: f64 = 1e-6;
 /// From this share of the diagonal on, what was projected is told.
 const ROUNDING: f64 = 1e-9;
@@ -124,8 +126,8 @@ impl Face {
 }
 
 impl FlatFace {
-    /// Fills in the diagonal and the area: that of the largest loop less the others', whatever the file says of which is the outer
-    /// one and which way it runs.
+    /// Fills in the diagonal and the area: that of the largest loop less the others', whatever the file says of which
+    /// is the outer one and which way it runs.
     fn measure(&mut self) {
         let boxes = self.loops.iter().flatten().map(|(curve, _)| curve.bounds());
         let Some(bounds) = boxes.reduce(|a, b| a.union(b)) else { return };

@@ -132,7 +132,8 @@ impl Batch {
         let desk = Desk::new(record, &earlier, jobs.len(), volume);
         let next = AtomicUsize::new(0);
         let work = || {
-            // Each thread takes the next input. Not tasks of the pool: a task that waits may take up another there, and its time with it.
+            // Each thread takes the next input. Not tasks of the pool: a task that waits may take up another there, and
+            // its time with it.
             while let Some((k, job)) = Some(next.fetch_add(1, Ordering::Relaxed)).and_then(|k| Some((k, jobs.get(k)?)))
             {
                 let line = match desk.begin(&job.shown()) {
@@ -241,8 +242,8 @@ fn unwritable(path: &Path, error: &io::Error) -> Halt {
     Halt::Unwritable(format!("{}: {error}", path.display()))
 }
 
-/// The inputs in the order given, folders unfolded in the order of names, each with a name of its own for its outputs: that of the file
-/// without its suffix, below the folders that it came through; with it where two would be the same.
+/// The inputs in the order given, folders unfolded in the order of names, each with a name of its own for its outputs:
+/// that of the file without its suffix, below the folders that it came through; with it where two would be the same.
 fn jobs(inputs: &[PathBuf]) -> Result<Vec<Job>, Halt> {
     let mut files: Vec<(PathBuf, PathBuf)> = Vec::new();
     for input in inputs {
@@ -290,8 +291,8 @@ fn drawings_in(folder: &Path) -> io::Result<Vec<PathBuf>> {
     Ok(found)
 }
 
-/// Whether a file of a folder is taken for a drawing, by its suffix: not texts, which are mostly about the others, nor vertices, which
-/// belong to a `.poly`.
+/// Whether a file of a folder is taken for a drawing, by its suffix: not texts, which are mostly about the others, nor
+/// vertices, which belong to a `.poly`.
 fn is_drawing(path: &Path) -> bool {
     let is_text = path.extension().is_some_and(|suffix| suffix.eq_ignore_ascii_case("txt"));
     import::format_of(path).is_some_and(|format| format != import::Format::Node) && !is_text

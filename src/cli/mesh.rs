@@ -35,12 +35,12 @@ pub struct Mesh {
     /// A drawing: .svg, .dxf, .step, airfoil .dat, .poly, .node, outline .json; - for standard input
     #[arg(value_name = "IN")]
     input: PathBuf,
-    /// Where the mesh goes: .vtu, .vtk, .msh, .su2, .inp, .xdmf, .node/.ele/.poly, .glb, .gltf, .obj, .stl; a picture: .svg, .png; - for
-    /// standard output; may be repeated
+    /// Where the mesh goes: .vtu, .vtk, .msh, .su2, .inp, .xdmf, .node/.ele/.poly, .glb, .gltf, .obj, .stl; a picture:
+    /// .svg, .png; - for standard output; may be repeated
     #[arg(short, long, value_name = "OUT", required = true, help_heading = "Output")]
     output: Vec<PathBuf>,
-    /// Formats of the outputs, in their order, where the suffix is not to tell (msh22 is Gmsh 2.2; vtk-text is VTK as text; triangle is
-    /// .node/.ele/.poly)
+    /// Formats of the outputs, in their order, where the suffix is not to tell (msh22 is Gmsh 2.2; vtk-text is VTK as
+    /// text; triangle is .node/.ele/.poly)
     #[arg(long, value_parser = Output::named, value_name = "FORMAT", value_delimiter = ',', help_heading = "Output")]
     format: Vec<Output>,
     /// The report as JSON; - for standard output

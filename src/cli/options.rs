@@ -1,6 +1,7 @@
 //! The options of a run, on the command line and in a `--config` file alike; the command line wins.
 //!
-//! Both are made of the options that a [`Request`] gathers ([`squinch::options`]): what is added there is an option here.
+//! Both are made of the options that a [`Request`] gathers ([`squinch::options`]): what is added there is an option
+//! here.
 
 use super::Halt;
 use super::say;
@@ -44,9 +45,7 @@ struct Manner {
 
 impl Args for Options {
     fn augment_args(command: Command) -> Command {
-        let mut options: Vec<&Described> = Request::options().iter().collect();
-        options.sort_by_key(|option| option.group);
-        Manner::augment_args(command).args(options.into_iter().map(argument))
+        Manner::augment_args(command).args(Request::options_in_groups().into_iter().map(argument))
     }
 
     fn augment_args_for_update(command: Command) -> Command {
@@ -169,16 +168,17 @@ impl Options {
     }
 }
 
-/// Puts the sizes of a file in the place of its name, so that a recorded run holds them.
+/// Puts the sizes of a file, or an expression, in the place of its text: a recorded run holds the sizes themselves.
 fn read_sizes(asked: &mut Table) -> Result<(), Halt> {
-    let Some(Value::String(path)) = asked.get("size").filter(|v| v.as_str().is_some_and(|s| Path::new(s).is_file()))
-    else {
-        return Ok(());
+    let Some(Value::String(given)) = asked.get("size") else { return Ok(()) };
+    let wrong = |e: String| Halt::Usage(format!("--size {given}: {e}"));
+    let sizes: Given = if Path::new(given).is_file() {
+        let text = std::fs::read_to_string(given).map_err(|e| wrong(e.to_string()))?;
+        Given::read_samples(&text).map_err(wrong)?
+    } else {
+        given.parse().map_err(wrong)?
     };
-    let wrong = |e: String| Halt::Usage(format!("--size {path}: {e}"));
-    let text = std::fs::read_to_string(path).map_err(|e| wrong(e.to_string()))?;
-    let sizes = Value::try_from(Given::read_samples(&text).map_err(wrong)?).map_err(usage)?;
-    asked.insert("size".into(), sizes);
+    asked.insert("size".into(), Value::try_from(sizes).map_err(usage)?);
     Ok(())
 }
 
@@ -245,7 +245,7 @@ impl Options {
             "input-format" => self.manner.input_format = Manner::deserialize(entry).map_err(wrong)?.input_format,
             _ => {
                 let option = Request::options().iter().find(|option| option.key == key);
-                let option = option.ok_or_else(|| (format!("unknown option `{key}`"), key_place))?;
+                let option = option.ok_or_else(|| (unknown(&key), key_place))?;
                 let is_text = option.file && value.is_str();
                 if !is_text {
                     Request::deserialize(entry).map_err(wrong)?;
@@ -255,6 +255,13 @@ impl Options {
         }
         Ok(())
     }
+}
+
+/// Says that there is no such option, and which one is the most alike.
+fn unknown(key: &str) -> String {
+    let likeness = |option: &&Described| strsim::jaro_winkler(&option.key, key);
+    let near = Request::options().iter().max_by(|a, b| likeness(a).total_cmp(&likeness(b)));
+    near.map_or_else(String::new, |near| format!("unknown option `{key}`; the nearest is `{}`", near.key))
 }
 
 #[cfg(test)]
@@ -282,6 +289,14 @@ mod tests {
         // A request has no key that is no option.
         let written = toml::Table::try_from(Request::default()).unwrap();
         assert!(written.keys().all(|key| given.contains(key.as_str())), "{written:?}");
+    }
+
+    #[test]
+    fn what_is_no_option_is_told_with_the_nearest_one() {
+        assert_eq!(unknown("max-trning"), "unknown option `max-trning`; the nearest is `max-turning`");
+        let line = Line::parse_from(["x", "--size", "x +"]);
+        let Err(Halt::Usage(why)) = line.options.resolve() else { panic!("no expression") };
+        assert!(why.starts_with("--size x +: "), "{why}");
     }
 
     #[test]

@@ -1,4 +1,5 @@
-//! What an output is: a mesh file or a picture of the mesh, by which name it is asked for, and the files that it consists of.
+//! What an output is: a mesh file or a picture of the mesh, by which name it is asked for, and the files that it
+//! consists of.
 
 use super::Halt;
 use squinch::meshio;
@@ -63,8 +64,8 @@ impl Output {
         Ok(output)
     }
 
-    /// The files that an output consists of: the one named, or of a format of several those beside it. Where the first keeps the name that was
-    /// given, there is nothing beside it without a [`stem`].
+    /// The files that an output consists of: the one named, or of a format of several those beside it. Where the first
+    /// keeps the name that was given, there is nothing beside it without a [`stem`].
     pub fn files(self, path: &Path) -> Vec<PathBuf> {
         let several = self.suffixes();
         let as_named = match self {
@@ -99,7 +100,8 @@ impl Output {
     }
 }
 
-/// The name without suffix by which files beside an output call it; `None` of a stream, and of a name that no text can hold.
+/// The name without suffix by which files beside an output call it; `None` of a stream, and of a name that no text can
+/// hold.
 pub fn stem(path: &Path) -> Option<String> {
     let is_stream =
         path.as_os_str() == "-" || fs::metadata(path).is_ok_and(|there| !there.is_file() && !there.is_dir());

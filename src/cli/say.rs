@@ -21,8 +21,9 @@ pub fn line(text: &str) {
     let _ = writeln!(io::stderr(), "{}", harmless(text));
 }
 
-/// A text as one line for people, whatever bytes of a file are in it: control characters, which could steer a terminal, are written by
-/// their numbers, and the middle of a text longer than anybody reads is left out. The door of all that people read; [`Ink`] goes through.
+/// A text as one line for people, whatever bytes of a file are in it: control characters, which could steer a terminal,
+/// are written by their numbers, and the middle of a text longer than anybody reads is left out. The door of all that
+/// people read; [`Ink`] goes through.
 pub fn harmless(text: &str) -> String {
     const HEAD: usize = 3000;
     const TAIL: usize = 500;
@@ -129,8 +130,8 @@ pub fn pointing(what: &str, advice: Option<&str>, path: &str, text: &str, span: 
     let _ = writeln!(io::stderr(), "{report:?}");
 }
 
-/// The line of a span and its neighbours, harmless and cut to what fits beside each other, below as many empty lines as stand before
-/// them; and where the span is in that.
+/// The line of a span and its neighbours, harmless and cut to what fits beside each other, below as many empty lines as
+/// stand before them; and where the span is in that.
 fn excerpt(text: &str, span: Range<usize>) -> (String, Range<usize>) {
     /// Characters shown of a line before the span, and from it on.
     const BEFORE: usize = 60;
@@ -177,7 +178,8 @@ impl Ink {
         Self(io::stdout().is_terminal() && std::env::var_os("NO_COLOR").is_none())
     }
 
-    /// What [`harmless`] makes of the characters that stand for colours until then: of no text's own, and no text can steer by them.
+    /// What [`harmless`] makes of the characters that stand for colours until then: of no text's own, and no text can
+    /// steer by them.
     fn code(c: char) -> Option<&'static str> {
         match c {
             '\u{fdd0}' => Some("\x1b[0m"),

@@ -68,9 +68,9 @@ impl CircularArc {
         Ok(CircularArc { center, radius, start_rad, sweep_rad, ends: [start, end] })
     }
 
-    /// Whether the ends lie off the circle by more than rounding explains, as an arc of more than half a circle is left where its ends
-    /// were moved ([`Curve::with_ends`](super::Curve::with_ends)): the rest of it winds from one to the other. Its parts of up to half
-    /// a circle are arcs of circles of their own.
+    /// Whether the ends lie off the circle by more than rounding explains, as an arc of more than half a circle is left
+    /// where its ends were moved ([`Curve::with_ends`](super::Curve::with_ends)): the rest of it winds from one to the
+    /// other. Its parts of up to half a circle are arcs of circles of their own.
     pub(crate) fn is_spiral(&self) -> bool {
         let slack = 64.0 * f64::EPSILON * (self.center.x.abs() + self.center.y.abs() + self.radius);
         let angles = [self.start_rad, self.start_rad + self.sweep_rad];
@@ -98,8 +98,8 @@ impl CircularArc {
         on_circle(self.start_rad + self.sweep_rad * t).1 * 1f64.copysign(self.sweep_rad)
     }
 
-    /// Candidates for the nearest point: the two where the circle's normal passes through p, by their angles from the start, which
-    /// keep their digits however flat the arc is.
+    /// Candidates for the nearest point: the two where the circle's normal passes through p, by their angles from the
+    /// start, which keep their digits however flat the arc is.
     fn normals_through(&self, p: Point, t0: f64, t1: f64) -> Vec<f64> {
         let outward = on_circle(self.start_rad).0;
         let offset = p - self.ends[0];
@@ -107,8 +107,8 @@ impl CircularArc {
         passages(0.0, self.sweep_rad, angle, PI, t0, t1)
     }
 
-    /// Where the line meets the circle: with u = tan(φ/2) of the angle φ from the start, h the distance of the start from the line
-    /// and n the line's unit normal, (h/R − 2 n·e) u² + 2 (n·e⊥) u + h/R = 0.
+    /// Where the line meets the circle: with u = tan(φ/2) of the angle φ from the start, h the distance of the start
+    /// from the line and n the line's unit normal, (h/R − 2 n·e) u² + 2 (n·e⊥) u + h/R = 0.
     fn circle_crossings(&self, a: Point, direction: Vec2, t0: f64, t1: f64) -> Vec<f64> {
         let normal = Vec2::new(-direction.y, direction.x) / length(direction);
         let (outward, along) = on_circle(self.start_rad);
@@ -142,8 +142,8 @@ impl Kind for CircularArc {
     fn ends(&self) -> [Point; 2] {
         self.ends
     }
-    /// Up to half a circle the point comes from the chord and the sweep alone, so it is as exact as the ends however far away the
-    /// center of a flat arc is; beyond that the ends' rounding is spread along the arc.
+    /// Up to half a circle the point comes from the chord and the sweep alone, so it is as exact as the ends however
+    /// far away the center of a flat arc is; beyond that the ends' rounding is spread along the arc.
     fn inner_point(&self, t: f64) -> Point {
         let [start, end] = self.ends;
         let half = 0.5 * self.sweep_rad;

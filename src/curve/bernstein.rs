@@ -1,7 +1,7 @@
 //! Polynomials in Bernstein form over [0, 1]: values, products, subdivision, and sign changes by Descartes' rule.
 //!
-//! The number of sign variations of the coefficients bounds the number of roots and has its parity (Lane & Riesenfeld 1981), so
-//! halving until a piece has none or one isolates every sign change, for any degree.
+//! The number of sign variations of the coefficients bounds the number of roots and has its parity (Lane & Riesenfeld
+//! 1981), so halving until a piece has none or one isolates every sign change, for any degree.
 
 use crate::geometry::Vec2;
 use std::borrow::Cow;
@@ -50,7 +50,8 @@ fn lerp<T: Coefficient>(a: T, b: T, t: f64) -> T {
     a * (1.0 - t) + b * t
 }
 
-/// Value at t of the polynomial with `count` ≥ 1 coefficients: by de Casteljau's algorithm, or, where there are many, in linear time.
+/// Value at t of the polynomial with `count` ≥ 1 coefficients: by de Casteljau's algorithm, or, where there are many,
+/// in linear time.
 pub(super) fn value_by<T: Coefficient>(count: usize, coefficient: impl Fn(usize) -> T, t: f64) -> T {
     if count <= SMALL {
         let mut b = [coefficient(0); SMALL];
@@ -63,8 +64,9 @@ pub(super) fn value_by<T: Coefficient>(count: usize, coefficient: impl Fn(usize)
     }
 }
 
-/// Value at t as the mean of the coefficients, weighted by the Bernstein polynomials of degree n. Their ratios are followed both ways from
-/// the greatest: the weights are at most 1 and each is right to 3n roundings, as in de Casteljau's algorithm, for n steps instead of n²/2.
+/// Value at t as the mean of the coefficients, weighted by the Bernstein polynomials of degree n. Their ratios are
+/// followed both ways from the greatest: the weights are at most 1 and each is right to 3n roundings, as in de
+/// Casteljau's algorithm, for n steps instead of n²/2.
 fn mean_from_mode<T: Coefficient>(n: usize, coefficient: impl Fn(usize) -> T, t: f64) -> T {
     let mode = (((n + 1) as f64 * t) as usize).min(n);
     let (mut sum, mut total) = (coefficient(mode), 1.0);
@@ -138,8 +140,8 @@ pub(super) fn product<A: Copy, B: Copy, C: Coefficient>(a: &[A], b: &[B], times:
         .collect()
 }
 
-/// [`product`] where the binomial coefficients are many and large: they are scaled by powers of two about their middle size, and the sums
-/// run side by side.
+/// [`product`] where the binomial coefficients are many and large: they are scaled by powers of two about their middle
+/// size, and the sums run side by side.
 fn long_product<A: Copy, B: Copy, C: Coefficient>(a: &[A], b: &[B], times: impl Fn(A, B) -> C) -> Vec<C> {
     let (n, m) = (a.len() - 1, b.len() - 1);
     let [scale_a, scale_b] = [n, m].map(|n| libm::exp2(-((n / 2) as f64)));
@@ -196,7 +198,8 @@ pub(super) fn variations(c: &[f64], noise: f64) -> Option<(bool, bool, usize)> {
     Some((first, last, count))
 }
 
-/// Where the polynomial changes sign in [0, 1], ascending; values within `noise` of zero have no sign. A double root is no change.
+/// Where the polynomial changes sign in [0, 1], ascending; values within `noise` of zero have no sign. A double root is
+/// no change.
 pub(super) fn sign_changes(c: &[f64], noise: f64) -> Vec<SignChange> {
     /// Halvings after which a piece holds no parameter between its ends but rounding.
     const DEPTH: u32 = 52;
@@ -237,7 +240,8 @@ pub(super) fn roots(c: &[f64], noise: f64) -> Vec<f64> {
     found
 }
 
-/// The root of `f` in an interval over which it changes sign: Chandrupatla's method (1997), a bisection that is quick where it can be.
+/// The root of `f` in an interval over which it changes sign: Chandrupatla's method (1997), a bisection that is quick
+/// where it can be.
 pub(super) fn crossing(f: impl Fn(f64) -> f64, change: &SignChange) -> f64 {
     /// Bisection alone needs 1075 − 52 halvings at worst to reach the last bit next to zero; 200 reach 1e-60.
     const BUDGET: usize = 200;

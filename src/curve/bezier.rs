@@ -16,7 +16,8 @@ use std::borrow::Cow;
 const DEGREE_MAX: usize = 300;
 
 impl Bezier {
-    /// Whether all control points, and so the curve, lie on one side of the line through `a` along `direction`, clear of rounding.
+    /// Whether all control points, and so the curve, lie on one side of the line through `a` along `direction`, clear
+    /// of rounding.
     pub(super) fn is_beside_line(&self, a: Point, direction: Vec2) -> bool {
         let farthest = self.points.iter().map(|p| (*p - a).hypot()).fold(0.0, f64::max);
         let clear = 64.0 * f64::EPSILON * farthest * direction.hypot();
@@ -78,8 +79,8 @@ impl Bezier {
         }
     }
 
-    /// Coefficients of a polynomial vector in the direction of the derivative: the derivative over the degree n, or that times the
-    /// squared denominator, (W N′ − N W′)/n = Σ wᵢ wⱼ₊₁ (Pⱼ₊₁ − Pᵢ) over the products of degree n − 1.
+    /// Coefficients of a polynomial vector in the direction of the derivative: the derivative over the degree n, or
+    /// that times the squared denominator, (W N′ − N W′)/n = Σ wᵢ wⱼ₊₁ (Pⱼ₊₁ − Pᵢ) over the products of degree n − 1.
     pub(super) fn hodograph(&self) -> Vec<Vec2> {
         let p = &self.points;
         let Some(w) = &self.weights else {

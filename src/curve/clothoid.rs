@@ -1,5 +1,5 @@
-//! The clothoid, or Euler spiral: the curve whose curvature changes evenly along it. Rails, roads, turbine blades and wings join lines and
-//! circles by it.
+//! The clothoid, or Euler spiral: the curve whose curvature changes evenly along it. Rails, roads, turbine blades and
+//! wings join lines and circles by it.
 //!
 //! ```text
 //!                              κ₁          t is the share of the length L; the curvature is κ(t) = κ₀ + (κ₁ − κ₀)t, so that
@@ -10,10 +10,11 @@
 //!       θ₀                                 Every piece turns a third of a radian at most, and is a Bézier of degree 11.
 //! ```
 //!
-//! It is no rational curve: the integral is Fresnel's. It is kept with a chain of Bézier pieces, made once: each has the clothoid's point and
-//! first five derivatives at both ends (two-point Hermite interpolation), and the points where pieces join come of Gauss–Legendre quadrature.
-//! A piece is off by |P⁽¹²⁾|/12! · 2⁻¹² at most, which is below rounding, so [`Kind::inner_point`] is the chain's, and all questions that go
-//! span by span are right to rounding. Heading, curvature, turning, inflection and length are closed forms.
+//! It is no rational curve: the integral is Fresnel's. It is kept with a chain of Bézier pieces, made once: each has
+//! the clothoid's point and first five derivatives at both ends (two-point Hermite interpolation), and the points where
+//! pieces join come of Gauss–Legendre quadrature. A piece is off by |P⁽¹²⁾|/12! · 2⁻¹² at most, which is below
+//! rounding, so [`Kind::inner_point`] is the chain's, and all questions that go span by span are right to rounding.
+//! Heading, curvature, turning, inflection and length are closed forms.
 
 use super::kind::Kind;
 use super::span::Span;
@@ -132,8 +133,8 @@ impl Shape {
         GAUSS_LEGENDRE_COEFFS_8.iter().map(at).fold(Vec2::ZERO, |sum, v| sum + v) * half
     }
 
-    /// The control points of a piece next to its end at t, seen from there: the first six where `step` is its length, and the last six,
-    /// from the last on, where it is that less than 0.
+    /// The control points of a piece next to its end at t, seen from there: the first six where `step` is its length,
+    /// and the last six, from the last on, where it is that less than 0.
     ///
     /// Of the tangent E the derivatives are E′ = iκE, and so on by Leibniz's rule: E⁽ᵐ⁺¹⁾ = i(κE⁽ᵐ⁾ + mκ′E⁽ᵐ⁻¹⁾).
     fn controls(&self, t: f64, step: f64) -> [Vec2; CONDITIONS] {
@@ -186,7 +187,8 @@ impl Clothoid {
         Ok(made)
     }
 
-    /// The clothoid with its chain; without `end` it ends where it runs to. What `end` is off by, some roundings, is spread along it.
+    /// The clothoid with its chain; without `end` it ends where it runs to. What `end` is off by, some roundings, is
+    /// spread along it.
     fn made(start: Point, heading_rad: f64, curvatures: [f64; 2], length: f64, end: Option<Point>) -> Self {
         let shape = shape_of(curvatures, length);
         let count = shape.piece_count();
@@ -253,7 +255,8 @@ fn shape_of([start, end]: [f64; 2], length: f64) -> Shape {
     Shape { start: start * length, change: (end - start) * length }
 }
 
-/// The points of the shape at the knots; sums with the rounding of each carried on, so that many pieces do not add up theirs.
+/// The points of the shape at the knots; sums with the rounding of each carried on, so that many pieces do not add up
+/// theirs.
 fn joints_of(shape: &Shape, knots: &[f64]) -> Vec<Vec2> {
     let (mut sum, mut lost) = (Vec2::ZERO, Vec2::ZERO);
     let mut joints = vec![sum];
@@ -294,7 +297,8 @@ impl Kind for Clothoid {
     fn control_count(&self) -> usize {
         self.chain.control_count()
     }
-    /// Its circles of curvature lie in each other, so that it does not cross itself (Kneser); where its curvature hardly changes, it may come back to within a tolerance.
+    /// Its circles of curvature lie in each other, so that it does not cross itself (Kneser); where its curvature
+    /// hardly changes, it may come back to within a tolerance.
     fn may_meet_itself(&self) -> bool {
         self.turning(0.0, 1.0) > PI
     }

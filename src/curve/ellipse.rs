@@ -200,8 +200,8 @@ pub(super) fn widens(arc: &impl Kind, cone: &mut Cone, end: End) -> bool {
     arc.turning(0.0, 1.0) < PI && cone.widen(direction, chord)
 }
 
-/// See [`Kind::each_of_hull`]: half a circle or less lies in the rectangle on its chord that its middle reaches; an ellipse is its affine
-/// image.
+/// See [`Kind::each_of_hull`]: half a circle or less lies in the rectangle on its chord that its middle reaches; an
+/// ellipse is its affine image.
 pub(super) fn each_of_hull(arc: &impl Kind, take: &mut dyn FnMut(Point)) -> bool {
     if arc.turning(0.0, 1.0) > PI {
         return false;

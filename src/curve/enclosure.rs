@@ -16,7 +16,8 @@ pub struct Cone {
 }
 
 impl Curve {
-    /// A cone with its apex at an end that holds the curve, up to rounding; `None` where none is at hand that is narrower than a half plane.
+    /// A cone with its apex at an end that holds the curve, up to rounding; `None` where none is at hand that is
+    /// narrower than a half plane.
     pub fn cone_from(&self, end: End) -> Option<Cone> {
         let (apex, other) = match end {
             End::Start => (self.start(), self.end()),

@@ -1,17 +1,18 @@
 //! What every kind of curve answers: one private trait, one implementation a file.
 //!
-//! A kind says what only it knows: its ends, points and derivatives, its Bézier pieces ([`Kind::spans`]), and its images. Every other
-//! question has an answer here that goes span by span; kinds that know a closed form (lines, arcs) give theirs instead. A kind that is no
-//! rational curve has no exact pieces: its own follow it to a few units in the last place of its coordinates and of [`Kind::reach`], and its
-//! points are theirs (`clothoid.rs` shows how: a chain of Hermite pieces, the drift of its end spread along it).
+//! A kind says what only it knows: its ends, points and derivatives, its Bézier pieces ([`Kind::spans`]), and its
+//! images. Every other question has an answer here that goes span by span; kinds that know a closed form (lines, arcs)
+//! give theirs instead. A kind that is no rational curve has no exact pieces: its own follow it to a few units in the
+//! last place of its coordinates and of [`Kind::reach`], and its points are theirs (`clothoid.rs` shows how: a chain of
+//! Hermite pieces, the drift of its end spread along it).
 //!
 //! ```text
 //!   Curve ──▶ &dyn Kind ──┬─▶ line.rs  arc.rs  ellipse.rs  bezier.rs  spline.rs  clothoid.rs     what only the kind knows
 //!   (mod.rs, one match)   └─▶ spans.rs  turning.rs                                               the rest, by its pieces
 //! ```
 //!
-//! *A new kind*: a file with its type and `impl Kind`, a variant of [`Curve`] and its arm in `Curve::as_kind`. The compiler then names each
-//! place outside of this folder that tells kinds apart.
+//! *A new kind*: a file with its type and `impl Kind`, a variant of [`Curve`] and its arm in `Curve::as_kind`. The
+//! compiler then names each place outside of this folder that tells kinds apart.
 
 use super::span::Span;
 use super::spans;
@@ -56,8 +57,8 @@ pub(super) trait Kind {
     fn as_ellipse(&self) -> Option<EllipticArc> {
         None
     }
-    /// The largest length that its points are computed from, where its coordinates do not show it; else 0. Points and pieces are good for a
-    /// few units in its last place.
+    /// The largest length that its points are computed from, where its coordinates do not show it; else 0. Points and
+    /// pieces are good for a few units in its last place.
     fn reach(&self) -> f64 {
         0.0
     }

@@ -1,23 +1,26 @@
 //! Where two curves meet, and where a curve meets itself.
 //!
-//! **Method.** Both curves become trees of ever smaller Bézier pieces ([`hull`]). Pairs of pieces are compared from the roots down;
-//! one is dropped where the boxes, or the strips along either chord, are further apart than the tolerance. A pair is solved
-//! * by Newton's method where both are slender and no direction is in both cones of tangents. Such pieces meet at most once, since
-//!   the chord between two meetings would have to lie in both cones; apart from the one crossing they come close only at ends;
-//! * at the ends of both where both are straight to within a quarter of the tolerance: their gap is then nearly linear, and
-//!   if it is within the tolerance anywhere, it is so at an end, or where their chords cross (at an angle the first case applies, unless
-//!   one has a bend far narrower than the tolerance).
+//! **Method.** Both curves become trees of ever smaller Bézier pieces ([`hull`]). Pairs of pieces are compared from the
+//! roots down; one is dropped where the boxes, or the strips along either chord, are further apart than the tolerance.
+//! A pair is solved
+//! * by Newton's method where both are slender and no direction is in both cones of tangents. Such pieces meet at most
+//!   once, since the chord between two meetings would have to lie in both cones; apart from the one crossing they come
+//!   close only at ends;
+//! * at the ends of both where both are straight to within a quarter of the tolerance: their gap is then nearly linear,
+//!   and if it is within the tolerance anywhere, it is so at an end, or where their chords cross (at an angle the first
+//!   case applies, unless one has a bend far narrower than the tolerance).
 //!
-//! Every other pair is halved at its longer piece. What is found is only a first guess: it is followed along both curves and so told
-//! from a shared stretch ([`contact`]), and pairs of pieces that lie beside a contact already followed are dropped. Two circles, or a
-//! line and a circle, are guessed in closed form instead ([`circles`]).
+//! Every other pair is halved at its longer piece. What is found is only a first guess: it is followed along both
+//! curves and so told from a shared stretch ([`contact`]), and pairs of pieces that lie beside a contact already
+//! followed are dropped. Two circles, or a line and a circle, are guessed in closed form instead ([`circles`]).
 //!
-//! **Invariant.** Whenever a pair is taken from the stack, every meeting of the curves is in a contact already followed, or within a
-//! pair on the stack, or within the pair in hand.
+//! **Invariant.** Whenever a pair is taken from the stack, every meeting of the curves is in a contact already
+//! followed, or within a pair on the stack, or within the pair in hand.
 //!
-//! **Termination.** Halving ends where pieces are straight or as small as a quarter of the tolerance, which is at least a few units in
-//! the last place of the coordinates. For curves that run along each other just outside the tolerance the number of pairs grows
-//! like the square root of length/gap, so it has a budget; where that ends, [`MeetingBudget`] names the place.
+//! **Termination.** Halving ends where pieces are straight or as small as a quarter of the tolerance, which is at least
+//! a few units in the last place of the coordinates. For curves that run along each other just outside the tolerance
+//! the number of pairs grows like the square root of length/gap, so it has a budget; where that ends, [`MeetingBudget`]
+//! names the place.
 
 mod circles;
 mod contact;
@@ -34,7 +37,8 @@ use hull::{Hulls, Piece, length};
 /// How two curves meet.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Meeting {
-    /// The place; within the tolerance of both curves' points at t and u, and exactly the end point where one is at its end.
+    /// The place; within the tolerance of both curves' points at t and u, and exactly the end point where one is at its
+    /// end.
     pub at: Point,
     /// Parameter on the first curve; exactly 0 or 1 where the meeting holds that end.
     pub t: f64,
@@ -55,8 +59,8 @@ pub enum MeetingKind {
     Touching,
 }
 
-/// A stretch that two curves share within the tolerance: the range of t on the first (ascending), and u where t is least and
-/// greatest (descending where the curves run against each other).
+/// A stretch that two curves share within the tolerance: the range of t on the first (ascending), and u where t is
+/// least and greatest (descending where the curves run against each other).
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Overlap {
     /// The parameters on the first curve where the stretch begins and ends, ascending.
@@ -82,16 +86,20 @@ pub struct MeetingBudget {
     pub at: Point,
 }
 
-/// Pairs of pieces that are compared at most: some 0.1 s of work. Curves that run beside each other at 1e-13 of their size exceed it.
+/// Pairs of pieces that are compared at most: some 0.1 s of work. Curves that run beside each other at 1e-13 of their
+/// size exceed it.
 const PAIRS: usize = 1 << 18;
-/// Contacts looked through at most, for all pairs together: some 0.5 s of work. Circles a few roundings apart touch in thousands of places.
+/// Contacts looked through at most, for all pairs together: some 0.5 s of work. Circles a few roundings apart touch in
+/// thousands of places.
 const LOOKS: usize = 1 << 29;
-/// Control points that are kept at most, some 40 bytes each. Only curves of a degree above ten come to so many before [`PAIRS`] ends it.
+/// Control points that are kept at most, some 40 bytes each. Only curves of a degree above ten come to so many before
+/// [`PAIRS`] ends it.
 const CONTROL_POINTS: usize = 1 << 22;
 
-/// Every meeting of two curves with a gap of at most `tolerance` (a length; at least a few units in the last place of the
-/// coordinates are allowed in any case). Each connected contact is one meeting: two crossings with a lens between them that is
-/// no deeper than the tolerance are one touching. A contact that holds an end of a curve is reported there.
+/// Every meeting of two curves with a gap of at most `tolerance` (a length; at least a few units in the last place of
+/// the coordinates are allowed in any case). Each connected contact is one meeting: two crossings with a lens between
+/// them that is no deeper than the tolerance are one touching. A contact that holds an end of a curve is reported
+/// there.
 ///
 /// # Errors
 /// [`MeetingBudget`] where the curves run along each other just outside the tolerance for too long.
@@ -108,8 +116,9 @@ pub fn meetings(a: &Curve, b: &Curve, tolerance: f64) -> Result<Meetings, Meetin
     Ok(search.finish())
 }
 
-/// Where a curve meets itself, with t < u: crossings and touchings; the ends of a stretch that it runs along twice are touchings.
-/// The common end of a closed curve is no meeting, nor is where a loop no wider than the tolerance closes. The curve is to have neither cusps nor jumps of its tangent.
+/// Where a curve meets itself, with t < u: crossings and touchings; the ends of a stretch that it runs along twice are
+/// touchings. The common end of a closed curve is no meeting, nor is where a loop no wider than the tolerance closes.
+/// The curve is to have neither cusps nor jumps of its tangent.
 ///
 /// # Errors
 /// [`MeetingBudget`] as for [`meetings`].
@@ -145,9 +154,9 @@ struct Search<'c> {
 
 impl<'c> Search<'c> {
     fn new(a: &'c Curve, b: &'c Curve, hulls: Vec<Hulls>, tolerance: f64, same: bool) -> Self {
-        // De Casteljau's algorithm errs by up to 2n units of rounding at degree n, and so does cutting a part out of a curve;
-        // a gap is between two such points. A unit of rounding is half of EPSILON: 4(n + 1) of them is the noise of a gap, and
-        // four times that a safe tolerance.
+        // De Casteljau's algorithm errs by up to 2n units of rounding at degree n, and so does cutting a part out of a
+        // curve; a gap is between two such points. A unit of rounding is half of EPSILON: 4(n + 1) of them is the noise
+        // of a gap, and four times that a safe tolerance.
         let most = |value: fn(&Hulls) -> f64| hulls.iter().map(value).fold(0.0, f64::max);
         let noise = 2.0 * (most(|h| h.degree as f64) + 1.0) * f64::EPSILON * most(|h| h.magnitude);
         let track = |curve, hulls: &Hulls| Track::new(curve, hulls.degree, hulls[hulls.root()].size);

@@ -1,10 +1,12 @@
 //! One curve and its questions: an exact line, arc, Bézier, spline or clothoid, never flattened.
 //!
-//! Every kind runs over t ∈ [0, 1], and `point(0)` and `point(1)` are *exactly* its end points: a curve of a domain interpolates its
-//! vertices bit for bit ([`Curve::with_ends`]). Questions about a part of a curve take a range `t0..t1` with `t0 < t1`.
+//! Every kind runs over t ∈ [0, 1], and `point(0)` and `point(1)` are *exactly* its end points: a curve of a domain
+//! interpolates its vertices bit for bit ([`Curve::with_ends`]). Questions about a part of a curve take a range
+//! `t0..t1` with `t0 < t1`.
 //!
-//! Pav & Walkington 2005 ask of a curve its *turning* (total variation of the tangent, Definition 4), a point where it crosses the
-//! perpendicular bisector of its chord (Corollaries 1 and 2), and where it leaves a ball around its end point (splitball).
+//! Pav & Walkington 2005 ask of a curve its *turning* (total variation of the tangent, Definition 4), a point where it
+//! crosses the perpendicular bisector of its chord (Corollaries 1 and 2), and where it leaves a ball around its end
+//! point (splitball).
 
 mod arc;
 mod bernstein;
@@ -248,7 +250,8 @@ impl Curve {
     pub fn arc(center: Point, radius: f64, start_rad: f64, sweep_rad: f64) -> Result<Self, CurveError> {
         CircularArc::new(center, radius, start_rad, sweep_rad).map(Curve::Arc)
     }
-    /// The arc from `start` to `end` whose bulge is tan(sweep/4) (DXF); counter-clockwise where positive; a line where 0.
+    /// The arc from `start` to `end` whose bulge is tan(sweep/4) (DXF); counter-clockwise where positive; a line
+    /// where 0.
     ///
     /// # Errors
     /// [`CurveError::NotFinite`] where a number or the centre is not finite, [`CurveError::Radius`] where the radius is
@@ -260,8 +263,8 @@ impl Curve {
         }
         CircularArc::over_chord(start, end, 4.0 * libm::atan(bulge)).map(Curve::Arc)
     }
-    /// The arc through three points; a line where they are collinear in this order, the circle with the diameter `start`–`through`
-    /// where start and end are the same.
+    /// The arc through three points; a line where they are collinear in this order, the circle with the diameter
+    /// `start`–`through` where start and end are the same.
     ///
     /// # Errors
     /// [`CurveError::NotFinite`] where a number or the centre is not finite; [`CurveError::Radius`] where the points
@@ -301,8 +304,8 @@ impl Curve {
     pub fn bezier(points: Vec<Point>) -> Result<Self, CurveError> {
         Bezier::new(points, None).map(|b| Curve::Bezier(Box::new(b)))
     }
-    /// A rational Bézier curve; all weights positive. Equal weights make it a plain one; weights more than 64 times apart another pace
-    /// of the parameter, or a NURBS of several spans, which is the same curve up to rounding.
+    /// A rational Bézier curve; all weights positive. Equal weights make it a plain one; weights more than 64 times
+    /// apart another pace of the parameter, or a NURBS of several spans, which is the same curve up to rounding.
     ///
     /// # Errors
     /// [`CurveError::NotFinite`] where a number is not finite, [`CurveError::Count`] where the degree is not from 1 to
@@ -310,8 +313,8 @@ impl Curve {
     pub fn rational_bezier(points: Vec<Point>, weights: Vec<f64>) -> Result<Self, CurveError> {
         Bezier::new(points, Some(weights)).map(weights::evened)
     }
-    /// B-spline or NURBS with the full knot vector (points.len() + degree + 1 knots); unclamped and periodic vectors are allowed. Weights
-    /// far apart are evened as in [`Curve::rational_bezier`].
+    /// B-spline or NURBS with the full knot vector (points.len() + degree + 1 knots); unclamped and periodic vectors
+    /// are allowed. Weights far apart are evened as in [`Curve::rational_bezier`].
     ///
     /// # Errors
     /// [`CurveError::NotFinite`] where a number is not finite, [`CurveError::Knots`] where the knots descend,
@@ -321,13 +324,15 @@ impl Curve {
     pub fn nurbs(degree: usize, knots: &[f64], points: &[Point], weights: Option<&[f64]>) -> Result<Self, CurveError> {
         Spline::from_knots(degree, knots, points, weights).map(|s| Curve::Spline(Box::new(s)))
     }
-    /// The clothoid (Euler spiral) of a length, from a point with a heading (from the x axis to the left), of which the curvature changes
-    /// evenly from the first to the last of two, each 1/radius and positive where the curve turns left. Equal ones make it an arc, of at most
-    /// once around, and zeros a line, of this kind still. Points are right to three roundings of the length and the coordinates.
+    /// The clothoid (Euler spiral) of a length, from a point with a heading (from the x axis to the left), of which the
+    /// curvature changes evenly from the first to the last of two, each 1/radius and positive where the curve turns
+    /// left. Equal ones make it an arc, of at most once around, and zeros a line, of this kind still. Points are right
+    /// to three roundings of the length and the coordinates.
     ///
     /// # Errors
-    /// [`CurveError::NotFinite`] where a number is not finite, [`CurveError::Length`] where the length is not positive, [`CurveError::Turns`]
-    /// where the curve turns more than 100 times around, [`CurveError::Sweep`] where equal curvatures go around more than once.
+    /// [`CurveError::NotFinite`] where a number is not finite, [`CurveError::Length`] where the length is not positive,
+    /// [`CurveError::Turns`] where the curve turns more than 100 times around, [`CurveError::Sweep`] where equal
+    /// curvatures go around more than once.
     pub fn clothoid(start: Point, heading_rad: f64, curvatures: [f64; 2], length: f64) -> Result<Self, CurveError> {
         Clothoid::new(start, heading_rad, curvatures, length, None).map(|c| Curve::Clothoid(Box::new(c)))
     }
@@ -339,8 +344,8 @@ impl Curve {
     pub fn natural_spline(points: &[Point]) -> Result<Self, CurveError> {
         Spline::natural(points).map(|s| Curve::Spline(Box::new(s)))
     }
-    /// The cubic spline through ≥ 2 points, parameters by chord length, with the given directions at start and end; natural at an end
-    /// that has none. Points of no distance from the one before are skipped.
+    /// The cubic spline through ≥ 2 points, parameters by chord length, with the given directions at start and end;
+    /// natural at an end that has none. Points of no distance from the one before are skipped.
     ///
     /// # Errors
     /// [`CurveError::NotFinite`] where a number is not finite, [`CurveError::Count`] where fewer than two points are
@@ -391,7 +396,8 @@ impl Curve {
     pub fn knots(&self) -> Vec<f64> {
         self.as_kind().knots()
     }
-    /// The field's name of the kind: "line", "arc", "ellipse", "bezier", "rational bezier", "spline", "nurbs", "clothoid".
+    /// The field's name of the kind: "line", "arc", "ellipse", "bezier", "rational bezier", "spline", "nurbs",
+    /// "clothoid".
     pub fn kind(&self) -> &'static str {
         self.as_kind().name()
     }
@@ -415,8 +421,8 @@ impl Curve {
     pub fn second_derivative(&self, t: f64) -> Vec2 {
         self.as_kind().second_derivative(t)
     }
-    /// Unit tangent in the direction of travel; where the derivative vanishes, the limit from after (`End::Start`) or before
-    /// (`End::Finish`) t. At a break the two differ.
+    /// Unit tangent in the direction of travel; where the derivative vanishes, the limit from after (`End::Start`) or
+    /// before (`End::Finish`) t. At a break the two differ.
     pub fn tangent(&self, t: f64, side: End) -> Vec2 {
         self.as_kind().tangent(t, side)
     }
@@ -478,13 +484,14 @@ impl Curve {
     pub fn inflections(&self) -> Vec<f64> {
         self.as_kind().inflections()
     }
-    /// Ascending parameters strictly inside at which the curve is to be cut so that every part turns at most `tau`; parts of
-    /// (nearly) equal turning, as few as possible (an excess of 1e-12 of `tau` counts as none). Breaks are always cut; never more than
-    /// 10⁸ parts between two of them: ask [`Curve::parts_of_turning`] first.
+    /// Ascending parameters strictly inside at which the curve is to be cut so that every part turns at most `tau`;
+    /// parts of (nearly) equal turning, as few as possible (an excess of 1e-12 of `tau` counts as none). Breaks are
+    /// always cut; never more than 10⁸ parts between two of them: ask [`Curve::parts_of_turning`] first.
     pub fn cuts_of_turning(&self, tau: f64) -> Vec<f64> {
         self.as_kind().cuts_of_turning(tau)
     }
-    /// How many parts of at most `tau` a curve without breaks turns enough for; `usize::MAX` where no number holds them.
+    /// How many parts of at most `tau` a curve without breaks turns enough for; `usize::MAX` where no number holds
+    /// them.
     pub fn parts_of_turning(&self, tau: f64) -> usize {
         turning::parts_of_turning(self.turning(0.0, 1.0), tau) as usize
     }
@@ -496,12 +503,13 @@ impl Curve {
     pub fn chord_error(&self, t0: f64, t1: f64) -> f64 {
         self.as_kind().chord_error(t0, t1)
     }
-    /// Where the part crosses the perpendicular bisector of its chord (turning ≤ π/3: exactly one crossing; beyond, one of them; the
-    /// middle parameter where the chord is a point).
+    /// Where the part crosses the perpendicular bisector of its chord (turning ≤ π/3: exactly one crossing; beyond, one
+    /// of them; the middle parameter where the chord is a point).
     pub fn bisector_crossing(&self, t0: f64, t1: f64) -> f64 {
         self.as_kind().bisector_crossing(t0, t1)
     }
-    /// Where the part crosses the line through `a` along `direction` from one side to the other, strictly inside, ascending.
+    /// Where the part crosses the line through `a` along `direction` from one side to the other, strictly inside,
+    /// ascending.
     pub fn line_crossings(&self, a: Point, direction: Vec2, t0: f64, t1: f64) -> Vec<f64> {
         self.as_kind().line_crossings(a, direction, t0, t1)
     }
@@ -521,14 +529,15 @@ impl Curve {
     pub fn reversed(&self) -> Self {
         self.as_kind().reversed()
     }
-    /// The curve with this very end, of a kind whose end comes of its other numbers, if that is its own up to rounding; `None` where it is
-    /// not, and of other kinds.
+    /// The curve with this very end, of a kind whose end comes of its other numbers, if that is its own up to rounding;
+    /// `None` where it is not, and of other kinds.
     pub(crate) fn with_rounded_end(&self, end: Point) -> Option<Self> {
         self.as_kind().with_rounded_end(end)
     }
-    /// The curve moved by the similarity that takes its ends to `start` and `end` (exactly those bits). For a small move: welding.
-    /// A closed curve is translated. Where the similarity would move other points much farther than the ends (a curve that nearly
-    /// closes), and where a curve closes or opens, the moves of the ends are spread along the curve instead; a clothoid then becomes the spline that follows it.
+    /// The curve moved by the similarity that takes its ends to `start` and `end` (exactly those bits). For a small
+    /// move: welding. A closed curve is translated. Where the similarity would move other points much farther than the
+    /// ends (a curve that nearly closes), and where a curve closes or opens, the moves of the ends are spread along the
+    /// curve instead; a clothoid then becomes the spline that follows it.
     pub fn with_ends(&self, start: Point, end: Point) -> Self {
         weld::with_ends(self, start, end)
     }
@@ -536,8 +545,8 @@ impl Curve {
     pub fn scaled(&self, factor: f64) -> Self {
         self.as_kind().scaled(factor)
     }
-    /// Any non-degenerate affine image, exact in kind; under a map that is no similarity a circle becomes an ellipse, and a clothoid, which has
-    /// no such image, the spline that follows it to rounding.
+    /// Any non-degenerate affine image, exact in kind; under a map that is no similarity a circle becomes an ellipse,
+    /// and a clothoid, which has no such image, the spline that follows it to rounding.
     pub fn transformed(&self, map: kurbo::Affine) -> Self {
         self.as_kind().transformed(map)
     }

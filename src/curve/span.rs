@@ -35,7 +35,8 @@ impl<'a> Span<'a> {
         Span { bezier, from: of[0], to: of[1], clock: Clock::Linear { t0, t1 } }
     }
 
-    /// A rational quadratic over half an angle `half_rad` to either side, which the curve's parameter follows through `t`.
+    /// A rational quadratic over half an angle `half_rad` to either side, which the curve's parameter follows through
+    /// `t`.
     pub(super) fn conic(bezier: Cow<'a, Bezier>, [t0, t1]: [f64; 2], half_rad: f64) -> Self {
         Span { bezier, from: 0.0, to: 1.0, clock: Clock::Conic { t0, t1, half_rad } }
     }

@@ -1,6 +1,7 @@
 //! Questions answered span by span, on the Bézier pieces of any curve.
 //!
-//! Each becomes the sign of a polynomial in Bernstein form; its sign changes are isolated and then sharpened on the geometry itself.
+//! Each becomes the sign of a polynomial in Bernstein form; its sign changes are isolated and then sharpened on the
+//! geometry itself.
 
 use super::bernstein::{self, SignChange, crossing};
 use super::kind::Kind;
@@ -31,7 +32,8 @@ pub(super) fn is_straight(spans: &[Span]) -> bool {
     Bezier { points, weights: None }.is_straight_within(noise)
 }
 
-/// Rounding of a product of two polynomials with the largest coefficients `a` and `b`, one of them of so many coefficients.
+/// Rounding of a product of two polynomials with the largest coefficients `a` and `b`, one of them of so many
+/// coefficients.
 fn product_noise(a: f64, b: f64, count: usize) -> f64 {
     // Each coefficient is a sum with positive weights of total 1, each term off by a few ulp.
     4.0 * f64::EPSILON * a * b * count as f64
@@ -69,8 +71,9 @@ pub(super) fn nearest(curve: &(impl Kind + ?Sized), p: Point, t0: f64, t1: f64) 
     if is_end { descended(curve, p, best, [t0, t1]) } else { best.1 }
 }
 
-/// From an end that seems nearest to p along the curve, as far as it comes nearer: where it sets out slowly, the noise of the slope's
-/// coefficients hides that. Newton's steps, of Gauss's kind where the distance is not convex; each is halved until it helps.
+/// From an end that seems nearest to p along the curve, as far as it comes nearer: where it sets out slowly, the noise
+/// of the slope's coefficients hides that. Newton's steps, of Gauss's kind where the distance is not convex; each is
+/// halved until it helps.
 fn descended(curve: &(impl Kind + ?Sized), p: Point, (mut distance, mut t): (f64, f64), [t0, t1]: [f64; 2]) -> f64 {
     const BUDGET: usize = 40;
     let mut share = 1.0;
@@ -206,8 +209,9 @@ pub(super) fn leaves_ball(curve: &(impl Kind + ?Sized), end: End, radius: f64, t
     (reach >= radius * (1.0 - 4.0 * f64::EPSILON)).then_some(far_t)
 }
 
-/// Largest distance from the chord: at the ends of spans, where the tangent is parallel to the chord, and, where the curve leaves the
-/// strip between the chord's ends, where the distance from an end of it is stationary or the strip is left.
+/// Largest distance from the chord: at the ends of spans, where the tangent is parallel to the chord, and, where the
+/// curve leaves the strip between the chord's ends, where the distance from an end of it is stationary or the strip is
+/// left.
 pub(super) fn chord_error(curve: &(impl Kind + ?Sized), t0: f64, t1: f64) -> f64 {
     let (x, y) = (curve.point(t0), curve.point(t1));
     let chord = y - x;
@@ -274,8 +278,8 @@ pub(super) fn widens(spans: &[Span], cone: &mut Cone, [start, finish]: [Point; 2
 
 /// Largest turn at a point z of the part between the directions x → z and z → y.
 ///
-/// With N = (z − x)·W and c = y − x its tangent is e/f, e = (N × c)·W and f = (N·c)·W − N·N. Both vanish at x and at y, where they are
-/// divided by t and by 1 − t: the quotient is stationary where e′f − ef′ = 0.
+/// With N = (z − x)·W and c = y − x its tangent is e/f, e = (N × c)·W and f = (N·c)·W − N·N. Both vanish at x and at y,
+/// where they are divided by t and by 1 − t: the quotient is stationary where e′f − ef′ = 0.
 pub(super) fn lens_angle(curve: &(impl Kind + ?Sized), t0: f64, t1: f64) -> f64 {
     let (x, y) = (curve.point(t0), curve.point(t1));
     let chord = y - x;

@@ -10,8 +10,8 @@ use crate::geometry::{Point, Vec2, magnitude, scaled, unit_scale};
 use std::borrow::Cow;
 
 impl Spline {
-    /// The spans of a full knot vector, each by its blossom (Ramshaw 1987: what inserting knots until each is of full multiplicity
-    /// gives). The domain runs from knot `degree` to knot `points.len()`.
+    /// The spans of a full knot vector, each by its blossom (Ramshaw 1987: what inserting knots until each is of full
+    /// multiplicity gives). The domain runs from knot `degree` to knot `points.len()`.
     pub(super) fn from_knots(
         degree: usize,
         knots: &[f64],
@@ -81,9 +81,11 @@ impl Spline {
         Ok(Self::open(&points, &steps, [None, None]))
     }
 
-    /// The cubic spline by chord length whose ends have the given directions, as unit tangents; natural where there are none.
+    /// The cubic spline by chord length whose ends have the given directions, as unit tangents; natural where there are
+    /// none.
     pub(super) fn fitted(points: &[Point], tangents: [Option<Vec2>; 2]) -> Result<Self, CurveError> {
-        /// Points nearer to each other than this share of the longest step are one: their step squared has no digits left.
+        /// Points nearer to each other than this share of the longest step are one: their step squared has no digits
+        /// left.
         const ONE: f64 = 1e-12;
         check_points(points)?;
         check_finite(tangents.iter().flatten().flat_map(|t| [t.x, t.y]))?;
@@ -101,8 +103,8 @@ impl Spline {
         Ok(Self::open(&points, &steps, tangents.map(slope)))
     }
 
-    /// The C² cubic through points at given steps of the parameter, with the given derivatives at its ends; its second derivative zero
-    /// at an end that has none.
+    /// The C² cubic through points at given steps of the parameter, with the given derivatives at its ends; its second
+    /// derivative zero at an end that has none.
     fn open(points: &[Point], steps: &[f64], ends: [Option<Vec2>; 2]) -> Self {
         let n = points.len();
         let (mut diagonal, mut right) = (vec![0.0; n], vec![Vec2::ZERO; n]);
@@ -115,7 +117,8 @@ impl Spline {
             }
         }
         let mut beside: Vec<f64> = steps.iter().map(|h| 1.0 / h).collect();
-        // A slope that is known leaves the system: its row says so, and its term in its neighbour's row moves to the right.
+        // A slope that is known leaves the system: its row says so, and its term in its neighbour's row moves to the
+        // right.
         for (slope, row, neighbour, step) in [(ends[0], 0, 1, 0), (ends[1], n - 1, n - 2, n - 2)] {
             if let Some(slope) = slope {
                 right[neighbour] -= slope * beside[step];
@@ -196,9 +199,9 @@ impl Spline {
         let mut knots = vec![t0];
         let mut spans = Vec::new();
         let pieces: Vec<_> = self.spans_in(t0, t1).collect();
-        // A cut meant for a joint may miss it by rounding, and by more where the curves meet at a small angle. The sliver that it leaves
-        // has no direction of its own: its neighbour takes its place. Three legs of some thousand units in the last place together tell
-        // their direction to a thousandth.
+        // A cut meant for a joint may miss it by rounding, and by more where the curves meet at a small angle. The
+        // sliver that it leaves has no direction of its own: its neighbour takes its place. Three legs of some thousand
+        // units in the last place together tell their direction to a thousandth.
         let is_sliver = |&(i, from, to): &(usize, f64, f64)| {
             let reach = self.spans[i].points.iter().map(|p| p.x.abs().max(p.y.abs())).fold(0.0, f64::max);
             to - from <= 64.0 * f64::EPSILON || net_of(&self.spans[i], from, to) <= 4096.0 * f64::EPSILON * reach
@@ -360,8 +363,9 @@ fn without_repeats(points: &[Point]) -> Result<Vec<Point>, CurveError> {
     Ok(distinct)
 }
 
-/// Parameter steps by the square root of the distance (Lee 1989), which make neither loops nor cusps within a span, where uniform and
-/// chord-length parameters do (Yuksel, Schaefer & Keyser 2011 prove it of the Catmull–Rom spline). Same bits at every scale.
+/// Parameter steps by the square root of the distance (Lee 1989), which make neither loops nor cusps within a span,
+/// where uniform and chord-length parameters do (Yuksel, Schaefer & Keyser 2011 prove it of the Catmull–Rom spline).
+/// Same bits at every scale.
 fn centripetal_steps(points: &[Point]) -> Vec<f64> {
     let distances: Vec<f64> = points.windows(2).map(|p| length(p[1] - p[0])).collect();
     let scale = unit_scale(distances.iter().fold(0.0, |m: f64, d| m.max(*d)));

@@ -1,22 +1,26 @@
-//! Turning: the total variation of the tangent angle (Pav & Walkington 2005, Definition 4), where it breaks and where it is to be cut.
+//! Turning: the total variation of the tangent angle (Pav & Walkington 2005, Definition 4), where it breaks and where
+//! it is to be cut.
 //!
-//! A Bézier's tangent has the direction of its hodograph. It is taken apart into stretches along which the tangent turns one way only
-//! and stays within a half plane: between the points where the hodograph vanishes, and the inflections (sign changes of its cross
-//! product with its derivative). The angle between the two ends of such a stretch is its turning, without ambiguity.
+//! A Bézier's tangent has the direction of its hodograph. It is taken apart into stretches along which the tangent
+//! turns one way only and stays within a half plane: between the points where the hodograph vanishes, and the
+//! inflections (sign changes of its cross product with its derivative). The angle between the two ends of such a
+//! stretch is its turning, without ambiguity.
 
 use super::bernstein::{self, SignChange, crossing};
 use super::span::Span;
 use super::{Break, BreakKind, length, unit};
 use crate::geometry::{Vec2, turn_from};
 
-/// Relative excess of a part's turning over the limit that passes for rounding: thrice that of a sum of a thousand stretches.
+/// Relative excess of a part's turning over the limit that passes for rounding: thrice that of a sum of a thousand
+/// stretches.
 const COUNT_SLACK: f64 = 1e-12;
 /// Most parts that one curve is cut into, whatever the limit asks: more than any mesh that memory holds has edges.
 const PARTS_MAX: f64 = 1e8;
-/// A knot where the tangent turns less than this is no corner, although the turn counts as turning: parts of splines carry the rounding of the
-/// curves that they were cut from, which may have been much larger.
+/// A knot where the tangent turns less than this is no corner, although the turn counts as turning: parts of splines
+/// carry the rounding of the curves that they were cut from, which may have been much larger.
 const CORNER_RAD: f64 = 1e-9;
-/// Pieces that the search for half planes may look at: some dozens of cusps, each approached by 48 halvings from both sides.
+/// Pieces that the search for half planes may look at: some dozens of cusps, each approached by 48 halvings from both
+/// sides.
 const PIECE_BUDGET: usize = 1 << 13;
 
 /// Part of a curve along which the tangent turns one way, by less than π.
@@ -222,7 +226,8 @@ fn one_way_pieces(hodograph: Vec<Vec2>, noise: f64) -> Vec<Piece> {
     pieces
 }
 
-/// Pieces each within an open half plane, cut where the hodograph vanishes; there the end coefficients are exactly zero.
+/// Pieces each within an open half plane, cut where the hodograph vanishes; there the end coefficients are exactly
+/// zero.
 fn half_plane_pieces(hodograph: Vec<Vec2>, noise: f64) -> Vec<Piece> {
     let (pieces, mut zeros) = try_half_planes(&hodograph, 0.0, 1.0, noise);
     zeros.extend(
@@ -231,7 +236,8 @@ fn half_plane_pieces(hodograph: Vec<Vec2>, noise: f64) -> Vec<Piece> {
     if zeros.is_empty() {
         return pieces;
     }
-    // Small pieces near a zero know its directions badly: the hodograph is taken apart anew, with the zeros as its first cuts.
+    // Small pieces near a zero know its directions badly: the hodograph is taken apart anew, with the zeros as its
+    // first cuts.
     let mut bounds = vec![0.0];
     bounds.extend(zeros.into_iter().map(|s| zero_near(&hodograph, s)).filter(|s| *s > 0.0 && *s < 1.0));
     bounds.push(1.0);
@@ -258,7 +264,8 @@ fn vanish_between(pair: &[Piece], noise: f64) -> bool {
     vanishes(pair[0].hodograph.last()) && vanishes(pair[1].hodograph.first())
 }
 
-/// Halves until each piece lies in a half plane or is lost in rounding; returns the pieces, and the middles of the gaps inside.
+/// Halves until each piece lies in a half plane or is lost in rounding; returns the pieces, and the middles of the gaps
+/// inside.
 fn try_half_planes(hodograph: &[Vec2], lo: f64, hi: f64, noise: f64) -> (Vec<Piece>, Vec<f64>) {
     /// The hodograph is that small after as many halvings only where it vanishes to rounding.
     const DEPTH: u32 = 48;

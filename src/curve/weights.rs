@@ -1,9 +1,9 @@
 //! Weights that lie far apart: the same curve in pieces over which its parameter runs evenly.
 //!
-//! Weights w·cⁱ belong to the same curve followed at another pace, t ↦ ct/(1 − t + ct) (Farin, *Curves and Surfaces for CAGD*, 13.5). A
-//! weight of 1e12 so packs half of a curve into a stretch of the parameter 1e-12 long, of which `f64` knows 1e4 places where it lies at
-//! 1; and one in the middle bends the curve within as short a stretch. Halved and brought to even pace again, a conic's middle weight w
-//! becomes √((1 + w)/2): few halvings do.
+//! Weights w·cⁱ belong to the same curve followed at another pace, t ↦ ct/(1 − t + ct) (Farin, *Curves and Surfaces for
+//! CAGD*, 13.5). A weight of 1e12 so packs half of a curve into a stretch of the parameter 1e-12 long, of which `f64`
+//! knows 1e4 places where it lies at 1; and one in the middle bends the curve within as short a stretch. Halved and
+//! brought to even pace again, a conic's middle weight w becomes √((1 + w)/2): few halvings do.
 
 use super::{Bezier, Curve, Spline, length};
 use crate::geometry::magnitude;

@@ -3,8 +3,9 @@
 use super::{Curve, length};
 use crate::geometry::{Point, Vec2};
 
-/// How much farther than its ends a similarity may move a curve's points. Three quarters of a circle are 2.8 radii across at most,
-/// twice their chord, and the chord changes by up to twice the ends' move: so that much of a circle still is moved as a circle.
+/// How much farther than its ends a similarity may move a curve's points. Three quarters of a circle are 2.8 radii
+/// across at most, twice their chord, and the chord changes by up to twice the ends' move: so that much of a circle
+/// still is moved as a circle.
 const AMPLIFICATION_MAX: f64 = 4.0;
 
 /// The turn and scaling that take one chord to another: `factor` as a complex number.

@@ -40,7 +40,8 @@ pub struct Drawing {
     pub frame: Option<Frame>,
     /// The planar faces of the solid that the drawing is one of, by their numbers.
     pub faces: Vec<FaceInfo>,
-    /// Entities that were left out because they leave the plane of the drawing: they may be why an outline does not close.
+    /// Entities that were left out because they leave the plane of the drawing: they may be why an outline does not
+    /// close.
     pub off_plane: Vec<OffPlane>,
     /// What the reader left out, counted.
     pub skipped: Vec<Skipped>,
@@ -104,8 +105,9 @@ pub struct DrawnCurve {
     pub layer: Option<LayerId>,
     /// The number by which the file knows its entity (group 5 of a DXF entity).
     pub handle: Option<u64>,
-    /// One unit of the last decimal in which the file writes its ends, as a length; 0 where they are exact: whole numbers, or bits of
-    /// binary files. Ends that are computed (of arcs, by transforms) have the unit that their numbers come to.
+    /// One unit of the last decimal in which the file writes its ends, as a length; 0 where they are exact: whole
+    /// numbers, or bits of binary files. Ends that are computed (of arcs, by transforms) have the unit that their
+    /// numbers come to.
     pub last_decimal: f64,
 }
 
@@ -124,7 +126,8 @@ impl DrawnCurve {
         }
     }
 
-    /// A curve whose ends the file writes themselves: their numbers tell the last decimal. Of computed ends it is about their rounding.
+    /// A curve whose ends the file writes themselves: their numbers tell the last decimal. Of computed ends it is about
+    /// their rounding.
     pub fn with_written_ends(self) -> Self {
         let ends = [self.curve.start(), self.curve.end()];
         Self { last_decimal: finest_decimal(ends.into_iter().flat_map(|end| [end.x, end.y])), ..self }
@@ -180,8 +183,8 @@ impl Shape {
     }
 }
 
-/// What cuts shapes and curves: they are there where one of its parts fills, and in what it lies within. Its parts are shapes
-/// ([`Shape::part_of`]), which may themselves be cut, by earlier clips.
+/// What cuts shapes and curves: they are there where one of its parts fills, and in what it lies within. Its parts are
+/// shapes ([`Shape::part_of`]), which may themselves be cut, by earlier clips.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Clip {
     /// An earlier clip.
@@ -245,7 +248,8 @@ pub enum FillRule {
     Regions,
     /// A face is inside where a shape fills it, by the shape's own rule; the topmost one names it.
     Shapes,
-    /// Odd winding number of the curves that are of no shape, or where a shape fills the face; the topmost one names it.
+    /// Odd winding number of the curves that are of no shape, or where a shape fills the face; the topmost one names
+    /// it.
     EvenOddAndShapes,
 }
 

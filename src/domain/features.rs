@@ -19,8 +19,8 @@ impl<'a> Features<'a> {
         Self { domain, boxes: BoxHierarchy::new(curves.chain(points)) }
     }
 
-    /// lfs(p): the radius of the smallest disk around p that meets two features without a common point (Ruppert 1995; Definition 2.2 of
-    /// Foteinos, Chernikov & Chrisochoides 2010); infinite where there are no two.
+    /// lfs(p): the radius of the smallest disk around p that meets two features without a common point (Ruppert 1995;
+    /// Definition 2.2 of Foteinos, Chernikov & Chrisochoides 2010); infinite where there are no two.
     pub fn lfs(&self, p: Point) -> f64 {
         let Some(bounds) = self.boxes.boxes().iter().copied().reduce(|a, b| a.union(b)) else { return f64::INFINITY };
         let whole = p.distance(bounds.center()) + bounds.width() + bounds.height();

@@ -159,7 +159,8 @@ impl Domain {
         }
     }
 
-    /// Whether a meeting is the contact at a common end: from there to the meeting the curves are not apart by more than rounding.
+    /// Whether a meeting is the contact at a common end: from there to the meeting the curves are not apart by more
+    /// than rounding.
     fn at_common_end(&self, ids: [CurveId; 2], ts: [f64; 2], rounding: f64) -> bool {
         let [p, q] = ids.map(|id| &self.curves[id]);
         // As deep as the arrangement lets curves that touch lie in each other.
@@ -202,7 +203,8 @@ impl Domain {
     }
 
     fn cycle_count(&self) -> usize {
-        // By curve and side: the next side along the same face, which is the one before the other side's in the star of its tail.
+        // By curve and side: the next side along the same face, which is the one before the other side's in the star of
+        // its tail.
         let mut next = vec![usize::MAX; 2 * self.curves.len()];
         for star in self.stars.iter() {
             for (k, &i) in star.iter().enumerate() {
@@ -250,7 +252,8 @@ impl Domain {
     fn check_areas(&self, flaws: &mut Vec<String>) {
         let (origin, rounding) = (self.bounds().center(), self.rounding());
         let mut enclosed: IdVec<RegionId, f64> = vec![0.0; self.regions.len()].into();
-        // A relative 1e-12 a term, as the integrals are computed, of the sum of their sizes; and what rounded coordinates do along the border.
+        // A relative 1e-12 a term, as the integrals are computed, of the sum of their sizes; and what rounded
+        // coordinates do along the border.
         let mut slack = 0.0;
         for curve in self.curves.iter().filter(|c| c.sides[0] != c.sides[1]) {
             let (area, bounds) = (curve.curve.signed_area(origin), curve.curve.bounds());
@@ -265,8 +268,9 @@ impl Domain {
         }
     }
 
-    /// Along a level line through every component, each crossing agrees with the next on the region between. Lines through large
-    /// components go right through the drawing and end in the unbounded face; of small ones, the surroundings tell enough.
+    /// Along a level line through every component, each crossing agrees with the next on the region between. Lines
+    /// through large components go right through the drawing and end in the unbounded face; of small ones, the
+    /// surroundings tell enough.
     fn check_levels(&self, flaws: &mut Vec<String>) {
         let (locator, rounding) = (Locator::new(self), self.rounding());
         let whole = self.bounds();

@@ -1,4 +1,5 @@
-//! Where a point lies among the curves of a domain: the nearest curve and its side, and what an axis-parallel line crosses.
+//! Where a point lies among the curves of a domain: the nearest curve and its side, and what an axis-parallel line
+//! crosses.
 
 use super::{Domain, Incident};
 use crate::curve::{Curve, End};
@@ -67,7 +68,8 @@ impl<'a> Locator<'a> {
         Self { domain, boxes: BoxHierarchy::new(domain.curves.iter().map(|c| c.curve.bounds())) }
     }
 
-    /// The kept region that contains `p`; `None` outside all of them. Of a point on a curve: the region on one of its sides.
+    /// The kept region that contains `p`; `None` outside all of them. Of a point on a curve: the region on one of its
+    /// sides.
     pub fn region(&self, p: Point) -> Option<RegionId> {
         let sight = self.sight(p)?;
         self.domain.curves[sight.curve].sides[sight.side.index()]
@@ -85,7 +87,8 @@ impl<'a> Locator<'a> {
         &self.domain.curves[CurveId::from_index(i)].curve
     }
 
-    /// The side of the nearest curve that faces `p`; where an end of it is nearest, the curve whose side borders that sector.
+    /// The side of the nearest curve that faces `p`; where an end of it is nearest, the curve whose side borders that
+    /// sector.
     fn facing(&self, id: CurveId, p: Point, distance: f64) -> (CurveId, Side) {
         let domain = self.domain;
         let near = &domain.curves[id];
@@ -93,8 +96,8 @@ impl<'a> Locator<'a> {
         let foot = near.curve.point(t);
         for end in near.ends {
             let corner = domain.points[end];
-            // A foot this near to an end (an angle of 1e-6 seen from p) leaves every curve there at about 90° or more from p, so
-            // that the sector which holds p is at least about 180° wide: no doubt about it.
+            // A foot this near to an end (an angle of 1e-6 seen from p) leaves every curve there at about 90° or more
+            // from p, so that the sector which holds p is at least about 180° wide: no doubt about it.
             if corner.distance(foot) <= 1e-6 * distance {
                 return sector(domain, end, p - corner);
             }
@@ -102,9 +105,9 @@ impl<'a> Locator<'a> {
         (id, side_of(&near.curve, t, foot, p))
     }
 
-    /// The crossings of a line with all curves at the coordinates of `range`, ascending; `None` where the line passes there within
-    /// `margin` of an end of a curve, or nearly along a curve, or where two crossings are so near to each other that their order is not
-    /// told, so that another line is to be tried.
+    /// The crossings of a line with all curves at the coordinates of `range`, ascending; `None` where the line passes
+    /// there within `margin` of an end of a curve, or nearly along a curve, or where two crossings are so near to each
+    /// other that their order is not told, so that another line is to be tried.
     pub(super) fn hits(&self, axis: Axis, level: f64, range: [f64; 2], margin: f64) -> Option<Vec<Hit>> {
         let strip = match axis {
             Axis::Horizontal => Rect::new(range[0], level, range[1], level),
@@ -192,13 +195,16 @@ pub(super) fn left_of(incident: Incident) -> Side {
     }
 }
 
-/// Tangents that differ by less (rad) are not trusted to tell the order of a star, which is that of the curves themselves.
+/// Tangents that differ by less (rad) are not trusted to tell the order of a star, which is that of the curves
+/// themselves.
 pub(super) const TANGENTS_TELL: f64 = 1e-3;
 
-/// The angle of the sector between a curve of a star and the next, in [0, 2π], by the directions in which all its curves leave.
+/// The angle of the sector between a curve of a star and the next, in [0, 2π], by the directions in which all its
+/// curves leave.
 ///
-/// Curves with nearly one tangent may leave against their order, and the angle then comes out just below a full turn: it is 0, as long as
-/// another curve leaves elsewhere. Where none does, either answer closes the circle if the tangents are one.
+/// Curves with nearly one tangent may leave against their order, and the angle then comes out just below a full turn:
+/// it is 0, as long as another curve leaves elsewhere. Where none does, either answer closes the circle if the tangents
+/// are one.
 pub(super) fn gap_after(directions: &[Vec2], k: usize) -> f64 {
     let n = directions.len();
     let (from, to) = (directions[k], directions[(k + 1) % n]);

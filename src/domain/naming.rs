@@ -1,4 +1,5 @@
-//! Names that a file does not give: of the curve or the region at a place, of an entity by its handle, of every outline or entity.
+//! Names that a file does not give: of the curve or the region at a place, of an entity by its handle, of every outline
+//! or entity.
 
 use super::{Drawing, Seed, SeedKind};
 use crate::geometry::boxes::BoxHierarchy;
@@ -183,8 +184,8 @@ impl Drawing {
         }
     }
 
-    /// The closed outline that each curve is a part of: curves of one name and shape that follow each other from end to end, and none of
-    /// whose ends is free.
+    /// The closed outline that each curve is a part of: curves of one name and shape that follow each other from end to
+    /// end, and none of whose ends is free.
     fn closed_outlines(&self) -> Vec<Option<usize>> {
         let near = SAME_END * self.bounds().map_or(0.0, extent);
         let ends: Vec<Point> = self.curves.iter().flat_map(|drawn| [drawn.curve.start(), drawn.curve.end()]).collect();

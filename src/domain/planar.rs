@@ -1,7 +1,9 @@
-//! The planar domain: a piecewise regular curve complex (PRCC, Pav & Walkington 2005, Definition 1) with regions and names.
+//! The planar domain: a piecewise regular curve complex (PRCC, Pav & Walkington 2005, Definition 1) with regions and
+//! names.
 //!
-//! Promised: the ends of every curve are points of P, bit for bit; curves meet at most in common end points; no point of P lies inside
-//! a curve; no curve is closed, has a cusp or a tangent jump inside, or zero length; every curve knows the kept region on either side.
+//! Promised: the ends of every curve are points of P, bit for bit; curves meet at most in common end points; no point
+//! of P lies inside a curve; no curve is closed, has a cusp or a tangent jump inside, or zero length; every curve knows
+//! the kept region on either side.
 
 use super::Repair;
 use super::features::Features;
@@ -28,7 +30,8 @@ pub struct Domain {
     pub(super) notes: Vec<String>,
     /// The welding distance that was used: how far a curve may have been moved at its ends.
     pub(super) tolerance: f64,
-    /// Curves incident to each point, counter-clockwise by the direction in which they leave (ties: as they lie a little way off).
+    /// Curves incident to each point, counter-clockwise by the direction in which they leave (ties: as they lie a
+    /// little way off).
     pub(super) stars: IdVec<PointId, Vec<Incident>>,
 }
 
@@ -61,7 +64,8 @@ pub struct Incident {
 pub struct Region {
     /// The name of the region; several regions may have the same one.
     pub name: NameId,
-    /// Whether the drawing or the user gave the name: else it is that of the layer of its outline, or `region`, with a number.
+    /// Whether the drawing or the user gave the name: else it is that of the layer of its outline, or `region`, with a
+    /// number.
     pub is_named: bool,
     /// Exact area, by Green over the curves themselves.
     pub area: f64,
@@ -134,7 +138,8 @@ impl Domain {
         curves.chain(points).reduce(|a, b| a.union(b)).unwrap_or_default()
     }
 
-    /// The smallest angle by tangents between neighbours at p (all curves count, kept or not); `None` with fewer than two curves.
+    /// The smallest angle by tangents between neighbours at p (all curves count, kept or not); `None` with fewer than
+    /// two curves.
     pub fn corner(&self, p: PointId) -> Option<Corner> {
         let star = self.star(p);
         let direction = |i: Incident| self.curves[i.curve].curve.direction_at(i.end);
@@ -146,14 +151,16 @@ impl Domain {
         corners.min_by(|a, b| a.angle_rad.total_cmp(&b.angle_rad))
     }
 
-    /// Whether two curves meet at p at less than 90° by tangents (zero included; 90° up to rounding is no acute corner).
+    /// Whether two curves meet at p at less than 90° by tangents (zero included; 90° up to rounding is no acute
+    /// corner).
     pub fn is_acute(&self, p: PointId) -> bool {
         self.corner(p).is_some_and(|corner| corner.angle_rad < FRAC_PI_2 - self.angle_rounding(p))
     }
 
-    /// The corner across which the first two of three places lie, that of the drawing whose small angle no mesh can part: they lie on two
-    /// curves that end at the corner, equally far from it, and it sees them less than 60° apart. If one of them is the other end of its curve,
-    /// the third must lie on one of the two curves: beyond it the drawing has no angle. `curves[i]` are the curves at place i.
+    /// The corner across which the first two of three places lie, that of the drawing whose small angle no mesh can
+    /// part: they lie on two curves that end at the corner, equally far from it, and it sees them less than 60° apart.
+    /// If one of them is the other end of its curve, the third must lie on one of the two curves: beyond it the drawing
+    /// has no angle. `curves[i]` are the curves at place i.
     pub fn corner_between(&self, curves: [&[CurveId]; 3], places: [Point; 2]) -> Option<PointId> {
         // Places cut at one distance are rounded; beyond a thousandth a triangle has a longer side to split.
         const EQUAL: f64 = 1e-3;
@@ -172,8 +179,8 @@ impl Domain {
         curves[0].iter().flat_map(|&c| ends(c).map(|p| (c, p))).find(|&(c, p)| narrow(p) && meets(p, c)).map(|(_, p)| p)
     }
 
-    /// How far rounded coordinates can turn a right angle at p: four units in the last place of the coordinates, seen along the
-    /// shortest chord at p.
+    /// How far rounded coordinates can turn a right angle at p: four units in the last place of the coordinates, seen
+    /// along the shortest chord at p.
     fn angle_rounding(&self, p: PointId) -> f64 {
         let at = self.points[p];
         let ends = self.star(p).iter().flat_map(|i| self.curves[i.curve].ends).map(|end| self.points[end]);
@@ -218,8 +225,8 @@ impl Domain {
         self.split_to_turning_watched(tau, &mut |_| true).unwrap_or_else(|Stopped| unreachable!("nobody says stop"))
     }
 
-    /// [`Domain::split_to_turning`], as long as `watch` says to go on. It is told of the points that there will be before any is made:
-    /// a tiny `tau` asks for more than memory holds.
+    /// [`Domain::split_to_turning`], as long as `watch` says to go on. It is told of the points that there will be
+    /// before any is made: a tiny `tau` asks for more than memory holds.
     ///
     /// # Errors
     /// [`Stopped`].
@@ -285,7 +292,8 @@ impl Domain {
         Locator::new(self)
     }
 
-    /// The kept region that contains `p`. Builds its search structure anew: for many points, ask one [`Domain::locator`].
+    /// The kept region that contains `p`. Builds its search structure anew: for many points, ask one
+    /// [`Domain::locator`].
     pub fn locate_region(&self, p: Point) -> Option<RegionId> {
         self.locator().region(p)
     }

@@ -49,8 +49,8 @@ impl Known {
         self
     }
 
-    /// The part of its area by which a right result may be off: 1e-9, or what four units in the last place of the coordinates come to
-    /// along the border.
+    /// The part of its area by which a right result may be off: 1e-9, or what four units in the last place of the
+    /// coordinates come to along the border.
     pub fn slack(&self) -> f64 {
         let largest = self.drawing.bounds().map_or(0.0, magnitude);
         (4.0 * f64::EPSILON * largest * self.perimeter / self.area).max(1e-9)
@@ -135,7 +135,8 @@ impl Near {
     pub const ALL: [Self; 6] = [Self::Lens, Self::Gap, Self::Inside, Self::Concentric, Self::Squares, Self::Arcs];
 }
 
-/// Two shapes that are `separation` apart, or of the opposite sign (a gap where there was an overlap), turned by `turn_rad`. Every bounded face is a region.
+/// Two shapes that are `separation` apart, or of the opposite sign (a gap where there was an overlap), turned by
+/// `turn_rad`. Every bounded face is a region.
 pub fn nearly(near: Near, separation: f64, turn_rad: f64) -> Known {
     let at = |x: f64, y: f64| Point::ORIGIN + direction(turn_rad) * x + direction(turn_rad + 0.5 * PI) * y;
     let circles = |circles: [(f64, f64); 2]| {
@@ -227,7 +228,8 @@ pub fn spiral(n: usize, width: f64) -> Known {
     known
 }
 
-/// A symmetric section of `n` straight lines (NACA 0012, its trailing edge closed), by the shoelace formula over its corners.
+/// A symmetric section of `n` straight lines (NACA 0012, its trailing edge closed), by the shoelace formula over its
+/// corners.
 pub fn section(n: usize) -> Known {
     let corner = |i: usize| {
         let angle = TAU * i as f64 / n as f64;

@@ -1,7 +1,7 @@
 //! A hierarchy of boxes: what lies near what.
 //!
-//! Built once over any number of boxes, in O(n log n), by halving along the longer side; answers "which boxes meet this one" and
-//! "what is nearest to this point" in about O(log n). Recursion depth is O(log n) whatever the input.
+//! Built once over any number of boxes, in O(n log n), by halving along the longer side; answers "which boxes meet this
+//! one" and "what is nearest to this point" in about O(log n). Recursion depth is O(log n) whatever the input.
 
 use super::{Point, Rect};
 use std::convert::Infallible;
@@ -99,8 +99,9 @@ impl BoxHierarchy {
         }
     }
 
-    /// The item at the smallest `distance`, below `bound`, and that distance. `distance(i, bound)` is asked only of items whose boxes
-    /// are nearer than the best so far (`bound`); it may answer anything larger than `bound` for "no nearer".
+    /// The item at the smallest `distance`, below `bound`, and that distance. `distance(i, bound)` is asked only of
+    /// items whose boxes are nearer than the best so far (`bound`); it may answer anything larger than `bound` for "no
+    /// nearer".
     pub fn nearest(&self, p: Point, bound: f64, mut distance: impl FnMut(usize, f64) -> f64) -> Option<(usize, f64)> {
         let (mut best, mut nearest) = (bound, None);
         let mut stack = [(0u32, 0.0); WAITING];
@@ -135,8 +136,9 @@ impl BoxHierarchy {
         nearest.map(|item| (item, best))
     }
 
-    /// Calls `each` with every pair of items whose boxes meet and that bear no common label, the smaller first, in a fixed order. Groups
-    /// whose items all bear one label are passed over at once: n segments around a point, labelled by their ends, cost n log n, not n²/2.
+    /// Calls `each` with every pair of items whose boxes meet and that bear no common label, the smaller first, in a
+    /// fixed order. Groups whose items all bear one label are passed over at once: n segments around a point, labelled
+    /// by their ends, cost n log n, not n²/2.
     pub fn pairs(&self, labels: impl Fn(usize) -> Labels, mut each: impl FnMut(usize, usize)) {
         let Ok(()) = self.try_pairs(labels, |i, j| {
             each(i, j);
@@ -204,7 +206,8 @@ impl<'a> Labelled<'a> {
         Self { tree, labels, common }
     }
 
-    /// Pairs of an item here and one of `other`, which is `same`: the one and the same hierarchy, of which each pair is told once.
+    /// Pairs of an item here and one of `other`, which is `same`: the one and the same hierarchy, of which each pair is
+    /// told once.
     fn try_pairs<E>(
         &self,
         other: &Self,

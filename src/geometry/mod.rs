@@ -1,4 +1,5 @@
-//! Ground floor: points and vectors, exact signs, insertion order, box hierarchy, planes in space, numbers as text has them. Numbers only, nothing of meshes.
+//! Ground floor: points and vectors, exact signs, insertion order, box hierarchy, planes in space, numbers as text has
+//! them. Numbers only, nothing of meshes.
 
 pub mod boxes;
 pub mod exact;
@@ -22,7 +23,8 @@ pub fn unit_scale(magnitude: f64) -> f64 {
     libm::ldexp(1.0, -exponent)
 }
 
-/// One unit of the last decimal of a number that was read from text: 0.001 of 1.275, 0.1 of 3.0e1 + 0.5, 0 of a whole number.
+/// One unit of the last decimal of a number that was read from text: 0.001 of 1.275, 0.1 of 3.0e1 + 0.5, 0 of a whole
+/// number.
 ///
 /// The shortest text that reads as the same number is what was written, but for zeros at its end.
 pub fn last_decimal(x: f64) -> f64 {
@@ -86,8 +88,8 @@ impl Frame {
     }
 }
 
-/// Metres in a unit of length, which may have a factor before it ("0.35 mm"); `None` of a unit that has no fixed size ("chord", …) or
-/// is not known.
+/// Metres in a unit of length, which may have a factor before it ("0.35 mm"); `None` of a unit that has no fixed size
+/// ("chord", …) or is not known.
 pub fn metres(unit: &str) -> Option<f64> {
     if let Some((factor, unit)) = unit.split_once(' ') {
         let factor: f64 = factor.parse().ok().filter(|f: &f64| f.is_finite() && *f > 0.0)?;

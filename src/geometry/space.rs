@@ -41,8 +41,9 @@ pub fn unit(a: [f64; 3]) -> Option<[f64; 3]> {
 }
 
 impl Frame {
-    /// The frame of the plane through `origin` at right angles to `normal`, its first axis as near to `toward` as the plane allows;
-    /// where `toward` is along the normal, as near as may be to a coordinate axis. `None` where the normal has no direction.
+    /// The frame of the plane through `origin` at right angles to `normal`, its first axis as near to `toward` as the
+    /// plane allows; where `toward` is along the normal, as near as may be to a coordinate axis. `None` where the
+    /// normal has no direction.
     pub fn of_plane(origin: [f64; 3], normal: [f64; 3], toward: [f64; 3]) -> Option<Self> {
         let normal = unit(normal)?;
         let within = |v: [f64; 3]| {

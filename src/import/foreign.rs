@@ -1,5 +1,5 @@
-//! Files that are no drawing for any reader here: recognised by their first bytes, or by a suffix where those say nothing, and refused by
-//! name with the way out. A format is recognised only by what no drawing of ours begins with.
+//! Files that are no drawing for any reader here: recognised by their first bytes, or by a suffix where those say
+//! nothing, and refused by name with the way out. A format is recognised only by what no drawing of ours begins with.
 
 use super::{ImportError, number};
 use std::path::Path;

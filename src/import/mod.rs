@@ -1,6 +1,7 @@
-//! Readers: files → [`Drawing`], or coordinates of sections. A file or a folder a format, with what there is to know of it (`Facts`); the list
-//! of formats below is the only one. Nothing is welded, split or dropped here, that is
-//! [`Drawing::arrange`]'s part. Every quirk that a reader met and every liberty that it took is a sentence in [`Drawing::notes`].
+//! Readers: files → [`Drawing`], or coordinates of sections. A file or a folder a format, with what there is to know of
+//! it (`Facts`); the list of formats below is the only one. Nothing is welded, split or dropped here, that is
+//! [`Drawing::arrange`]'s part. Every quirk that a reader met and every liberty that it took is a sentence in
+//! [`Drawing::notes`].
 
 pub mod airfoil;
 pub mod dxf;
@@ -16,6 +17,7 @@ pub use selection::{Glob, Selection};
 pub use svg::{Strokes, SvgOptions};
 
 use crate::domain::Drawing;
+use crate::formats::formats;
 use crate::geometry::written::{number, numbers, tokens};
 use std::path::Path;
 
@@ -51,43 +53,24 @@ impl ImportError {
     }
 }
 
-/// The formats: the enum, [`Format::ALL`] and the way to their facts.
-macro_rules! formats {
-    ($($(#[doc = $doc:literal])* $format:ident = $facts:path;)*) => {
-        /// A format of drawings.
-        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-        pub enum Format {
-            $($(#[doc = $doc])* $format,)*
-        }
-
-        impl Format {
-            /// Every format, in the order of the enum, in which first bytes are compared too.
-            pub const ALL: [Self; [$(Self::$format),*].len()] = [$(Self::$format),*];
-
-            const fn facts(self) -> &'static Facts {
-                match self {
-                    $(Self::$format => &$facts,)*
-                }
-            }
-        }
-    };
-}
-
 formats! {
-    /// Airfoil coordinates: Selig, Lednicer, MSES/XFOIL blade files.
-    Airfoil = airfoil::FACTS;
-    /// Triangle's planar straight-line graph.
-    Poly = poly::FACTS;
-    /// Triangle's vertices alone.
-    Node = poly::FACTS_OF_NODE;
-    /// Our own curves, as JSON.
-    Outline = outline::FACTS;
-    /// Drawings of CAD systems.
-    Dxf = dxf::FACTS;
-    /// Scalable Vector Graphics, plain or compressed.
-    Svg = svg::FACTS;
-    /// STEP (ISO 10303-21): one planar face of a solid. Read where the feature `cad` is on.
-    Step = step::FACTS;
+    /// A format of drawings.
+    pub enum Format: Facts {
+        /// Airfoil coordinates: Selig, Lednicer, MSES/XFOIL blade files.
+        Airfoil = airfoil::FACTS,
+        /// Triangle's planar straight-line graph.
+        Poly = poly::FACTS,
+        /// Triangle's vertices alone.
+        Node = poly::FACTS_OF_NODE,
+        /// Our own curves, as JSON.
+        Outline = outline::FACTS,
+        /// Drawings of CAD systems.
+        Dxf = dxf::FACTS,
+        /// Scalable Vector Graphics, plain or compressed.
+        Svg = svg::FACTS,
+        /// STEP (ISO 10303-21): one planar face of a solid. Read where the feature `cad` is on.
+        Step = step::FACTS,
+    }
 }
 
 /// What there is to know of a format.
@@ -106,8 +89,9 @@ struct Facts {
 /// How surely first bytes tell a format.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Certainty {
-    /// They say which it is, and no other file begins so: JSON starts with a brace, DXF with its sentinel or a section, XML and gzip each in
-    /// their own way. Only a mark is held against a wrong suffix, and is asked before files of other kinds are told by name.
+    /// They say which it is, and no other file begins so: JSON starts with a brace, DXF with its sentinel or a section,
+    /// XML and gzip each in their own way. Only a mark is held against a wrong suffix, and is asked before files of
+    /// other kinds are told by name.
     Mark,
     /// They have a shape of their own, which no mark contradicts.
     Shape,
@@ -131,7 +115,8 @@ impl Format {
         Self::ALL.into_iter().find(|f| f.name() == name)
     }
 
-    /// A guess from the first bytes, for files whose suffix says nothing: what says its format, else what has the shape of one, else numbers.
+    /// A guess from the first bytes, for files whose suffix says nothing: what says its format, else what has the shape
+    /// of one, else numbers.
     pub fn sniff(bytes: &[u8]) -> Option<Self> {
         [Certainty::Mark, Certainty::Shape, Certainty::Numbers].into_iter().find_map(|by| Self::told(bytes, by))
     }
@@ -223,7 +208,8 @@ fn refuse_other(bytes: &[u8], format: Format) -> Result<(), ImportError> {
 /// Reads a file. `stem` (the file's name without its suffix) is the title where the file gives none.
 ///
 /// # Errors
-/// [`ImportError`] with the line where the file breaks its format. Never panics, and takes memory in proportion to `bytes`.
+/// [`ImportError`] with the line where the file breaks its format. Never panics, and takes memory in proportion to
+/// `bytes`.
 pub fn read(bytes: &[u8], format: Format, stem: &str, options: &Options) -> Result<Found, ImportError> {
     refuse_other(bytes, format)?;
     (format.facts().read)(bytes, stem, options)

@@ -1,8 +1,9 @@
 //! Triangle's `.poly` and `.node` files (Shewchuk): vertices, segments, hole points and region points.
 //!
-//! A marker is the boundary's name, as text; 0 and no marker are `boundary`. The attribute of a region point is the region's name.
-//! Vertices that no segment uses are kept as points. As in Triangle every bounded face is meshed, but those reached from a hole
-//! point ([`FillRule::Regions`]), and where there are no segments the domain is the convex hull, whose lines are named `hull`.
+//! A marker is the boundary's name, as text; 0 and no marker are `boundary`. The attribute of a region point is the
+//! region's name. Vertices that no segment uses are kept as points. As in Triangle every bounded face is meshed, but
+//! those reached from a hole point ([`FillRule::Regions`]), and where there are no segments the domain is the convex
+//! hull, whose lines are named `hull`.
 
 use super::{Certainty, Facts, ImportError, number, numbers, tokens, without_bom};
 use crate::curve::Curve;
@@ -414,8 +415,8 @@ enum Holds {
     More,
 }
 
-/// What the text holds if it starts as Triangle's files do: the first line holds whole numbers of which the second, the dimension, is 2; with
-/// one line of that shape more, the segment header, it is a `.poly`.
+/// What the text holds if it starts as Triangle's files do: the first line holds whole numbers of which the second, the
+/// dimension, is 2; with one line of that shape more, the segment header, it is a `.poly`.
 fn sniff(bytes: &[u8]) -> Option<Holds> {
     let mut rows = Rows::new(without_bom(bytes));
     let header = rows.next()?;

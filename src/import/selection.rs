@@ -89,7 +89,8 @@ impl<'a> Chooser<'a> {
         Self { selection, case, names: BTreeSet::new(), matched: BTreeSet::new() }
     }
 
-    /// Whether an entity is read that all of these names stand for: its layer, or in SVG its own names and those of all groups around it.
+    /// Whether an entity is read that all of these names stand for: its layer, or in SVG its own names and those of all
+    /// groups around it.
     pub fn takes<'n>(&mut self, names: impl IntoIterator<Item = &'n str>) -> bool {
         let choice = self.choice(Choice::default(), names);
         self.allows(choice)

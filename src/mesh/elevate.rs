@@ -1,9 +1,10 @@
 //! Order 2: a node within every edge, on the true curve where the edge lies on one, and every cell valid.
 //!
-//! A cell is valid where its Jacobian determinant is positive throughout ([`quality::is_valid`] proves it by Bézier bounds). The node of a
-//! curved side is where the curve crosses the bisector of its chord, which keeps the map even. Where a cell is not valid so, other
-//! places on the curve are tried; where none will do, as in the cell between two tangent curves, a side is straightened and listed.
-//! Sides only ever go from one place to the next and at last straight, and a cell with straight sides is valid: the search ends.
+//! A cell is valid where its Jacobian determinant is positive throughout ([`quality::is_valid`] proves it by Bézier
+//! bounds). The node of a curved side is where the curve crosses the bisector of its chord, which keeps the map even.
+//! Where a cell is not valid so, other places on the curve are tried; where none will do, as in the cell between two
+//! tangent curves, a side is straightened and listed. Sides only ever go from one place to the next and at last
+//! straight, and a cell with straight sides is valid: the search ends.
 
 use super::{Mesh, quality};
 use crate::curve::Curve;
@@ -11,7 +12,8 @@ use crate::domain::Domain;
 use crate::geometry::Point;
 use crate::ids::{Id, IdVec, TriangleId, VertexId};
 
-/// Places tried after the bisector, as shares of the way from one end to the other in the curve's parameter: middle first.
+/// Places tried after the bisector, as shares of the way from one end to the other in the curve's parameter: middle
+/// first.
 const PLACES: [f64; 7] = [0.5, 0.45, 0.55, 0.4, 0.6, 0.33, 0.67];
 
 /// An edge of the mesh and what lies within it.
@@ -24,7 +26,8 @@ struct Edge {
     curved: Option<usize>,
 }
 
-/// Makes a mesh of order 1 one of order 2. Returns the curved edges (places in `Mesh::edges`) that had to be straightened, ascending.
+/// Makes a mesh of order 1 one of order 2. Returns the curved edges (places in `Mesh::edges`) that had to be
+/// straightened, ascending.
 ///
 /// Edges are linked to the curves of `domain`; its cells run counter-clockwise.
 pub fn elevate(mesh: &mut Mesh, domain: &Domain) -> Vec<usize> {
@@ -145,8 +148,8 @@ impl Elevation<'_> {
         self.sides[t].into_iter().map(|e| e as usize).filter(|&e| self.edges[e].curved.is_some())
     }
 
-    /// Moves the node of one curved side along its curve until the cells on both sides are valid; `false`, and nothing moved, where no
-    /// place will do.
+    /// Moves the node of one curved side along its curve until the cells on both sides are valid; `false`, and nothing
+    /// moved, where no place will do.
     fn move_a_node(&mut self, t: TriangleId) -> bool {
         let sides: Vec<usize> = self.curved_sides(t).collect();
         for edge in sides {

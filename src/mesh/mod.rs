@@ -31,7 +31,8 @@ pub struct Mesh {
     pub named_nodes: Vec<(VertexId, NameId)>,
     /// Protecting balls that were set around acute corners.
     pub balls: Vec<Ball>,
-    /// Of order 2: the node within each side of each triangle: between its corners 0 and 1, 1 and 2, 2 and 0. Empty of order 1.
+    /// Of order 2: the node within each side of each triangle: between its corners 0 and 1, 1 and 2, 2 and 0. Empty of
+    /// order 1.
     pub triangle_mids: IdVec<TriangleId, [VertexId; 3]>,
     /// Of order 2: the node within each of `edges`. Empty of order 1.
     pub edge_mids: Vec<VertexId>,
@@ -72,8 +73,8 @@ pub struct Ball {
     pub why: BallReason,
 }
 
-/// How far a vertex on the border of a ball may lie from it by rounding, in units of the largest coordinate: it is a point of a curve,
-/// evaluated at a parameter that was itself found by iteration. 64 units in the last place.
+/// How far a vertex on the border of a ball may lie from it by rounding, in units of the largest coordinate: it is a
+/// point of a curve, evaluated at a parameter that was itself found by iteration. 64 units in the last place.
 pub const RIM_ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// What set a ball's radius.
@@ -88,7 +89,8 @@ pub enum BallReason {
     Size,
 }
 
-/// A vertex as a refinement inserted it that promises a density for it (Foteinos, Chernikov & Chrisochoides 2010, section 2).
+/// A vertex as a refinement inserted it that promises a density for it (Foteinos, Chernikov & Chrisochoides 2010,
+/// section 2).
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Insertion {
     /// The type of the insertion.

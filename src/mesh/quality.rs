@@ -142,8 +142,8 @@ pub fn area([a, b, c]: [Point; 3]) -> f64 {
     0.5 * (b - a).cross(c - a)
 }
 
-/// Signed area of a cell. Of order 2, a side is a parabola through its three nodes, two thirds of the way from the chord to the
-/// parallelogram around it.
+/// Signed area of a cell. Of order 2, a side is a parabola through its three nodes, two thirds of the way from the
+/// chord to the parallelogram around it.
 pub fn cell_area(mesh: &Mesh, t: TriangleId) -> f64 {
     let corners = mesh.corners(t);
     let bulge = |mids: &[VertexId; 3]| -> f64 {
@@ -153,8 +153,8 @@ pub fn cell_area(mesh: &Mesh, t: TriangleId) -> f64 {
     area(corners) + mesh.triangle_mids.get(t).map_or(0.0, |mids| bulge(mids) * 2.0 / 3.0)
 }
 
-/// Whether the Jacobian determinant of a cell is positive throughout: proven by bounds, never by samples, so that a doubtful cell
-/// counts as not valid. Of order 1: whether it runs counter-clockwise.
+/// Whether the Jacobian determinant of a cell is positive throughout: proven by bounds, never by samples, so that a
+/// doubtful cell counts as not valid. Of order 1: whether it runs counter-clockwise.
 pub fn is_valid(mesh: &Mesh, t: TriangleId) -> bool {
     let corners = mesh.corners(t);
     match mesh.triangle_mids.get(t) {
@@ -194,8 +194,8 @@ impl Jacobian {
         }
     }
 
-    /// The polar form: the value at `a` where both are the same, a coefficient over a part of the triangle where they are two of its
-    /// corners.
+    /// The polar form: the value at `a` where both are the same, a coefficient over a part of the triangle where they
+    /// are two of its corners.
     fn polar(&self, a: Place, b: Place) -> f64 {
         let diagonal: f64 = (0..3).map(|i| self.at[i] * a[i] * b[i]).sum();
         let mixed = |i: usize, j: usize| self.within[i] * (a[i] * b[j] + a[j] * b[i]);

@@ -32,7 +32,8 @@ fn to_srgb(value: f64) -> f64 {
     if value <= 0.003_130_8 { 12.92 * value } else { 1.055 * libm::pow(value, 1.0 / 2.4) - 0.055 }
 }
 
-/// Colours that neighbours in a list tell apart, without end, in linear light: equal steps of the golden angle around the hue circle.
+/// Colours that neighbours in a list tell apart, without end, in linear light: equal steps of the golden angle around
+/// the hue circle.
 fn palette(i: usize) -> [f64; 4] {
     const GOLDEN: f64 = 0.618_034;
     let hue = (0.58 + i as f64 * GOLDEN).fract();

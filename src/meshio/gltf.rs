@@ -1,16 +1,17 @@
 //! glTF 2.0: `.glb`, or `.gltf` with its buffer inside as base64.
 //!
-//! A node with a mesh of one primitive for every region (triangles), then for every boundary (lines), each under its name, all over one
-//! list of positions; `extras` of a primitive say `{"region": NAME}` or `{"boundary": NAME}`, and each region's material bears its name
-//! and its colour in the drawing, where that has one. They hang on the root node, which converts to metres (a unit that is not known
-//! stays as it is; `extras` say which it was) and stands +Y up: a mesh in the plane has its y upward as it is, a mesh that lies in space
-//! is turned from CAD's +Z up. The root is also shifted to the middle of the mesh, so that positions, float32 by the format, keep small
-//! features far from the origin.
+//! A node with a mesh of one primitive for every region (triangles), then for every boundary (lines), each under its
+//! name, all over one list of positions; `extras` of a primitive say `{"region": NAME}` or `{"boundary": NAME}`, and
+//! each region's material bears its name and its colour in the drawing, where that has one. They hang on the root node,
+//! which converts to metres (a unit that is not known stays as it is; `extras` say which it was) and stands +Y up: a
+//! mesh in the plane has its y upward as it is, a mesh that lies in space is turned from CAD's +Z up. The root is also
+//! shifted to the middle of the mesh, so that positions, float32 by the format, keep small features far from the
+//! origin.
 //!
 //! MeshLab makes triangles of the lines: they can be left out (`lines` false).
 //!
-//! Cells of order 2 are written as straight ones between all their nodes: four a triangle, two an edge. Not held: order 2, more
-//! than float32 of a coordinate, links to curves, balls. A mesh without triangles is refused: glTF has none.
+//! Cells of order 2 are written as straight ones between all their nodes: four a triangle, two an edge. Not held: order
+//! 2, more than float32 of a coordinate, links to curves, balls. A mesh without triangles is refused: glTF has none.
 
 use super::colours;
 use super::groups::{Groups, straight_edges, straight_triangles};
@@ -63,8 +64,8 @@ fn losses(losses: &mut Losses) {
 /// Writes binary glTF, the boundaries as lines where asked for.
 ///
 /// # Errors
-/// Those of `out`; `Unsupported` of no triangles; `InvalidInput` where the mesh's lists do not fit together, where coordinates
-/// exceed float32 or the file 4 GB.
+/// Those of `out`; `Unsupported` of no triangles; `InvalidInput` where the mesh's lists do not fit together, where
+/// coordinates exceed float32 or the file 4 GB.
 fn write_glb(mesh: &Mesh, lines: bool, out: &mut impl Write) -> io::Result<()> {
     let (root, mut binary) = Scene::of(mesh, lines)?.finish(None)?;
     let mut text = root.to_vec().map_err(io::Error::other)?;
@@ -280,7 +281,8 @@ struct Placement {
     scale: f32,
     /// In metres, +Y up, as float32 holds it.
     translation: [f32; 3],
-    /// The place that is shifted there, in the mesh's coordinates: about its middle. What is subtracted is what the node adds.
+    /// The place that is shifted there, in the mesh's coordinates: about its middle. What is subtracted is what the
+    /// node adds.
     origin: [f64; 3],
 }
 

@@ -21,7 +21,8 @@ impl Kind {
     }
 }
 
-/// Regions and boundaries by name, each kind numbered from 0 in the order of first use. Regions of one name are one group.
+/// Regions and boundaries by name, each kind numbered from 0 in the order of first use. Regions of one name are one
+/// group.
 pub struct Groups<'m> {
     mesh: &'m Mesh,
     pub regions: Vec<&'m str>,
@@ -128,8 +129,8 @@ pub fn straight_edges(mesh: &Mesh, edge: usize) -> impl Iterator<Item = [VertexI
     one.into_iter().chain(halves.into_iter().flatten())
 }
 
-/// For every side of a triangle, its ends as [`undirected`] gives them: the triangles that have it, and as which of their sides (0:
-/// between corners 0 and 1, …).
+/// For every side of a triangle, its ends as [`undirected`] gives them: the triangles that have it, and as which of
+/// their sides (0: between corners 0 and 1, …).
 pub fn sides(mesh: &Mesh) -> BTreeMap<[VertexId; 2], Vec<(TriangleId, usize)>> {
     let mut sides: BTreeMap<[VertexId; 2], Vec<(TriangleId, usize)>> = BTreeMap::new();
     for (t, &corners) in mesh.triangles.enumerate() {

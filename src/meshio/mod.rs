@@ -1,11 +1,12 @@
 //! Mesh files: [`Mesh`] → files, and files, ours or not, → [`Mesh`], with the names that the format has.
 //!
-//! A format is a file, or a folder with `write.rs` and `read.rs`. What there is to know of it is said once, in its `Facts`, and the list of
-//! formats below is the only one: the enum, its names and suffixes, the writer, the reader and what the writer loses are all made from that line.
+//! A format is a file, or a folder with `write.rs` and `read.rs`. What there is to know of it is said once, in its
+//! `Facts`, and the list of formats below is the only one: the enum, its names and suffixes, the writer, the reader and
+//! what the writer loses are all made from that line.
 //!
-//! Written is all that a format can hold; [`Format::losses`] tells the rest. Read are triangles and lines, straight ones or of second order
-//! (all of one kind), in a plane. Vertices as cells are left out and counted; any other cell is an error. Nothing is believed: every count is
-//! held against the bytes at hand.
+//! Written is all that a format can hold; [`Format::losses`] tells the rest. Read are triangles and lines, straight
+//! ones or of second order (all of one kind), in a plane. Vertices as cells are left out and counted; any other cell is
+//! an error. Nothing is believed: every count is held against the bytes at hand.
 
 mod colours;
 mod draft;
@@ -23,62 +24,43 @@ mod vtk;
 mod vtu;
 mod xdmf;
 
+use crate::formats::formats;
 use crate::mesh::Mesh;
 use losses::Losses;
 use serde::Serialize;
 use std::io;
 use std::path::Path;
 
-/// The formats, in the order in which they are listed and in which their marks are looked for: the enum, [`Format::ALL`] and the way to
-/// their facts.
-macro_rules! formats {
-    ($($(#[doc = $doc:literal])* $format:ident = $facts:path;)*) => {
-        /// A format of mesh files.
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-        pub enum Format {
-            $($(#[doc = $doc])* $format,)*
-        }
-
-        impl Format {
-            /// Every format, in the order in which they are listed and in which first bytes are compared.
-            pub const ALL: [Self; [$(Self::$format),*].len()] = [$(Self::$format),*];
-
-            const fn facts(self) -> &'static Facts {
-                match self {
-                    $(Self::$format => &$facts,)*
-                }
-            }
-        }
-    };
-}
-
 formats! {
-    /// VTK XML unstructured grid: all that a mesh holds.
-    Vtu = vtu::FACTS;
-    /// Legacy VTK, written in binary.
-    Vtk = vtk::FACTS;
-    /// Legacy VTK as text, for readers that know no other (MFEM, deal.II, Gmsh).
-    VtkText = vtk::FACTS_OF_TEXT;
-    /// Gmsh, written as 4.1 in binary.
-    Msh = msh::FACTS;
-    /// Gmsh 2.2, text.
-    Msh22 = msh::FACTS_OF_22;
-    /// SU2, of two dimensions.
-    Su2 = su2::FACTS;
-    /// Abaqus and CalculiX.
-    Inp = inp::FACTS;
-    /// XDMF 3, text.
-    Xdmf = xdmf::FACTS;
-    /// Triangle's `.node`, `.ele` and `.poly`.
-    Triangle = triangle::FACTS;
-    /// glTF 2.0, binary.
-    Glb = gltf::FACTS_OF_GLB;
-    /// glTF 2.0, text.
-    Gltf = gltf::FACTS;
-    /// Wavefront, with its materials.
-    Obj = obj::FACTS;
-    /// STL, written as text.
-    Stl = stl::FACTS;
+    /// A format of mesh files.
+    pub enum Format: Facts {
+        /// VTK XML unstructured grid: all that a mesh holds.
+        Vtu = vtu::FACTS,
+        /// Legacy VTK, written in binary.
+        Vtk = vtk::FACTS,
+        /// Legacy VTK as text, for readers that know no other (MFEM, deal.II, Gmsh).
+        VtkText = vtk::FACTS_OF_TEXT,
+        /// Gmsh, written as 4.1 in binary.
+        Msh = msh::FACTS,
+        /// Gmsh 2.2, text.
+        Msh22 = msh::FACTS_OF_22,
+        /// SU2, of two dimensions.
+        Su2 = su2::FACTS,
+        /// Abaqus and CalculiX.
+        Inp = inp::FACTS,
+        /// XDMF 3, text.
+        Xdmf = xdmf::FACTS,
+        /// Triangle's `.node`, `.ele` and `.poly`.
+        Triangle = triangle::FACTS,
+        /// glTF 2.0, binary.
+        Glb = gltf::FACTS_OF_GLB,
+        /// glTF 2.0, text.
+        Gltf = gltf::FACTS,
+        /// Wavefront, with its materials.
+        Obj = obj::FACTS,
+        /// STL, written as text.
+        Stl = stl::FACTS,
+    }
 }
 
 /// The bytes of each file of an output.
@@ -94,8 +76,8 @@ struct Facts {
     name: &'static str,
     /// Suffixes of the files of one output, in the order of [`encode`].
     suffixes: &'static [&'static str],
-    /// Whether the first file keeps the name that the user gave and the others stand beside it, where the output has a name at all.
-    /// Otherwise each file has its own suffix, whatever the user's.
+    /// Whether the first file keeps the name that the user gave and the others stand beside it, where the output has a
+    /// name at all. Otherwise each file has its own suffix, whatever the user's.
     first_as_named: bool,
     /// What the format leaves to choose.
     choices: &'static [Choice],
@@ -144,8 +126,8 @@ impl Format {
         self.facts().suffixes
     }
 
-    /// Whether the first file of an output keeps the name that a user gave, whatever its suffix, and the others stand beside it, where the
-    /// output has a name ([`WriteOptions::stem`]); otherwise every file has its own suffix.
+    /// Whether the first file of an output keeps the name that a user gave, whatever its suffix, and the others stand
+    /// beside it, where the output has a name ([`WriteOptions::stem`]); otherwise every file has its own suffix.
     pub const fn first_as_named(self) -> bool {
         self.facts().first_as_named
     }
@@ -183,7 +165,8 @@ impl Format {
         Self::ALL.into_iter().find(|f| f.reading().is_some_and(|r| (r.begins)(start)))
     }
 
-    /// Whether cells of this order can be written at all; where they are written as straight ones, [`Format::losses`] says so.
+    /// Whether cells of this order can be written at all; where they are written as straight ones, [`Format::losses`]
+    /// says so.
     ///
     /// # Errors
     /// `Unsupported`, with the way out.
@@ -223,13 +206,13 @@ pub struct WriteOptions {
     pub plain: bool,
     /// Whether boundaries with triangles on both sides are written: interfaces, and lines within a region.
     pub interior_lines: bool,
-    /// Whether the boundaries are written as lines, in formats that have readers who go wrong beside lines: glTF, OBJ, text VTK and
-    /// plain VTU. `None`: in the first two.
+    /// Whether the boundaries are written as lines, in formats that have readers who go wrong beside lines: glTF, OBJ,
+    /// text VTK and plain VTU. `None`: in the first two.
     pub lines: Option<bool>,
     /// Whether XDMF holds triangles and lines in one grid or in two.
     pub xdmf: XdmfGrids,
-    /// The name without suffix by which the files of one output speak of each other: OBJ's of its `.mtl`. `None`: an output that is a
-    /// stream, and its first file alone.
+    /// The name without suffix by which the files of one output speak of each other: OBJ's of its `.mtl`. `None`: an
+    /// output that is a stream, and its first file alone.
     pub stem: Option<String>,
 }
 
@@ -239,12 +222,13 @@ impl Default for WriteOptions {
     }
 }
 
-/// A mesh in a format: the bytes of each file of [`Format::suffixes`], of an OBJ without a stem those of the first. `stamps` (key and value)
-/// say how the mesh was made, where the format has a place for them (VTU). The same mesh gives the same bytes.
+/// A mesh in a format: the bytes of each file of [`Format::suffixes`], of an OBJ without a stem those of the first.
+/// `stamps` (key and value) say how the mesh was made, where the format has a place for them (VTU). The same mesh gives
+/// the same bytes.
 ///
 /// # Errors
-/// `Unsupported` where the format cannot hold such a mesh at all; `InvalidInput` where the mesh's lists do not fit together or it
-/// is too large for the format.
+/// `Unsupported` where the format cannot hold such a mesh at all; `InvalidInput` where the mesh's lists do not fit
+/// together or it is too large for the format.
 pub fn encode(
     mesh: &Mesh,
     stamps: &[(String, String)],
@@ -299,8 +283,8 @@ type Result<T> = std::result::Result<T, MeshError>;
 /// Reads a mesh; `beside` are the files of [`Reading::beside`], in its order, as far as there are any.
 ///
 /// # Errors
-/// [`MeshError`] with the place where the file breaks its format, or what in it cannot be read, or that the format is only written. Never
-/// panics, and takes memory in proportion to the bytes.
+/// [`MeshError`] with the place where the file breaks its format, or what in it cannot be read, or that the format is
+/// only written. Never panics, and takes memory in proportion to the bytes.
 pub fn read(bytes: &[u8], format: Format, beside: &[Option<Vec<u8>>]) -> Result<MeshFile> {
     match format.reading() {
         Some(reading) => (reading.read)(bytes, beside),

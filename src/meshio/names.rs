@@ -4,8 +4,8 @@ use super::groups::Kind;
 use super::text;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Names that a format can bear: each made `legal`, cut to `longest` bytes, and told apart (without regard to case) by a
-/// number at its end.
+/// Names that a format can bear: each made `legal`, cut to `longest` bytes, and told apart (without regard to case) by
+/// a number at its end.
 pub fn legal_names(names: &[&str], longest: usize, legal: impl Fn(&str) -> String) -> Vec<String> {
     let mut taken = BTreeSet::new();
     let cut = |text: &str, longest: usize| {

@@ -1,11 +1,12 @@
-//! XDMF 3 as one text file, its numbers inside. Two grids, as FEniCSx reads them (it takes no mixed one): `mesh` of triangles with the
-//! cell attribute `region`, `boundaries` of lines with the cell attribute `boundary`. Or one grid of both kinds of cells with both
-//! attributes, 0 at cells of the other kind. Numbers count from 1; their names are `Information` elements (`region:NAME`).
-//! Coordinates have all their digits: two of a mesh in the plane, three of one in space. Order 2 is held (Triangle_6, Edge_3).
+//! XDMF 3 as one text file, its numbers inside. Two grids, as FEniCSx reads them (it takes no mixed one): `mesh` of
+//! triangles with the cell attribute `region`, `boundaries` of lines with the cell attribute `boundary`. Or one grid of
+//! both kinds of cells with both attributes, 0 at cells of the other kind. Numbers count from 1; their names are
+//! `Information` elements (`region:NAME`). Coordinates have all their digits: two of a mesh in the plane, three of one
+//! in space. Order 2 is held (Triangle_6, Edge_3).
 //!
-//! One grid is for meshio 5.3, which takes a domain of one grid and nothing else, no `Time` either, and names in a form of its own; of order
-//! 2 it reads one kind of cells only. VTK 9.7 (`vtkXdmfReader`, ParaView's) reads both forms, two grids as blocks.
-//! `pyvista.read` (0.49) fails on any XDMF without times: give it VTU.
+//! One grid is for meshio 5.3, which takes a domain of one grid and nothing else, no `Time` either, and names in a form
+//! of its own; of order 2 it reads one kind of cells only. VTK 9.7 (`vtkXdmfReader`, ParaView's) reads both forms, two
+//! grids as blocks. `pyvista.read` (0.49) fails on any XDMF without times: give it VTU.
 //!
 //! Not held: the unit is an `Information` of two grids only; links to curves, balls.
 

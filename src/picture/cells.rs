@@ -65,7 +65,8 @@ impl<'a> CellColours<'a> {
         }
     }
 
-    /// Whether dark lines cannot be seen on the colour: scales are chosen for them, a drawing's colours are what they are.
+    /// Whether dark lines cannot be seen on the colour: scales are chosen for them, a drawing's colours are what they
+    /// are.
     pub fn is_dark(&self, class: usize) -> bool {
         let Colour(r, g, b) = self.paint(class);
         // Rec. 709's luma, of 255.

@@ -1,5 +1,5 @@
-//! Repairs in a picture: a shape a kind around every place, the same size whatever the repair's own. Where shapes would crowd, one stands for
-//! several, and has their number beside it.
+//! Repairs in a picture: a shape a kind around every place, the same size whatever the repair's own. Where shapes would
+//! crowd, one stands for several, and has their number beside it.
 
 use super::PictureOptions;
 use super::canvas::Colour;
@@ -86,8 +86,8 @@ pub fn mended(options: &PictureOptions) -> impl Iterator<Item = (Mended, &Repair
     of(&options.repairs, false).chain(of(&options.unhealed, true))
 }
 
-/// Markers of what is in sight: all that falls into one cell of a grid has one, of the rarest kind and at the place of that. The cells are as
-/// wide as a marker and the gap beside it, or as many times that as it takes.
+/// Markers of what is in sight: all that falls into one cell of a grid has one, of the rarest kind and at the place of
+/// that. The cells are as wide as a marker and the gap beside it, or as many times that as it takes.
 pub fn markers(frame: &Frame, options: &PictureOptions, width: f64) -> Vec<Marker> {
     let seen: Vec<(Mended, Point, Pixel)> = mended(options)
         .map(|(mended, repair)| (mended, Point::new(repair.at[0], repair.at[1])))

@@ -1,7 +1,7 @@
 //! Pictures of a drawing, a domain and a mesh: curves by the name of their boundary, cells by quality, region or size.
 //!
-//! `scene.rs` says what is drawn of each, on a `sheet.rs` with its `annotations.rs`; that is a [`Canvas`] of pixels, written as SVG or painted
-//! as PNG.
+//! `scene.rs` says what is drawn of each, on a `sheet.rs` with its `annotations.rs`; that is a [`Canvas`] of pixels,
+//! written as SVG or painted as PNG.
 
 mod annotations;
 mod canvas;

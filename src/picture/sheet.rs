@@ -1,4 +1,5 @@
-//! What is drawn on a sheet: curves, cells, edges, balls, points and labels, each with a pen that looks the same at every width.
+//! What is drawn on a sheet: curves, cells, edges, balls, points and labels, each with a pen that looks the same at
+//! every width.
 //!
 //! Curves are flattened here for the eye only, to a tenth of a pixel; nothing else in the library flattens them.
 
@@ -154,7 +155,8 @@ impl Sheet {
         }
     }
 
-    /// Every edge once, light where all about it is dark, fainter as cells get small: a mesh of pixel-sized cells would else be black.
+    /// Every edge once, light where all about it is dark, fainter as cells get small: a mesh of pixel-sized cells would
+    /// else be black.
     pub fn edges(&mut self, mesh: &Mesh, colours: &CellColours) {
         let mut edges: Vec<([VertexId; 2], bool)> = Vec::with_capacity(mesh.triangles.len() * 3);
         for (t, &[a, b, c]) in mesh.triangles.enumerate() {

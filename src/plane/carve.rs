@@ -1,10 +1,11 @@
-//! Which region each triangle belongs to. Carving is topological: a triangle takes its region from the side of the curve that it lies
-//! on, or from a neighbour with no curve between. Nothing is cut away: D(P′) stays whole, and triangles outside have no region.
+//! Which region each triangle belongs to. Carving is topological: a triangle takes its region from the side of the
+//! curve that it lies on, or from a neighbour with no curve between. Nothing is cut away: D(P′) stays whole, and
+//! triangles outside have no region.
 //!
-//! Regions are right whenever every piece is an edge and no piece is encroached: then no vertex lies between a piece and its chord (the
-//! lens lies in the empty diametral disk), so chords bound what the curves bound. Between two such moments only triangles made since
-//! may need a new region; a triangle that was there before and still stands keeps its own (a piece that bulges over it would have
-//! destroyed it, since the split point lies in its circumdisk).
+//! Regions are right whenever every piece is an edge and no piece is encroached: then no vertex lies between a piece
+//! and its chord (the lens lies in the empty diametral disk), so chords bound what the curves bound. Between two such
+//! moments only triangles made since may need a new region; a triangle that was there before and still stands keeps its
+//! own (a piece that bulges over it would have destroyed it, since the split point lies in its circumdisk).
 
 use super::insert::Kernel;
 use super::subcurves::{Carrier, Subcurves};
@@ -20,7 +21,8 @@ pub struct Carver {
 }
 
 impl Carver {
-    /// Gives regions to triangles that were made since the last time; `fresh` is left with those that are alive, each once.
+    /// Gives regions to triangles that were made since the last time; `fresh` is left with those that are alive, each
+    /// once.
     pub fn carve(
         &mut self,
         delaunay: &mut Kernel,

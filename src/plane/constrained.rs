@@ -1,8 +1,10 @@
-//! The constrained Delaunay triangulation: sides that carry a piece stand whatever lies around them, and nobody sees across.
+//! The constrained Delaunay triangulation: sides that carry a piece stand whatever lies around them, and nobody sees
+//! across.
 //!
-//! A triangulation is constrained Delaunay if no vertex lies inside the circle of a triangle and is visible from its inside (Chew 1989;
-//! Lee & Lin 1986), which is so exactly when every side without a piece is locally Delaunay. Storage and exact signs are those of
-//! [`Kernel`]; cavities end at pieces, flips leave them alone. Every operation notes the triangles it makes, for whoever judges them.
+//! A triangulation is constrained Delaunay if no vertex lies inside the circle of a triangle and is visible from its
+//! inside (Chew 1989; Lee & Lin 1986), which is so exactly when every side without a piece is locally Delaunay. Storage
+//! and exact signs are those of [`Kernel`]; cavities end at pieces, flips leave them alone. Every operation notes the
+//! triangles it makes, for whoever judges them.
 
 use super::insert::{Cavity, Degenerate, Kernel, Location, hull_side};
 use super::triangulation::{GHOST, Side, Triangulation};
@@ -155,8 +157,8 @@ impl Constrained {
         Ok(self.topology().side_between(a, b).expect("a piece is never flipped"))
     }
 
-    /// Whether a point beside or on a side may part the two triangles at it in four: it sees their other sides from within, and if one is
-    /// a ghost, the hull stays convex.
+    /// Whether a point beside or on a side may part the two triangles at it in four: it sees their other sides from
+    /// within, and if one is a ghost, the hull stays convex.
     pub fn can_part(&self, s: Side, p: Point) -> bool {
         let topology = self.topology();
         let keeps_hull = |side: Side| {
@@ -173,9 +175,9 @@ impl Constrained {
         })
     }
 
-    /// Inserts a point that [may](Constrained::can_part) part the two triangles at a side, and lays two pieces for the one that was
-    /// there: the first at the end where the side begins. Comes to what [`Constrained::release`] and [`Constrained::join`] come to, which
-    /// insert any point.
+    /// Inserts a point that [may](Constrained::can_part) part the two triangles at a side, and lays two pieces for the
+    /// one that was there: the first at the end where the side begins. Comes to what [`Constrained::release`] and
+    /// [`Constrained::join`] come to, which insert any point.
     pub fn part(&mut self, s: Side, p: Point, pieces: [PieceId; 2]) -> VertexId {
         let topology = self.topology();
         let (n, rim) = (topology.twin(s), self.rim(s));
@@ -301,8 +303,9 @@ impl Constrained {
 
     // ---- visibility ----
 
-    /// Follows the straight line from within a triangle to `p`, up to the first piece: from its middle, or where the triangle is so thin
-    /// that the middle is rounded out of it, from its border. `None` where no line starts that rounding leaves inside.
+    /// Follows the straight line from within a triangle to `p`, up to the first piece: from its middle, or where the
+    /// triangle is so thin that the middle is rounded out of it, from its border. `None` where no line starts that
+    /// rounding leaves inside.
     pub fn look_from(&self, t: TriangleId, p: Point) -> Option<Look> {
         let topology = self.topology();
         let sides = [0, 1, 2].map(|i| t.side_of(i));
@@ -365,8 +368,9 @@ impl Constrained {
         self.glimpses(v, below, side) || self.makes_out(v, side)
     }
 
-    /// Whether the ray from a vertex towards a place leaves through a side before any piece, and meets no vertex on the way: then the
-    /// vertex sees the side. One line, where [`Constrained::makes_out`] looks through all that lies between.
+    /// Whether the ray from a vertex towards a place leaves through a side before any piece, and meets no vertex on the
+    /// way: then the vertex sees the side. One line, where [`Constrained::makes_out`] looks through all that lies
+    /// between.
     fn glimpses(&self, v: VertexId, toward: Point, side: Side) -> bool {
         let topology = self.topology();
         let from = self.point(v);
@@ -384,8 +388,8 @@ impl Constrained {
 
     /// [`Constrained::sees`], by all there is to see.
     ///
-    /// Triangular expansion: the cone of what the vertex sees is followed from triangle to triangle, narrowed by every side it passes
-    /// and ended by pieces.
+    /// Triangular expansion: the cone of what the vertex sees is followed from triangle to triangle, narrowed by every
+    /// side it passes and ended by pieces.
     fn makes_out(&self, v: VertexId, side: Side) -> bool {
         let topology = self.topology();
         let from = self.point(v);
@@ -431,8 +435,8 @@ impl Constrained {
         false
     }
 
-    /// Whether the apex of a side's triangle lies inside the side's diametral circle. If not, nothing that sees the side from its left
-    /// does.
+    /// Whether the apex of a side's triangle lies inside the side's diametral circle. If not, nothing that sees the
+    /// side from its left does.
     pub fn has_apex_in_half_circle(&self, side: Side) -> bool {
         let topology = self.topology();
         let [x, y] = [topology.origin(side), topology.target(side)].map(|v| self.point(v));
@@ -440,7 +444,8 @@ impl Constrained {
         apex != GHOST && in_diametral(x, y, self.point(apex)) == CircleSide::Inside
     }
 
-    /// The vertices inside the diametral circle of a side, to its left, that may see it: all that do, and some others; ascending.
+    /// The vertices inside the diametral circle of a side, to its left, that may see it: all that do, and some others;
+    /// ascending.
     ///
     /// Triangles are searched that hang together within the half circle.
     pub fn in_half_circle(&mut self, side: Side) -> Vec<VertexId> {
@@ -493,8 +498,8 @@ impl Constrained {
         }
     }
 
-    /// What is wrong, with culprits: structure, orientation, and sides without a piece that are not locally Delaunay. All signs exact.
-    /// Empty when all is well. Takes linear time.
+    /// What is wrong, with culprits: structure, orientation, and sides without a piece that are not locally Delaunay.
+    /// All signs exact. Empty when all is well. Takes linear time.
     pub fn flaws(&self) -> Vec<String> {
         let topology = self.topology();
         let mut flaws = topology.flaws();

@@ -15,8 +15,8 @@ pub struct Harvest<'a> {
 }
 
 impl Harvest<'_> {
-    /// The kept triangles as plain data. Nodes are numbered along a Hilbert curve, triangles by their nodes: whoever walks through the
-    /// mesh finds neighbours near each other in memory, and files compress better.
+    /// The kept triangles as plain data. Nodes are numbered along a Hilbert curve, triangles by their nodes: whoever
+    /// walks through the mesh finds neighbours near each other in memory, and files compress better.
     pub fn mesh(&self) -> Mesh {
         let topology = self.delaunay.topology();
         let kept: Vec<TriangleId> = topology.triangles().filter(|&t| topology.region(t).is_some()).collect();

@@ -253,8 +253,8 @@ impl<'a> Sight<'a> {
         self.orient(a, b, p)
     }
 
-    /// Collects the triangles that make room for `p`, from one of them, depth first around the tree that they form, never across a side
-    /// that is `closed`.
+    /// Collects the triangles that make room for `p`, from one of them, depth first around the tree that they form,
+    /// never across a side that is `closed`.
     pub(super) fn collect(&mut self, p: Point, start: TriangleId, closed: impl Fn(Side) -> bool, cavity: &mut Cavity) {
         let Cavity { triangles, border, open } = cavity;
         triangles.clear();

@@ -1,4 +1,5 @@
-//! What both engines hold while they refine: the domain in the unit frame, its subcurves, the triangles that miss a bound, and how it ends.
+//! What both engines hold while they refine: the domain in the unit frame, its subcurves, the triangles that miss a
+//! bound, and how it ends.
 
 use super::carve::Carver;
 use super::insert::{self, Cavity};
@@ -92,7 +93,8 @@ impl Refinement {
         }
     }
 
-    /// How it ended, with so much owed at `places`, and where coordinates could not tell points apart, in the domain's own scale.
+    /// How it ended, with so much owed at `places`, and where coordinates could not tell points apart, in the domain's
+    /// own scale.
     pub fn stop(&self, reason: StopReason, owed: usize, places: Vec<Point>) -> Stop {
         let places = places.iter().chain(&self.too_near).map(|&p| geometry::scaled(p, 1.0 / self.scale)).collect();
         Stop { reason, owed: owed + self.too_near.len(), places, angle_deg: None }

@@ -1,7 +1,9 @@
-//! C′: the subcurves. Each knows its carrier (a curve of the domain, or a corner arc), its parameters and its two vertices.
+//! C′: the subcurves. Each knows its carrier (a curve of the domain, or a corner arc), its parameters and its two
+//! vertices.
 //!
-//! Pieces are never moved or reused: a split retires one and adds two. A *spoke* is the piece of a curve inside the ball of its end
-//! point; it is never tested, split or attacked while the ball stands (Lemma 3: only curves that do not meet p come near it).
+//! Pieces are never moved or reused: a split retires one and adds two. A *spoke* is the piece of a curve inside the
+//! ball of its end point; it is never tested, split or attacked while the ball stands (Lemma 3: only curves that do not
+//! meet p come near it).
 
 use crate::curve::Curve;
 use crate::geometry::Point;
@@ -102,8 +104,8 @@ pub fn split_parameter(curve: &Curve, t: [f64; 2], z: Option<Point>, rule: Midpo
     }
 }
 
-/// Where the curve crosses the line (not the ray: z may lie between chord and curve) that bisects ∠xzy; `None` where it misses, or
-/// would cut off less than a sixteenth of the chord, which Assumption 1 forbids for any useful η.
+/// Where the curve crosses the line (not the ray: z may lie between chord and curve) that bisects ∠xzy; `None` where it
+/// misses, or would cut off less than a sixteenth of the chord, which Assumption 1 forbids for any useful η.
 fn angle_crossing(curve: &Curve, t: [f64; 2], z: Point) -> Option<f64> {
     let (x, y) = (curve.point(t[0]), curve.point(t[1]));
     let (zx, zy) = (x - z, y - z);

@@ -1,4 +1,5 @@
-//! Triangles that miss a bound, in the order in which both engines refine them: skinny ones, worst first; then those that are too large.
+//! Triangles that miss a bound, in the order in which both engines refine them: skinny ones, worst first; then those
+//! that are too large.
 
 use super::insert::Kernel;
 use super::triangulation::Triangulation;
@@ -20,13 +21,14 @@ const SURE_RAD: f64 = PI / 6.0;
 /// What the drawing's own detail costs is spent when no angle is smaller than this, κ in practice.
 pub(super) const DETAIL_RAD: f64 = 0.3613;
 
-/// How long angles may take to get larger, at angles beyond [`SURE_RAD`], where the smallest comes first: `badness` is that of
-/// [`DETAIL_RAD`]. Of some 90 drawings that end at 34°, none needs more than 3.3 times its vertices to get on.
+/// How long angles may take to get larger, at angles beyond [`SURE_RAD`], where the smallest comes first: `badness` is
+/// that of [`DETAIL_RAD`]. Of some 90 drawings that end at 34°, none needs more than 3.3 times its vertices to get on.
 pub(super) fn by_angle(badness: f64) -> Patience {
     Patience { growth: 8.0, mild: badness, relapse: 0.0 }
 }
 
-/// The same where what is shortest comes first, by badness of so much an octave: what does not end makes ever shorter edges.
+/// The same where what is shortest comes first, by badness of so much an octave: what does not end makes ever shorter
+/// edges.
 pub(super) fn by_length(octave: f64) -> Patience {
     Patience { growth: 4.0, mild: 1.0, relapse: 3.0 * octave }
 }

@@ -372,8 +372,8 @@ impl Triangulation {
     }
 
     /// Replaces a cavity by the star of a new vertex, the next after all there are. Border sides keep their pieces;
-    /// each new triangle has the region of the cavity's triangle on its border side. The new triangles are those of the cavity, and the
-    /// two returned.
+    /// each new triangle has the region of the cavity's triangle on its border side. The new triangles are those of the
+    /// cavity, and the two returned.
     pub(super) fn star(&mut self, apex: VertexId, triangles: &[TriangleId], border: &[Side]) -> [TriangleId; 2] {
         let mut labels = std::mem::take(&mut self.labels);
         labels.clear();

@@ -28,11 +28,12 @@ pub fn guaranteed_angle(lambda_rad: f64) -> f64 {
     libm::asin(1.0 / (2.0 * SQRT_2 * mu)).min(libm::asin(1.0 / (2.0 * zeta * eta)))
 }
 
-/// The largest turning of corner arcs for which κ is proven, where that is the domain's to prove: `lambda_rad` is the largest lens angle
-/// of its curves. Elsewhere π/3, the largest that keeps the angles at the rim of a ball at 60° and more (section 6).
+/// The largest turning of corner arcs for which κ is proven, where that is the domain's to prove: `lambda_rad` is the
+/// largest lens angle of its curves. Elsewhere π/3, the largest that keeps the angles at the rim of a ball at 60° and
+/// more (section 6).
 ///
-/// Arcs are curves: of turning T they have λ = T/2, so arcs of π/3 prove κ only up to 8.594°. Finer ones than a tenth of a radian would
-/// crowd the ball with vertices for the sake of the proof; then the angle is reached, not proven.
+/// Arcs are curves: of turning T they have λ = T/2, so arcs of π/3 prove κ only up to 8.594°. Finer ones than a tenth
+/// of a radian would crowd the ball with vertices for the sake of the proof; then the angle is reached, not proven.
 pub fn arc_turning(kappa_rad: f64, lambda_rad: f64) -> f64 {
     const FINEST: f64 = 0.1;
     if kappa_rad >= guaranteed_angle(lambda_rad) || kappa_rad < guaranteed_angle(FRAC_PI_3 / 2.0) {

@@ -1,5 +1,5 @@
-//! What refinement in any dimension shares: the loop that drives an engine, the worst-first queue, whether it comes to an end, the counters, and
-//! the reason to stop.
+//! What refinement in any dimension shares: the loop that drives an engine, the worst-first queue, whether it comes to
+//! an end, the counters, and the reason to stop.
 
 use crate::geometry::Point;
 use crate::watch::{Progress, Watch};
@@ -70,7 +70,8 @@ const SMALL: usize = 64;
 
 /// A queue that hands out the worst first, first come first served within about 1/256 of badness.
 ///
-/// Flat buckets instead of a heap: 10⁷ entries cost a push and a pop each, and the order does not depend on the sizes of others.
+/// Flat buckets instead of a heap: 10⁷ entries cost a push and a pop each, and the order does not depend on the sizes
+/// of others.
 pub struct WorstFirst<T> {
     buckets: Vec<VecDeque<T>>,
     /// No bucket above this one holds anything.
@@ -126,9 +127,10 @@ impl<T> WorstFirst<T> {
 
 /// Whether a worst-first refinement still gets anywhere, told by the badness of what it works on.
 ///
-/// A refinement that ends works through the worst of its cells, then through those that are less bad, with relapses, until none is left. One that
-/// does not end comes as far as the angle that the drawing allows, and from there on makes as many bad cells as it removes. So its *mildest* badness,
-/// the least at which there was nothing worse left, stays where it is while the mesh grows.
+/// A refinement that ends works through the worst of its cells, then through those that are less bad, with relapses,
+/// until none is left. One that does not end comes as far as the angle that the drawing allows, and from there on makes
+/// as many bad cells as it removes. So its *mildest* badness, the least at which there was nothing worse left, stays
+/// where it is while the mesh grows.
 pub struct Headway {
     patience: Patience,
     /// The mildest badness since the queue was empty last.
@@ -162,7 +164,8 @@ impl Headway {
         (self.mildest, self.since) = (1.0, size);
     }
 
-    /// Notes what is worked on when the mesh has a size; `false`: to no end. A badness of 1 says only that it comes first.
+    /// Notes what is worked on when the mesh has a size; `false`: to no end. A badness of 1 says only that it comes
+    /// first.
     pub fn goes_on(&mut self, badness: f64, size: usize) -> bool {
         if badness >= 1.0 {
             return true;

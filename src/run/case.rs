@@ -1,4 +1,5 @@
-//! A case: one run in one text file, to be repeated on any machine: the input's bytes, the request, and the version that made it.
+//! A case: one run in one text file, to be repeated on any machine: the input's bytes, the request, and the version
+//! that made it.
 //!
 //! Written when we panic, when a promise breaks that no request can excuse, and by `mesh --case`.
 

@@ -1,18 +1,19 @@
 //! How coarsely a drawing is welded where nobody said: the tolerances that are tried, and the one that is taken.
 //!
-//! **The rule.** A drawing is welded within 1e-9 of its diagonal. Drawn hastily, traced twice or rounded, it has hair gaps then, and a mesh
-//! with good angles takes as many triangles along a gap as it is longer than wide. So, unless a tolerance was given:
+//! **The rule.** A drawing is welded within 1e-9 of its diagonal. Drawn hastily, traced twice or rounded, it has hair
+//! gaps then, and a mesh with good angles takes as many triangles along a gap as it is longer than wide. So, unless a
+//! tolerance was given:
 //!
-//! - A *sketch* ([`Drawing::sketch`]: an SVG picture whose numbers have the digits of a picture) is welded within the least of 1e-6,
-//!   1e-5 and 1e-4 of its diagonal that leaves slivers of few vertices, where those of the finer weld would take many; its area may change
-//!   by a thousandth.
-//! - Any other drawing is welded within 1e-6 where the slivers narrower than that would take tens of thousands of vertices, and its area
-//!   changes by no more than 1e-8 of it: exact work stays exact, or is refused by the estimate.
-//! - `--min-edge H` says that nothing finer than H needs to be meshed: any drawing is a sketch of a third of it (a loop is safe from three
-//!   tolerances on).
-//! - What cannot be meshed because its features lie nearer to each other than the coordinates can tell apart is tried again within the
-//!   next coarser one of these tolerances, under the same limit to its area; a sketch that cannot be arranged is, too. Exact work is
-//!   refused instead: of what was never arranged nobody knows what welding changes.
+//! - A *sketch* ([`Drawing::sketch`]: an SVG picture whose numbers have the digits of a picture) is welded within the
+//!   least of 1e-6, 1e-5 and 1e-4 of its diagonal that leaves slivers of few vertices, where those of the finer weld
+//!   would take many; its area may change by a thousandth.
+//! - Any other drawing is welded within 1e-6 where the slivers narrower than that would take tens of thousands of
+//!   vertices, and its area changes by no more than 1e-8 of it: exact work stays exact, or is refused by the estimate.
+//! - `--min-edge H` says that nothing finer than H needs to be meshed: any drawing is a sketch of a third of it (a loop
+//!   is safe from three tolerances on).
+//! - What cannot be meshed because its features lie nearer to each other than the coordinates can tell apart is tried
+//!   again within the next coarser one of these tolerances, under the same limit to its area; a sketch that cannot be
+//!   arranged is, too. Exact work is refused instead: of what was never arranged nobody knows what welding changes.
 //!
 //! That it was done is the first repair of the list ([`RepairKind::ToleranceRaised`]), with the tolerance taken.
 
@@ -30,13 +31,15 @@ const SKETCH: [f64; 3] = [1e-6, 1e-5, 1e-4];
 /// The tolerance of other drawings.
 const EXACT: f64 = 1e-6;
 
-/// Estimated vertices of slivers that a sketch may have, and more for each of its curves. Runs take some fifty times as many.
+/// Estimated vertices of slivers that a sketch may have, and more for each of its curves. Runs take some fifty times as
+/// many.
 const SKETCH_VERTICES: [f64; 2] = [500.0, 0.125];
 
 /// The same of other drawings.
 const EXACT_VERTICES: [f64; 2] = [50_000.0, 0.0];
 
-/// Part of the whole area by which welding may change the regions of a sketch in sum: what loses more consists of slivers.
+/// Part of the whole area by which welding may change the regions of a sketch in sum: what loses more consists of
+/// slivers.
 const SKETCH_AREA: f64 = 1e-3;
 
 /// The same of other drawings: cells whose common walls were computed twice miss each other by some 1e-9 of it.
@@ -114,7 +117,8 @@ impl<'a> Healing<'a> {
         else {
             return Ok(finest.domain);
         };
-        // Slivers wider than a tolerance stay. First comes the finest one that leaves few, or that no coarser one is worth it; then those.
+        // Slivers wider than a tolerance stay. First comes the finest one that leaves few, or that no coarser one is
+        // worth it; then those.
         let stay = |within: f64| slivers.iter().filter(|(_, s)| s.width >= within).map(|(n, _)| n).sum::<f64>();
         let few = self.left.last().map_or(0.0, |&coarsest| stay(coarsest) / WORTH).max(self.enough(&finest.domain));
         let (mut first, mut last): (Vec<f64>, Vec<f64>) = self.left.iter().partition(|&&within| stay(within) <= few);
@@ -126,7 +130,8 @@ impl<'a> Healing<'a> {
         Ok(self.coarser(Some(finest), &why, watch)?.expect("there was one to begin with"))
     }
 
-    /// The drawing within another tolerance, the next coarser one first, after `failure` of the engine; `None` where there is none left.
+    /// The drawing within another tolerance, the next coarser one first, after `failure` of the engine; `None` where
+    /// there is none left.
     ///
     /// # Errors
     /// Where the watch says stop.
@@ -148,7 +153,8 @@ impl<'a> Healing<'a> {
         }
     }
 
-    /// The first domain, within coarser and coarser tolerances, of which the slivers will do; or else the one with the least of them.
+    /// The first domain, within coarser and coarser tolerances, of which the slivers will do; or else the one with the
+    /// least of them.
     fn coarser(
         &mut self,
         mut best: Option<Candidate>,
@@ -195,7 +201,8 @@ impl<'a> Healing<'a> {
         few + per_curve * domain.curves().len() as f64
     }
 
-    /// All of them, or more than can be counted; of those that welding within `above` leaves also so many that it is known what welding does.
+    /// All of them, or more than can be counted; of those that welding within `above` leaves also so many that it is
+    /// known what welding does.
     fn slivers(&self, domain: &Domain, above: f64, watch: &mut Watch) -> Result<Vec<(f64, Sliver)>, Stopped> {
         costly_slivers(domain, self.request.angle_min_rad(), COUNTED * self.enough(domain), above, watch)
     }

@@ -149,8 +149,9 @@ impl Outcome {
         Ok(())
     }
 
-    /// Refines what was arranged; where coordinates cannot tell its features apart, what a coarser tolerance makes of the drawing, as often as
-    /// healing has one left. The domain, its curves cut to τ, and what was asked of the engine.
+    /// Refines what was arranged; where coordinates cannot tell its features apart, what a coarser tolerance makes of
+    /// the drawing, as often as healing has one left. The domain, its curves cut to τ, and what was asked of the
+    /// engine.
     fn mesh_healed(
         &mut self,
         mut arranged: Domain,
@@ -244,7 +245,8 @@ pub fn arrange(drawing: &Drawing, request: &Request, watch: &mut Watch) -> Resul
     Healing::new(drawing, request).arrange(watch)
 }
 
-/// Where the request says to heal nothing: what the default tolerance would have mended. A note where that cannot be told.
+/// Where the request says to heal nothing: what the default tolerance would have mended. A note where that cannot be
+/// told.
 pub fn unhealed(drawing: &Drawing, request: &Request, notes: &mut Vec<String>, watch: &mut Watch) -> Vec<Repair> {
     if request.tolerance != Some(0.0) {
         return Vec::new();

@@ -1,4 +1,5 @@
-//! A request made ready for one domain: sizes, turning, the engine and its options, and what the verifier holds the mesh to.
+//! A request made ready for one domain: sizes, turning, the engine and its options, and what the verifier holds the
+//! mesh to.
 
 mod angles;
 mod budget;
@@ -76,7 +77,8 @@ impl Plan {
     /// The domain, its curves cut to τ, and what is asked of it: corner arcs as fine as its guarantee needs.
     ///
     /// # Errors
-    /// A `--size-of` whose name the domain does not know, more pieces than the vertex budget, or a watch that says stop.
+    /// A `--size-of` whose name the domain does not know, more pieces than the vertex budget, or a watch that says
+    /// stop.
     pub fn new(
         drawing: &Drawing,
         domain: &Domain,
@@ -99,7 +101,8 @@ impl Plan {
         Ok((domain, Self { tau_rad, options, gcdr }))
     }
 
-    /// Of a mesh whose drawing is not known: a share of its diagonal cannot be told, and any name may be of a boundary or a region.
+    /// Of a mesh whose drawing is not known: a share of its diagonal cannot be told, and any name may be of a boundary
+    /// or a region.
     pub fn without_domain(request: &Request) -> Self {
         let mut sizing = request.limits.sizing(None);
         for SizeOf { name, edge } in &request.limits.size_of {
@@ -159,8 +162,9 @@ impl Plan {
         verify(domain, mesh, &self.promise(false))
     }
 
-    /// Holds a mesh from a file to what was asked. Other programs drop or renumber what ties a mesh to its curves: where that does not hold,
-    /// the mesh is judged by where its nodes lie, if it stands better so. Returns that mesh, without its ties, beside the verdict.
+    /// Holds a mesh from a file to what was asked. Other programs drop or renumber what ties a mesh to its curves:
+    /// where that does not hold, the mesh is judged by where its nodes lie, if it stands better so. Returns that mesh,
+    /// without its ties, beside the verdict.
     pub fn judge_file(&self, domain: Option<&Domain>, mesh: &Mesh) -> (Verdict, Option<Mesh>) {
         let by_links = self.judge(domain, mesh);
         if domain.is_none() || by_links.kept() {

@@ -18,8 +18,9 @@ pub struct Reduced {
     pub runs: usize,
 }
 
-/// Takes whole chains, stretches of chains, then single curves, points, seeds and size requests away while the run ends the same way, in
-/// at most `runs_max` runs. `tell` hears how many runs there were and how many curves were left in the last.
+/// Takes whole chains, stretches of chains, then single curves, points, seeds and size requests away while the run ends
+/// the same way, in at most `runs_max` runs. `tell` hears how many runs there were and how many curves were left in the
+/// last.
 pub fn reduce(drawing: &Drawing, request: &Request, runs_max: usize, tell: &mut dyn FnMut(usize, usize)) -> Reduced {
     let ending = ending_of(drawing, request);
     let mut runs = 1;
@@ -135,7 +136,8 @@ fn shorten_chains(drawing: &mut Drawing, same: &mut dyn FnMut(&Drawing) -> bool)
     }
 }
 
-/// The drawing with a line for the curves from `from` to before `to`; `None` where they are no chain, or the line had no length.
+/// The drawing with a line for the curves from `from` to before `to`; `None` where they are no chain, or the line had
+/// no length.
 fn shortened(drawing: &Drawing, from: usize, to: usize) -> Option<Drawing> {
     let (first, last) = (&drawing.curves[from], &drawing.curves[to - 1]);
     if (from + 1..to).any(|i| !follows(drawing, i)) || first.curve.start() == last.curve.end() {

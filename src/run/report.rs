@@ -19,8 +19,8 @@ use schemars::{JsonSchema, Schema};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-/// The JSON schema (draft 2020-12) of something that is written as JSON. Numbers that are not finite are written as `null`, so every
-/// number may be that.
+/// The JSON schema (draft 2020-12) of something that is written as JSON. Numbers that are not finite are written as
+/// `null`, so every number may be that.
 pub fn schema_of<T: JsonSchema>() -> serde_json::Value {
     let unbounded = |schema: &mut Schema| {
         if schema.get("type").is_some_and(|kind| kind == "number") {
@@ -204,7 +204,8 @@ pub struct StopReport {
     pub owed: usize,
     /// Some of the places where a bound is missed, x and y each.
     pub places: Vec<[f64; 2]>,
-    /// The smallest angle that the mesh was refined to, where it is another than was asked for: `--min-angle` with it ends.
+    /// The smallest angle that the mesh was refined to, where it is another than was asked for: `--min-angle` with it
+    /// ends.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub angle_deg: Option<f64>,
 }
@@ -223,7 +224,8 @@ impl StopReport {
         Self { reason: stop.reason, owed: stop.owed, places, angle_deg: stop.angle_deg }
     }
 
-    /// Of a mesh that was refined to a smaller angle than asked for: what it owes is what the judge finds below the angle.
+    /// Of a mesh that was refined to a smaller angle than asked for: what it owes is what the judge finds below the
+    /// angle.
     pub fn owing_angles(mut self, verdict: &Verdict) -> Self {
         if let Some(check) = verdict.checks.iter().find(|check| check.name == "min_angle") {
             self.owed = check.broken;

@@ -1,7 +1,8 @@
 //! What is asked of one run: the options of the rooms, gathered, and those of the run as a whole.
 //!
-//! Keys are the long options of the command line, in a `--config` file and in a case file alike ([`crate::options`]). Angles are degrees, τ is
-//! in radians, lengths are in the units of the mesh: the file's own, unless `unit` or `scale` asks for another.
+//! Keys are the long options of the command line, in a `--config` file and in a case file alike ([`crate::options`]).
+//! Angles are degrees, τ is in radians, lengths are in the units of the mesh: the file's own, unless `unit` or `scale`
+//! asks for another.
 
 use crate::curve::Curve;
 use crate::domain::{FillRule, Loose, NameBy, Naming};
@@ -50,12 +51,13 @@ pub struct Request {
     /// Order of the cells: 2 puts a node on the curve within every edge.
     #[schemars(extend("group" = "bounds", "value" = "1|2"))]
     pub order: Order,
-    /// Welding distance; 0 heals nothing, and lists what it leaves as `unhealed` [default: 1e-9 of the diagonal, or up to 1e-4 (SVG) or
-    /// 1e-6 where slivers would take too many vertices; ends that meet nothing else: 1e-6]
+    /// Welding distance; 0 heals nothing, and lists what it leaves as `unhealed` [default: 1e-9 of the diagonal, or up
+    /// to 1e-4 (SVG) or 1e-6 where slivers would take too many vertices; ends that meet nothing else: 1e-6]
     #[schemars(extend("group" = "input", "value" = "LENGTH"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tolerance: Option<f64>,
-    /// Joins free ends that are nearer than this to each other, or to an open line that goes on beyond the corner; welds nothing else.
+    /// Joins free ends that are nearer than this to each other, or to an open line that goes on beyond the corner;
+    /// welds nothing else.
     #[schemars(extend("group" = "input", "value" = "LENGTH"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub close: Option<f64>,
@@ -77,7 +79,8 @@ pub struct Request {
     /// Layers that are read, and those that are left out.
     #[serde(flatten)]
     pub selection: Selection,
-    /// A name for the curve nearest to a place, for the region at a place (in:), or for a DXF entity (handle:); may be repeated.
+    /// A name for the curve nearest to a place, for the region at a place (in:), or for a DXF entity (handle:); may be
+    /// repeated.
     #[schemars(extend("group" = "input", "value" = "NAME=X,Y|in:X,Y|handle:H"))]
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub name: Vec<NameBy>,
@@ -107,15 +110,16 @@ pub struct Request {
     /// Vertices after which refinement stops.
     #[schemars(extend("group" = "budget", "value" = "N"))]
     pub max_vertices: usize,
-    /// Seconds after which arranging, cutting and refining stop. A mesh that is valid by then is still verified and written, which takes
-    /// time in proportion to its size.
+    /// Seconds after which arranging, cutting and refining stop. A mesh that is valid by then is still verified and
+    /// written, which takes time in proportion to its size.
     #[schemars(extend("group" = "budget", "value" = "S", "report" = "timeout_s"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub timeout: Option<f64>,
     /// How a section of airfoil coordinates becomes a drawing; unused for other formats.
     #[serde(flatten)]
     pub airfoil: section::Options,
-    /// The planar face to mesh, by its entity number or name, or largest; with batch, all gives each a mesh of its own [default: largest]
+    /// The planar face to mesh, by its entity number or name, or largest; with batch, all gives each a mesh of its own
+    /// [default: largest]
     #[schemars(extend("group" = "solids", "value" = "ID|NAME|largest|all"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub face: Option<String>,
@@ -159,6 +163,13 @@ impl Request {
     pub fn options() -> &'static [Described] {
         static OPTIONS: LazyLock<Vec<Described>> = LazyLock::new(described::<Request>);
         &OPTIONS
+    }
+
+    /// Every option, group by group, in each in the order of the fields.
+    pub fn options_in_groups() -> Vec<&'static Described> {
+        let mut options: Vec<&Described> = Self::options().iter().collect();
+        options.sort_by_key(|option| option.group);
+        options
     }
 
     /// The first option that is out of its bounds.
@@ -205,7 +216,8 @@ impl Request {
         self.gcdr.regions(self.angle_min_rad())
     }
 
-    /// τ in radians for these curves: as given, or for `auto` the largest from 0.1 to π/3 whose guarantee covers the angle, else 0.5.
+    /// τ in radians for these curves: as given, or for `auto` the largest from 0.1 to π/3 whose guarantee covers the
+    /// angle, else 0.5.
     pub fn tau_rad<'a>(&self, curves: impl IntoIterator<Item = &'a Curve>) -> f64 {
         let MaxTurning::Auto = self.max_turning else {
             return self.max_turning.given();

@@ -21,7 +21,8 @@ pub struct Source<'a> {
     pub format: Option<Format>,
     /// The `.node` file beside a `.poly` file, where there is one.
     pub nodes: Option<&'a [u8]>,
-    /// Whether it is one of many inputs that share a request: names of the request that it does not have are noted then, and no error.
+    /// Whether it is one of many inputs that share a request: names of the request that it does not have are noted
+    /// then, and no error.
     pub of_many: bool,
 }
 
@@ -65,24 +66,24 @@ fn give_names(drawing: &mut Drawing, request: &Request, of_many: bool) -> Result
     Ok(())
 }
 
-/// Says which options were given that the run has no use for: those of other formats, and of the engine that is not asked.
+/// Says which options were given that the run has no use for: those of other formats, and of the engine that is not
+/// asked.
 fn unused_options(format: Format, request: &Request) -> Vec<String> {
+    let usual = Request::default();
     let written = |request: &Request| toml::Table::try_from(request).expect("options are words, numbers and lists");
-    let (asked, usual) = (written(request), written(&Request::default()));
     let given = |group| {
-        let of_group = Request::options().iter().filter(move |option| option.group == group);
-        of_group.filter(|option| asked.get(&option.key) != usual.get(&option.key)).map(|o| format!("--{}", o.key))
+        let (asked, usual) = (written(request), written(&usual));
+        let of_group = Request::options().iter().filter(|option| option.group == group);
+        let changed = of_group.filter(|option| asked.get(&option.key) != usual.get(&option.key));
+        changed.map(|option| format!("--{}", option.key)).collect::<Vec<_>>().join(", ")
     };
     let unused = [
-        (Group::Airfoils, format != Format::Airfoil, "only for airfoils"),
-        (Group::Solids, format != Format::Step, "only for solids"),
-        (Group::Gcdr, request.engine != Engine::Gcdr, "only for --engine gcdr"),
+        (Group::Airfoils, format != Format::Airfoil && request.airfoil != usual.airfoil, "only for airfoils"),
+        (Group::Solids, format != Format::Step && request.face != usual.face, "only for solids"),
+        (Group::Gcdr, request.engine != Engine::Gcdr && request.gcdr != usual.gcdr, "only for --engine gcdr"),
     ];
-    let told = unused.into_iter().filter(|(_, unused, _)| *unused).filter_map(|(group, _, why)| {
-        let given: Vec<String> = given(group).collect();
-        (!given.is_empty()).then(|| format!("{}: {why}, and not used here", given.join(", ")))
-    });
-    told.collect()
+    let unused = unused.into_iter().filter(|(_, unused, _)| *unused);
+    unused.map(|(group, _, why)| format!("{}: {why}, and not used here", given(group))).collect()
 }
 
 /// Names of layers that the file does not have: an error, or a note where the request is that of many inputs.
@@ -101,7 +102,8 @@ fn tell_unmatched(drawing: &mut Drawing, of_many: bool) -> Result<(), FailureRep
     Ok(())
 }
 
-/// The drawing in the unit and scale of the request. A drawing whose unit has no fixed length takes the name of the unit asked for.
+/// The drawing in the unit and scale of the request. A drawing whose unit has no fixed length takes the name of the
+/// unit asked for.
 fn in_units(mut drawing: Drawing, request: &Request) -> Result<Drawing, FailureReport> {
     let mut factor = request.scale.unwrap_or(1.0);
     if let Some(unit) = &request.unit {

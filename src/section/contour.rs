@@ -1,4 +1,5 @@
-//! Points of an element → its contour in order: from the trailing edge over the upper surface to the nose and back below.
+//! Points of an element → its contour in order: from the trailing edge over the upper surface to the nose and back
+//! below.
 
 use super::crossing::first_crossing;
 use super::ends::{base_of, is_edged};
@@ -8,7 +9,8 @@ use crate::geometry::{Point, bounds_of, finest_decimal};
 use crate::import::ImportError;
 use crate::import::airfoil::{HELP, SAME, Sample};
 
-/// The contour of one element, counter-clockwise from the trailing edge over the upper surface to the nose and back below.
+/// The contour of one element, counter-clockwise from the trailing edge over the upper surface to the nose and back
+/// below.
 #[derive(Clone, Debug)]
 pub struct Contour {
     pub points: Vec<Point>,
@@ -125,7 +127,8 @@ impl Contour {
         Ok(())
     }
 
-    /// Refuses what runs to and fro: the surfaces of a section take its width twice, of a slat or with a cove a little more.
+    /// Refuses what runs to and fro: the surfaces of a section take its width twice, of a slat or with a cove a little
+    /// more.
     fn refuse_winding(&self, wide: f64) -> Result<(), ImportError> {
         const WIDTHS: f64 = 4.0;
         let travel: f64 = self.points.windows(2).map(|w| (w[1].x - w[0].x).abs()).sum();

@@ -36,7 +36,8 @@ pub struct Meeting {
     pub reach: f64,
 }
 
-/// The foremost meeting of the edges near the two ends of a contour; `closed`: its ends are one point, and the edges there do not count.
+/// The foremost meeting of the edges near the two ends of a contour; `closed`: its ends are one point, and the edges
+/// there do not count.
 pub fn meeting_at_tail(points: &[Point], closed: bool, wide: f64) -> Option<Meeting> {
     // Surfaces may touch by the rounding of three decimals for two hundredths of the chord.
     let near = 0.02 * wide;

@@ -86,7 +86,8 @@ fn piecewise_linear(points: &[Point]) -> Curve {
     Curve::Spline(Box::new(Spline { knots: centripetal_knots(points), spans }))
 }
 
-/// The C¹ cubic through the points whose coordinates are monotone wherever the points' are (Fritsch & Butland 1984, weights by Brodlie).
+/// The C¹ cubic through the points whose coordinates are monotone wherever the points' are (Fritsch & Butland 1984,
+/// weights by Brodlie).
 fn monotone_cubic(points: &[Point]) -> Curve {
     let knots = centripetal_knots(points);
     let step = |i: usize| knots[i + 1] - knots[i];
@@ -113,7 +114,8 @@ fn monotone_cubic(points: &[Point]) -> Curve {
     Curve::Spline(Box::new(Spline { knots, spans }))
 }
 
-/// The contour as a ring of points, eight a span (enough to see a crossing of cubics through points that themselves do not cross).
+/// The contour as a ring of points, eight a span (enough to see a crossing of cubics through points that themselves do
+/// not cross).
 fn outline(spline: &Curve, base: &[Point]) -> Vec<Point> {
     const CHORDS: usize = 8;
     let mut ring = Vec::new();
@@ -130,7 +132,8 @@ fn outline(spline: &Curve, base: &[Point]) -> Vec<Point> {
     ring
 }
 
-/// A point inside the section: midway between its surfaces, where a line across the chord meets them, tried from mid-chord on.
+/// A point inside the section: midway between its surfaces, where a line across the chord meets them, tried from
+/// mid-chord on.
 pub fn inside(section: &Section) -> Option<Point> {
     let chord = section.tail - section.nose;
     let across = Vec2::new(-chord.y, chord.x);

@@ -18,8 +18,9 @@ pub fn aftmost(ring: &[Point]) -> usize {
 
 /// The blunt trailing edge of a counter-clockwise ring, as the indices of its lower and its upper end.
 ///
-/// It is the straight run of upright edges at the aftmost point between two corners. Surfaces that meet at an angle ω leave 180° − ω of
-/// turning to its ends; a round end spends that on its points one after the other, and no two of them, an edge apart, have most of it.
+/// It is the straight run of upright edges at the aftmost point between two corners. Surfaces that meet at an angle ω
+/// leave 180° − ω of turning to its ends; a round end spends that on its points one after the other, and no two of
+/// them, an edge apart, have most of it.
 ///
 /// ```text
 ///   ────────┐ upper

@@ -1,22 +1,24 @@
 //! Sections of airfoils: coordinates as a file holds them → the drawing that is asked for.
 //!
-//! `order.rs` puts the points of an element in order, `near.rs` makes one of those too near, `weld.rs` closes gaps and loops, `ends.rs` tells how the section ends; that is a
-//! `contour.rs`. `curves.rs` lays curves through it, with the trailing edge of `trailing_edge.rs`; `crossing.rs` finds where they cross, and
-//! `far_field.rs` is what lies around. What was done is told in [`Drawing::notes`].
+//! `order.rs` puts the points of an element in order, `near.rs` makes one of those too near, `weld.rs` closes gaps and
+//! loops, `ends.rs` tells how the section ends; that is a `contour.rs`. `curves.rs` lays curves through it, with the
+//! trailing edge of `trailing_edge.rs`; `crossing.rs` finds where they cross, and `far_field.rs` is what lies around.
+//! What was done is told in [`Drawing::notes`].
 //!
-//! Understood are either surface first, a start at the nose, a nose on the right, repeated points, points nearer than their decimals tell
-//! apart, and a closing point repeated or missing. Refused are text in the place of a point, a contour of which a part is missing, and one
-//! that crosses itself. x points downstream.
+//! Understood are either surface first, a start at the nose, a nose on the right, repeated points, points nearer than
+//! their decimals tell apart, and a closing point repeated or missing. Refused are text in the place of a point, a
+//! contour of which a part is missing, and one that crosses itself. x points downstream.
 //!
-//! **Curves.** One cubic spline (natural, centripetal) runs through the whole contour from the trailing edge over the nose and back,
-//! so the nose is smooth and only the trailing edge is a corner. It is cut at the nose, the point farthest from the trailing edge, into `upper` and
-//! `lower`; a blunt trailing edge is `te`. Where the spline would cross itself, as it may through few or uneven points, a tamer
-//! interpolant takes its place: a C¹ cubic that stays monotone wherever the points are (Fritsch & Butland 1984), then
-//! straight lines. Of several elements the names carry the number of the element: `upper1`, `lower1`, `te1`, `upper2`, ….
+//! **Curves.** One cubic spline (natural, centripetal) runs through the whole contour from the trailing edge over the
+//! nose and back, so the nose is smooth and only the trailing edge is a corner. It is cut at the nose, the point
+//! farthest from the trailing edge, into `upper` and `lower`; a blunt trailing edge is `te`. Where the spline would
+//! cross itself, as it may through few or uneven points, a tamer interpolant takes its place: a C¹ cubic that stays
+//! monotone wherever the points are (Fritsch & Butland 1984), then straight lines. Of several elements the names carry
+//! the number of the element: `upper1`, `lower1`, `te1`, `upper2`, ….
 //!
-//! **Far field.** A circle `farfield` around mid-chord, the region `fluid` between, and sizes for an Euler mesh: fine at nose and trailing
-//! edge, along the chord and in the wake, coarse far away. Without one (0 chords) the region is the section itself: `section`,
-//! or `section1`, `section2`, ….
+//! **Far field.** A circle `farfield` around mid-chord, the region `fluid` between, and sizes for an Euler mesh: fine
+//! at nose and trailing edge, along the chord and in the wake, coarse far away. Without one (0 chords) the region is
+//! the section itself: `section`, or `section1`, `section2`, ….
 
 mod contour;
 mod crossing;
@@ -50,7 +52,8 @@ pub enum TrailingEdge {
     /// As in the file; gaps below 1e-5 chords are rounding and closed.
     #[default]
     Keep,
-    /// Ends in a point: a gap is closed by shearing both surfaces to its middle, not at all at the nose and fully at the trailing edge.
+    /// Ends in a point: a gap is closed by shearing both surfaces to its middle, not at all at the nose and fully at
+    /// the trailing edge.
     Sharp,
     /// Ends in a straight `te`: a sharp section is cut off at 99 % chord.
     Blunt,

@@ -15,8 +15,9 @@ pub fn merge_repeated(points: &mut Vec<Point>, tolerance: f64, notes: &mut Vec<S
     }
 }
 
-/// Leaves out points between neighbours nearer than 2e-4 of the chord that lie on the line between them to half a unit of the last decimal,
-/// or to 1e-8 of the chord: they carry no direction. A contour keeps some ten thousand points then.
+/// Leaves out points between neighbours nearer than 2e-4 of the chord that lie on the line between them to half a unit
+/// of the last decimal, or to 1e-8 of the chord: they carry no direction. A contour keeps some ten thousand points
+/// then.
 pub fn thin(points: &mut Vec<Point>, decimal: f64, wide: f64, notes: &mut Vec<String>) {
     let (reach, slack) = (2e-4 * wide, (0.5 * decimal).max(1e-8 * wide));
     let before = points.len();

@@ -1,4 +1,5 @@
-//! Points as a file gives them, in the order around the section: from the trailing edge over the upper surface to the nose and back below.
+//! Points as a file gives them, in the order around the section: from the trailing edge over the upper surface to the
+//! nose and back below.
 
 use super::SHARP;
 use super::ends::aftmost;
@@ -6,8 +7,8 @@ use crate::geometry::{Point, bounds_of};
 use crate::import::ImportError;
 use crate::import::airfoil::{SAME, Sample};
 
-/// Where the second surface starts in a file that gives one after the other: by its counts, by a blank line between, or by the jump from
-/// one to the next.
+/// Where the second surface starts in a file that gives one after the other: by its counts, by a blank line between, or
+/// by the jump from one to the next.
 pub fn cut_surfaces(samples: &[Sample], counts: Option<[usize; 2]>, wide: f64) -> Option<usize> {
     let spans = |part: &[Sample]| match part {
         [first, .., last] => (first.at.x - last.at.x).abs() > 0.5 * wide,
@@ -20,13 +21,15 @@ pub fn cut_surfaces(samples: &[Sample], counts: Option<[usize; 2]>, wide: f64) -
     let mut jumps = (1..samples.len()).filter(|&i| (samples[i].at.x - samples[i - 1].at.x).abs() > 0.5 * wide);
     let by_jump = || jumps.next().filter(|_| jumps.next().is_none()).filter(both);
     let found = by_count.or_else(by_gap).or_else(by_jump)?;
-    // A contour from the trailing edge and back that merely has a gap at the nose runs forth and back: no two surfaces from the nose.
+    // A contour from the trailing edge and back that merely has a gap at the nose runs forth and back: no two surfaces
+    // from the nose.
     let (a, b) = samples.split_at(found);
     let downstream = |part: &[Sample]| part[part.len() - 1].at.x > part[0].at.x;
     (downstream(a) == downstream(b)).then_some(found)
 }
 
-/// Refuses a line of text that stands amid a surface: it holds the place of a point. Between two surfaces it is a heading.
+/// Refuses a line of text that stands amid a surface: it holds the place of a point. Between two surfaces it is a
+/// heading.
 pub fn refuse_text(samples: &[Sample], cut: Option<usize>, wide: f64) -> Result<(), ImportError> {
     let is_heading = |i: usize| {
         let turns = |k: usize| {
@@ -64,8 +67,9 @@ pub fn join(mut a: Vec<Point>, mut b: Vec<Point>) -> Vec<Point> {
 /// Longest edge along the chord, in chords, that closes a contour without being told.
 const CLOSING: f64 = 0.05;
 
-/// Refuses a contour of which a part is missing, as of a file that was cut short: the edge from its last point to its first lies along the
-/// chord (an upright one is a blunt trailing edge, however thick) and is longer than a twentieth of it and than twice either edge beside it.
+/// Refuses a contour of which a part is missing, as of a file that was cut short: the edge from its last point to its
+/// first lies along the chord (an upright one is a blunt trailing edge, however thick) and is longer than a twentieth
+/// of it and than twice either edge beside it.
 pub fn refuse_open(points: &[Point], wide: f64, lines: [usize; 2]) -> Result<(), ImportError> {
     let [first, second, .., before, last] = points else { return Ok(()) };
     let gap = *first - *last;

@@ -13,7 +13,8 @@ const TRUNCATION: f64 = 0.99;
 impl Contour {
     /// Closes a blunt end by shearing either surface to its middle, in proportion to the way from the nose.
     ///
-    /// Where the surfaces run nearer to each other than the end is high, they would cross: the points from there on are left out.
+    /// Where the surfaces run nearer to each other than the end is high, they would cross: the points from there on are
+    /// left out.
     pub fn sharpen(&mut self, notes: &mut Vec<String>) {
         let (tail, nose, n) = (self.tail(), self.nose_point(), self.points.len());
         let chord = tail - nose;

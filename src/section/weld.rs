@@ -7,8 +7,9 @@ use crate::geometry::{Point, Vec2};
 use std::f64::consts::FRAC_1_SQRT_2;
 
 impl Contour {
-    /// Leaves out the loop behind the place where the surfaces meet before the trailing edge, if it is smaller than a thousandth of the chord;
-    /// of surfaces that touch there only the points, to the last decimal, so that the trailing edge stays where it is.
+    /// Leaves out the loop behind the place where the surfaces meet before the trailing edge, if it is smaller than a
+    /// thousandth of the chord; of surfaces that touch there only the points, to the last decimal, so that the trailing
+    /// edge stays where it is.
     ///
     /// ```text
     ///  upper ────╲  ╱╲            ────╲
@@ -81,8 +82,8 @@ impl Contour {
             notes.push(format!("The trailing edge had a gap of {:.1e} and was closed.", gap.hypot()));
             return;
         }
-        // The closing edge lies along the chord and goes on as a surface does (turning less than 45°): the point there is missing,
-        // the end is not blunt.
+        // The closing edge lies along the chord and goes on as a surface does (turning less than 45°): the point there
+        // is missing, the end is not blunt.
         let goes_on = |along: Vec2, next: Vec2| {
             gap.x.abs() > gap.y.abs() && along.dot(next) > FRAC_1_SQRT_2 * along.hypot() * next.hypot()
         };

@@ -1,20 +1,23 @@
 //! What a mesh takes at least, told before it is made.
 //!
-//! *Slivers.* Beside a place where the face is w wide, an edge of the border is no longer than w·(cot κ + tan κ): the apex of its triangle
-//! is no farther away than w, both angles at the edge are κ or more, and the apex is not in the edge's diametral circle; where it may be
-//! there ([`Circles::Any`]), no longer than 2w·cot κ. So a sliver of length L takes L/(w·(cot κ + tan κ)) vertices on either side. What shape it
-//! has does not matter: a strip with free ends, a thin region in another, a ring; a needle, of angle θ, takes about 1/θ for every doubling of
-//! the distance from the ball of its tip. Within the ball at birth triangles are excused, without corner arcs within two radii; with
-//! constrained refinement, all between two curves that meet at a sharp corner. So are triangles with a circumradius below `min_edge` (edges up to
-//! twice that). Widths are seen along normals at samples, and a stretch counts by its widest.
+//! *Slivers.* Beside a place where the face is w wide, an edge of the border is no longer than w·(cot κ + tan κ): the
+//! apex of its triangle is no farther away than w, both angles at the edge are κ or more, and the apex is not in the
+//! edge's diametral circle; where it may be there ([`Circles::Any`]), no longer than 2w·cot κ. So a sliver of length L
+//! takes L/(w·(cot κ + tan κ)) vertices on either side. What shape it has does not matter: a strip with free ends, a
+//! thin region in another, a ring; a needle, of angle θ, takes about 1/θ for every doubling of the distance from the
+//! ball of its tip. Within the ball at birth triangles are excused, without corner arcs within two radii; with
+//! constrained refinement, all between two curves that meet at a sharp corner. So are triangles with a circumradius
+//! below `min_edge` (edges up to twice that). Widths are seen along normals at samples, and a stretch counts by its
+//! widest.
 //!
-//! *How sure that is.* Where the same curve lies across from end to end of a stretch, there is no other width between the samples. Straight
-//! lines and arcs of circles are only ever halved by corner lopping, so that pieces no longer than ℓ are a power of two of them. Other stretches
-//! count half, and a curve with slivers on either side counts by the side that takes more.
+//! *How sure that is.* Where the same curve lies across from end to end of a stretch, there is no other width between
+//! the samples. Straight lines and arcs of circles are only ever halved by corner lopping, so that pieces no longer
+//! than ℓ are a power of two of them. Other stretches count half, and a curve with slivers on either side counts by the
+//! side that takes more.
 //!
-//! *Sizes.* A region takes its area over that of the largest triangle, a curve its length over the longest edge, its turning over that of
-//! an edge, and √(κ/8E) a unit of length for a chord error E. There are at most two triangles a vertex. That is halved: curvatures are known
-//! by samples only. Sizes that vary with the place are left out.
+//! *Sizes.* A region takes its area over that of the largest triangle, a curve its length over the longest edge, its
+//! turning over that of an edge, and √(κ/8E) a unit of length for a chord error E. There are at most two triangles a
+//! vertex. That is halved: curvatures are known by samples only. Sizes that vary with the place are left out.
 //!
 //! Where no stretch is sure, runs take some ten times as many.
 
@@ -239,7 +242,8 @@ impl Price<'_> {
         }
     }
 
-    /// The longest piece of a curve that is no longer than `longest`, where the curve is halved, and its halves are, and so on.
+    /// The longest piece of a curve that is no longer than `longest`, where the curve is halved, and its halves are,
+    /// and so on.
     fn piece(&self, id: CurveId, longest: f64) -> f64 {
         let DomainCurve { curve, ends, .. } = &self.survey.domain.curves()[id];
         let bisected = self.asked.circles == Circles::Empty
@@ -256,9 +260,9 @@ impl Price<'_> {
     }
 }
 
-/// The slivers of a domain with the vertices that each is likely to take, kept or not, until these are more than `most`; where those narrower
-/// than `above` are, until the others are as well, or so many were seen that the rest is likely to be alike. What is excused outside a ball
-/// counts too: it need not be cut, but it is.
+/// The slivers of a domain with the vertices that each is likely to take, kept or not, until these are more than
+/// `most`; where those narrower than `above` are, until the others are as well, or so many were seen that the rest is
+/// likely to be alike. What is excused outside a ball counts too: it need not be cut, but it is.
 ///
 /// # Errors
 /// [`Stopped`] where the watch says so.
@@ -291,8 +295,8 @@ struct Survey<'a> {
 }
 
 impl<'a> Survey<'a> {
-    /// The slivers of a domain so many radii from sharp corners, in the order of its curves, as long as those found so far are not enough; each is
-    /// found from both sides.
+    /// The slivers of a domain so many radii from sharp corners, in the order of its curves, as long as those found so
+    /// far are not enough; each is found from both sides.
     fn until(
         domain: &'a Domain,
         radii: f64,
@@ -314,8 +318,9 @@ impl<'a> Survey<'a> {
         Ok(survey)
     }
 
-    /// The width of a stretch, where one and the same curve lies across from end to end: of two straight lines that in the middle, for as many
-    /// edges as the mean width allows are no more than there are; of others the largest seen, and a twentieth for what is between.
+    /// The width of a stretch, where one and the same curve lies across from end to end: of two straight lines that in
+    /// the middle, for as many edges as the mean width allows are no more than there are; of others the largest seen,
+    /// and a twentieth for what is between.
     fn sure_width(&self, stretch: &Sliver) -> Option<f64> {
         const INSIDE: u32 = 16;
         let Sliver { curve, side, t: [t0, t1], length, .. } = *stretch;
@@ -376,7 +381,8 @@ impl Survey<'_> {
         }
     }
 
-    /// How near to the ball of a sharp corner slivers are looked for, where there is none to be seen at first. Infinite of others.
+    /// How near to the ball of a sharp corner slivers are looked for, where there is none to be seen at first. Infinite
+    /// of others.
     fn tip(&self, end: PointId) -> f64 {
         let sharp = self.domain.corner(end).is_some_and(|corner| corner.angle_rad < 1.0 / SLENDER);
         if sharp { EXCUSED_RADII * self.ball(end) } else { f64::INFINITY }
@@ -399,7 +405,8 @@ impl Survey<'_> {
         (part[0] < part[1]).then_some(part)
     }
 
-    /// The distance to the first other curve along the normal; infinite where none is within the sixteenth part of `length`.
+    /// The distance to the first other curve along the normal; infinite where none is within the sixteenth part of
+    /// `length`.
     fn width_at(&self, id: CurveId, side: usize, t: f64, length: f64) -> f64 {
         self.across(id, side, t, length).map_or(f64::INFINITY, |(_, width)| width)
     }

@@ -1,8 +1,8 @@
 //! A size as an expression in x and y: `0.1 + 0.05 * hypot(x - 2, y)`.
 //!
-//! Numbers, `x`, `y`, `pi`; `+ - * / ^` (a power binds tightest and from the right), parentheses; `abs sqrt exp log sin cos tan atan` of one
-//! and `min max hypot` of two arguments; angles in radians. Read once into steps of a stack machine (Dijkstra's shunting yard), so that
-//! neither reading nor evaluating recurses.
+//! Numbers, `x`, `y`, `pi`; `+ - * / ^` (a power binds tightest and from the right), parentheses;
+//! `abs sqrt exp log sin cos tan atan` of one and `min max hypot` of two arguments; angles in radians. Read once into
+//! steps of a stack machine (Dijkstra's shunting yard), so that neither reading nor evaluating recurses.
 
 use crate::geometry::Point;
 

@@ -31,8 +31,8 @@ pub struct Limits {
     /// Largest turning of the curve along a mesh edge, in degrees, or off.
     #[schemars(extend("group" = "bounds", "value" = "DEG|off", "report" = "edge_turning_deg"))]
     pub edge_turning: EdgeTurning,
-    /// Longest edge by place: an expression in x and y as in "0.1 + 0.05*hypot(x-2, y)", or a file with `x y size` on every line, from
-    /// which the size grows by --grade [default there: 0.3]
+    /// Longest edge by place: an expression in x and y as in "0.1 + 0.05*hypot(x-2, y)", or a file with `x y size` on
+    /// every line, from which the size grows by --grade [default there: 0.3]
     #[schemars(extend("group" = "bounds", "value" = "FILE|EXPR", "file" = true))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub size: Option<Given>,
@@ -97,8 +97,8 @@ impl Limits {
         }
     }
 
-    /// What is asked for everywhere and by place, in a drawing of this diagonal; names are left to those who know the domain. A share of
-    /// a diagonal that is not known asks for nothing.
+    /// What is asked for everywhere and by place, in a drawing of this diagonal; names are left to those who know the
+    /// domain. A share of a diagonal that is not known asks for nothing.
     pub fn sizing(&self, diagonal: Option<f64>) -> Sizing {
         Sizing {
             max_area: self.max_area,

@@ -1,7 +1,7 @@
 //! How large a cell may be, and where: limits on edges, areas, chord error and turning; per name; near sources; graded.
 //!
-//! A [`Sizing`] is what is asked; [`SizeField`] is the same, resolved against a domain, and answers at a place. Engine and judge ask
-//! the same field, so that what was asked is what is checked.
+//! A [`Sizing`] is what is asked; [`SizeField`] is the same, resolved against a domain, and answers at a place. Engine
+//! and judge ask the same field, so that what was asked is what is checked.
 
 pub mod estimate;
 mod expression;
@@ -30,7 +30,8 @@ pub struct Sizing {
     pub chord_error: Option<f64>,
     /// Largest turning of the curve along a mesh edge.
     pub edge_turning_rad: Option<f64>,
-    /// Growth of the limit of a named boundary or region, a unit of distance away from it; `None`: the limit acts there alone.
+    /// Growth of the limit of a named boundary or region, a unit of distance away from it; `None`: the limit acts there
+    /// alone.
     pub grade: Option<f64>,
     /// Limits of named boundaries, of named regions and around places.
     pub sources: Vec<Source>,
@@ -282,7 +283,8 @@ impl SizeField {
         self.region_areas[region]
     }
 
-    /// The edge that a cell is to have in a region at a place: the longest allowed, or that of the largest equilateral triangle.
+    /// The edge that a cell is to have in a region at a place: the longest allowed, or that of the largest equilateral
+    /// triangle.
     pub fn length_in(&self, region: RegionId, at: Point) -> f64 {
         self.edge_in(region, at).min((self.area_in(region) * 4.0 / 3f64.sqrt()).sqrt())
     }
@@ -297,10 +299,11 @@ impl SizeField {
         (longest2 / (edge * edge)).max(area / self.area_in(region)).sqrt()
     }
 
-    /// The largest ball at a corner, up to `most`, in which cells meet the limits though nothing inside it is ever refined.
+    /// The largest ball at a corner, up to `most`, in which cells meet the limits though nothing inside it is ever
+    /// refined.
     ///
-    /// Its spokes are mesh edges: each must turn little enough and lie near enough to its curve. A curve that is smooth at its end
-    /// straightens as it shortens, so the search ends; 200 steps are a factor of 1e-19.
+    /// Its spokes are mesh edges: each must turn little enough and lie near enough to its curve. A curve that is smooth
+    /// at its end straightens as it shortens, so the search ends; 200 steps are a factor of 1e-19.
     pub fn largest_ball(&self, domain: &Domain, corner: PointId, most: f64) -> f64 {
         let mut radius = most.min(self.largest_fan(domain, corner));
         for _ in 0..200 {
@@ -321,8 +324,9 @@ impl SizeField {
         samples.chain([at]).any(|p| 2.0 * radius > by_place.at(p))
     }
 
-    /// The largest radius whose triangles meet the limits. A triangle with its circumcenter in B(p) has a circumradius below d(p), for p
-    /// lies not inside its circumcircle: edges below 2d, area below (3√3/4)·d² < 1.3·d², corners within 2d of p.
+    /// The largest radius whose triangles meet the limits. A triangle with its circumcenter in B(p) has a circumradius
+    /// below d(p), for p lies not inside its circumcircle: edges below 2d, area below (3√3/4)·d² < 1.3·d², corners
+    /// within 2d of p.
     fn largest_fan(&self, domain: &Domain, corner: PointId) -> f64 {
         let at = domain.points()[corner];
         let steepest = self.grades.1;

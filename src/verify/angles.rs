@@ -48,9 +48,9 @@ fn is_covered(constrained: &ConstrainedPromise, domain: &Domain) -> bool {
         && corners.map(|corner| corner.angle_rad).all(|angle| angle > least + 1e-9)
 }
 
-/// No triangle beside an edge has its far corner inside the circle of the other, exactly; where the mesh is constrained Delaunay, edges on
-/// curves are exempt. Checked: edges with two triangles. Worst: the largest sum of the two angles that face an edge, in degrees (180 where
-/// all four corners lie on a circle).
+/// No triangle beside an edge has its far corner inside the circle of the other, exactly; where the mesh is constrained
+/// Delaunay, edges on curves are exempt. Checked: edges with two triangles. Worst: the largest sum of the two angles
+/// that face an edge, in degrees (180 where all four corners lie on a circle).
 pub fn delaunay(ev: &Evidence) -> Check {
     let constrained = ev.promise.is_constrained();
     let mut tally = Tally::highest(if constrained { "constrained_delaunay" } else { "delaunay" });
@@ -135,7 +135,8 @@ pub fn min_angle(ev: &Evidence, balls: &[SoundBall]) -> (Check, Vec<Excuse>) {
     (tally.finish(status_of_angle_bound(ev, kappa)), excused)
 }
 
-/// Where asked: the radius-edge ratio of every triangle without excuse is at most that of κ, 1/(2 sin κ). Worst: the largest.
+/// Where asked: the radius-edge ratio of every triangle without excuse is at most that of κ, 1/(2 sin κ). Worst: the
+/// largest.
 pub fn radius_edge(ev: &Evidence, excused: &[Excuse]) -> Check {
     let Some(kappa) = ev.promise.angle_min_rad else { return Check::not_asked("radius_edge") };
     let mut tally = Tally::highest("radius_edge");

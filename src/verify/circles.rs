@@ -1,7 +1,8 @@
 //! What lies in the diametral circles of the curves' edges: nodes that encroach, and edges that cross.
 //!
-//! Two segments that cross are the diagonals of a quadrilateral, one of whose angles is 90° or more: that corner lies in the closed
-//! diametral circle of the diagonal that faces it. So whoever looks at the nodes in every circle has met every crossing.
+//! Two segments that cross are the diagonals of a quadrilateral, one of whose angles is 90° or more: that corner lies
+//! in the closed diametral circle of the diagonal that faces it. So whoever looks at the nodes in every circle has met
+//! every crossing.
 
 use super::evidence::{Evidence, Piece, place};
 use super::tally::Tally;
@@ -95,9 +96,10 @@ impl Circles {
         }
     }
 
-    /// No node lies inside the diametral circle of a curve's edge (Lemma 6). A spoke's circle lies in its ball and touches the rim, on
-    /// which nodes are rounded: where curves leave a corner close to each other, a neighbour on the rim does not count. Checked: edges.
-    /// Worst: the smallest distance of a node from the circle's centre, in radii, of those that encroach and those across from an edge.
+    /// No node lies inside the diametral circle of a curve's edge (Lemma 6). A spoke's circle lies in its ball and
+    /// touches the rim, on which nodes are rounded: where curves leave a corner close to each other, a neighbour on the
+    /// rim does not count. Checked: edges. Worst: the smallest distance of a node from the circle's centre, in radii,
+    /// of those that encroach and those across from an edge.
     pub fn empty(&self, ev: &Evidence, domain: &Domain) -> Check {
         let mut tally = Tally::lowest("empty_diametral");
         for (piece, intruder) in ev.pieces.iter().zip(&self.intruder) {

@@ -9,8 +9,9 @@ use crate::mesh::{Insertion, InsertionKind, Mesh};
 use crate::promise::DensityPromise;
 use std::collections::BTreeMap;
 
-/// *density_a*, *density_b*, *density_c*: lfs is measured anew on the domain; the recorded R(p) is not believed to be larger than the edges that
-/// the vertex has in the mesh with older ones. Worst: the largest density. Not asked where there is no finite bound.
+/// *density_a*, *density_b*, *density_c*: lfs is measured anew on the domain; the recorded R(p) is not believed to be
+/// larger than the edges that the vertex has in the mesh with older ones. Worst: the largest density. Not asked where
+/// there is no finite bound.
 pub fn densities(
     domain: &Domain,
     mesh: &Mesh,

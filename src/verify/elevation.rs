@@ -6,8 +6,8 @@ use super::{Check, Status};
 use crate::domain::Domain;
 use crate::mesh::{Mesh, quality};
 
-/// Of order 2: every cell's Jacobian determinant is positive throughout, by Bézier bounds, and cells that share an edge share the node
-/// within it. Checked: cells and edges.
+/// Of order 2: every cell's Jacobian determinant is positive throughout, by Bézier bounds, and cells that share an edge
+/// share the node within it. Checked: cells and edges.
 pub fn jacobian(ev: &Evidence) -> Check {
     if ev.mesh.order() == 1 {
         return Check::not_asked("jacobian");
@@ -30,8 +30,8 @@ pub fn jacobian(ev: &Evidence) -> Check {
     tally.finish(Status::Proven)
 }
 
-/// Of order 2: the node within each linked edge lies on its curve, between the edge's ends, or is the middle of its chord (a straightened
-/// side: exempt, since it is listed). Adds to `on_curve`.
+/// Of order 2: the node within each linked edge lies on its curve, between the edge's ends, or is the middle of its
+/// chord (a straightened side: exempt, since it is listed). Adds to `on_curve`.
 pub fn mids_on_curves(ev: &Evidence, domain: &Domain, reach: f64, tally: &mut Tally) {
     for (edge, &mid) in ev.mesh.edges.iter().zip(&ev.mesh.edge_mids) {
         let Some(link) = edge.link else { continue };

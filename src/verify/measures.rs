@@ -241,8 +241,8 @@ fn kept_regions(ev: &Evidence, domain: &Domain) -> bool {
     !ev.promise.foreign || !has.is_disjoint(&in_domain(domain, domain.regions().iter().map(|r| r.name)))
 }
 
-/// Whether a mesh calls any boundary as the domain does. Numbers that do not fit are another program's numbers: formats without
-/// names have nothing else.
+/// Whether a mesh calls any boundary as the domain does. Numbers that do not fit are another program's numbers: formats
+/// without names have nothing else.
 fn kept_boundaries(ev: &Evidence, domain: &Domain) -> bool {
     let asked = in_domain(domain, names_of_boundaries(domain));
     let has = in_use(ev, ev.mesh.edges.iter().map(|e| e.name));

@@ -12,8 +12,8 @@
 //! (*conforming* looks into every circle all the same), and is Delaunay but at chords (*constrained_delaunay*).
 //!
 //! **Proven or reached.** A check of the output is `proven` where it holds, since nothing is left to believe. The angle
-//! bounds are `proven` only where [`crate::promise::guaranteed_angle`] covers κ, so that no input of that turning could have missed it;
-//! else `reached`.
+//! bounds are `proven` only where [`crate::promise::guaranteed_angle`] covers κ, so that no input of that turning could
+//! have missed it; else `reached`.
 //!
 //! Signs come from [`crate::geometry::exact`] on coordinates scaled to unit magnitude; everything measured is plain
 //! `f64` and its tolerance is derived where it stands.
@@ -130,8 +130,9 @@ fn is_zero(n: &usize) -> bool {
 /// Judges a mesh against the domain (already τ-split) and a promise. `None` for a mesh whose curves are unknown: checks
 /// that need them are n/a.
 ///
-/// The checks come in the contract's order, each once, `n/a` included; *constrained_delaunay* and *radius_edge* only where promised. A mesh whose ids lead nowhere or whose
-/// coordinates are not finite has `manifold` broken, with the culprits, and everything else `n/a`.
+/// The checks come in the contract's order, each once, `n/a` included; *constrained_delaunay* and *radius_edge* only
+/// where promised. A mesh whose ids lead nowhere or whose coordinates are not finite has `manifold` broken, with the
+/// culprits, and everything else `n/a`.
 pub fn verify(domain: Option<&Domain>, mesh: &Mesh, promise: &Promise) -> Verdict {
     let mut unreadable = evidence::unreadable(domain, mesh);
     unreadable.extend(elevation::unreadable(mesh));

@@ -1,8 +1,8 @@
 //! What is done of a batch: recorded as it happens, printed in the order of the inputs, counted at the end.
 //!
-//! The record is a file of JSON lines: first the request that all inputs had, then a line when an input is begun and one when it is done,
-//! each written at once. An input is done once its files have their names, so that whatever ends the program, what is recorded as
-//! done is there, and the rest is done by `--resume`.
+//! The record is a file of JSON lines: first the request that all inputs had, then a line when an input is begun and
+//! one when it is done, each written at once. An input is done once its files have their names, so that whatever ends
+//! the program, what is recorded as done is there, and the rest is done by `--resume`.
 
 use crate::cli::files;
 use crate::cli::output::Output;

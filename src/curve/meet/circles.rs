@@ -7,8 +7,9 @@ use crate::curve::{CircularArc, Curve, Line};
 use crate::geometry::{Point, Vec2};
 use std::f64::consts::TAU;
 
-/// Pairs of parameters, one at least in every contact of two circular arcs or of a line and an arc; `None` for other kinds, and
-/// where a circle is so large or so far that the closed form loses the tolerance to rounding, unless the circles are clear of each other.
+/// Pairs of parameters, one at least in every contact of two circular arcs or of a line and an arc; `None` for other
+/// kinds, and where a circle is so large or so far that the closed form loses the tolerance to rounding, unless the
+/// circles are clear of each other.
 ///
 /// A contact holds a crossing, a place where the curves come closest (on the line of centers), or an end.
 pub(super) fn guesses(contacts: &Contacts) -> Option<Vec<Guess>> {
@@ -125,7 +126,8 @@ fn line_with_circle(line: &Line, arc: &CircularArc) -> Vec<Point> {
     places
 }
 
-/// The ends of a chord through `middle`, perpendicular to the unit vector `normal`, of which half the length is √`half2`.
+/// The ends of a chord through `middle`, perpendicular to the unit vector `normal`, of which half the length is
+/// √`half2`.
 fn on_chord(middle: Point, normal: Vec2, half2: f64) -> Vec<Point> {
     if half2 <= 0.0 {
         return Vec::new();

@@ -1,10 +1,11 @@
-//! From a first guess to a meeting: followed both ways, told from a stretch that is shared, and brought to its exact place.
+//! From a first guess to a meeting: followed both ways, told from a stretch that is shared, and brought to its exact
+//! place.
 //!
-//! The pairs (t, u) with a gap of at most the tolerance fall into connected *contacts*. The meeting is one a contact: a crossing
-//! where the curves leave it on opposite sides, else a touching. So a lens between two crossings that is no deeper than the
-//! tolerance is one touching, and a deeper one two crossings, whatever their distance. Two curves of low degree that agree on a
-//! stretch agree until one of their spans ends, so a contact is an overlap between the outermost span ends that it holds, if those
-//! are apart, and otherwise snaps to the end that it holds.
+//! The pairs (t, u) with a gap of at most the tolerance fall into connected *contacts*. The meeting is one a contact: a
+//! crossing where the curves leave it on opposite sides, else a touching. So a lens between two crossings that is no
+//! deeper than the tolerance is one touching, and a deeper one two crossings, whatever their distance. Two curves of
+//! low degree that agree on a stretch agree until one of their spans ends, so a contact is an overlap between the
+//! outermost span ends that it holds, if those are apart, and otherwise snaps to the end that it holds.
 
 use super::hull::length;
 use super::{Meeting, MeetingBudget, MeetingKind, Overlap};
@@ -13,8 +14,8 @@ use crate::geometry::{Point, Vec2};
 
 /// Newton's method doubles its digits a step; a halving fallback never needs more steps than a double has bits.
 const NEWTON_STEPS: usize = 53;
-/// A step along a contact is at most this part of a span times the degree of the partner: then the samples on a span outnumber
-/// the crossings that curves of such degrees can have (Bézout), up to degree eight.
+/// A step along a contact is at most this part of a span times the degree of the partner: then the samples on a span
+/// outnumber the crossings that curves of such degrees can have (Bézout), up to degree eight.
 const SAMPLES_PER_DEGREE: f64 = 8.0;
 
 /// One curve as a contact sees it.
@@ -82,8 +83,8 @@ pub(super) struct Contacts<'c> {
     pub a: Track<'c>,
     pub b: Track<'c>,
     pub tolerance: f64,
-    /// The gap up to which a contact is followed: noise about the tolerance would tear it where the curves part slowly, and each shred would
-    /// be a meeting.
+    /// The gap up to which a contact is followed: noise about the tolerance would tear it where the curves part slowly,
+    /// and each shred would be a meeting.
     held: f64,
     /// Whether a and b are one curve that may meet itself.
     pub same: bool,
@@ -111,8 +112,8 @@ impl<'c> Contacts<'c> {
         self.points.push(Meeting { at, t, u, kind: MeetingKind::Crossing, contact });
     }
 
-    /// Follows the contact through (t, u), which must be within the tolerance, and records what it is. `root` says that (t, u)
-    /// solves a(t) = b(u) as well as can be.
+    /// Follows the contact through (t, u), which must be within the tolerance, and records what it is. `root` says that
+    /// (t, u) solves a(t) = b(u) as well as can be.
     pub fn add(&mut self, t: f64, u: f64, root: bool) -> Result<(), MeetingBudget> {
         if self.knows(t, u) {
             return Ok(());
@@ -185,7 +186,8 @@ impl<'c> Contacts<'c> {
         let first_step = (0.25 * self.a.step_of(from[0], self.tolerance)).max(f64::EPSILON);
         let samples = SAMPLES_PER_DEGREE * self.a.degree.max(self.b.degree) as f64;
         let spans = self.a.knots.len() + self.b.knots.len();
-        // Doubling and quartering steps are some 60 each; the rest are full, at most two a sample on all spans. Twice that.
+        // Doubling and quartering steps are some 60 each; the rest are full, at most two a sample on all spans. Twice
+        // that.
         let budget = 2 * (120 + 2 * spans * samples as usize);
         let (mut passed, mut here, mut step) = (Vec::new(), from, first_step);
         for _ in 0..budget {
@@ -223,8 +225,8 @@ impl<'c> Contacts<'c> {
                 }
                 return Ok((passed, Stop::End));
             }
-            // The border of the contact is wanted to a small part of its length only: it serves to know the contact again. But a
-            // gap far beyond the tolerance may be a foot gone astray in a sharp bend.
+            // The border of the contact is wanted to a small part of its length only: it serves to know the contact
+            // again. But a gap far beyond the tolerance may be a foot gone astray in a sharp bend.
             let is_border = gap <= 2.0 * self.held && !jumps && step <= (t - from[0]).abs() / 256.0;
             if is_border || step <= first_step {
                 return Ok((passed, Stop::Away([next, foot])));
@@ -272,9 +274,9 @@ impl<'c> Contacts<'c> {
         if let Stop::End = after {
             ends.push(last);
         }
-        // A walk along a passes an end of b unseen where the curves cross steeply. Where they cross at the angle θ, b stays within
-        // the tolerance for tolerance/sin θ, of which the walk sees the part cos θ; the rest is tan(θ/2) ≤ 1 times the tolerance.
-        // And it stops at an end of b although one of a may be as near.
+        // A walk along a passes an end of b unseen where the curves cross steeply. Where they cross at the angle θ, b
+        // stays within the tolerance for tolerance/sin θ, of which the walk sees the part cos θ; the rest is tan(θ/2) ≤
+        // 1 times the tolerance. And it stops at an end of b although one of a may be as near.
         let (a, b) = (self.a.curve, self.b.curve);
         let is_near = |curve: &Curve, x: f64, e: f64| is_near(curve, x, e, 2.0 * self.tolerance);
         for e in [0.0, 1.0] {
@@ -299,8 +301,9 @@ impl<'c> Contacts<'c> {
         (gap <= self.tolerance).then_some(x)
     }
 
-    /// Knots of either curve inside the contact, as pairs: where a contact is a shared stretch, it may end at one. Only those
-    /// count at which the gap is far below the tolerance, lest a shallow crossing of short spans pass for a shared stretch.
+    /// Knots of either curve inside the contact, as pairs: where a contact is a shared stretch, it may end at one. Only
+    /// those count at which the gap is far below the tolerance, lest a shallow crossing of short spans pass for a
+    /// shared stretch.
     fn knots_in(&self, walk: &[[f64; 2]]) -> Vec<[f64; 2]> {
         let (a, b) = (self.a.curve, self.b.curve);
         let (first, last) = (walk[0], walk[walk.len() - 1]);
@@ -423,7 +426,8 @@ impl<'c> Contacts<'c> {
         Some(low)
     }
 
-    /// Newton's method for a(t) = b(u), kept in two ranges: the pair, and whether the gap fell to a quarter of the tolerance.
+    /// Newton's method for a(t) = b(u), kept in two ranges: the pair, and whether the gap fell to a quarter of the
+    /// tolerance.
     pub fn root(&self, mut t: f64, mut u: f64, within: [[f64; 2]; 2]) -> ([f64; 2], bool) {
         let (a, b) = (self.a.curve, self.b.curve);
         let mut gap = a.point(t) - b.point(u);
@@ -475,7 +479,8 @@ fn tangent(curve: &Curve, t: f64) -> Vec2 {
     curve.tangent(t, if t < 1.0 { End::Start } else { End::Finish })
 }
 
-/// The parameter near `guess` at which the curve comes closest to p (a local minimum, or an end), and the distance there.
+/// The parameter near `guess` at which the curve comes closest to p (a local minimum, or an end), and the distance
+/// there.
 pub(super) fn foot(curve: &Curve, p: Point, guess: f64) -> (f64, f64) {
     let mut u = guess.clamp(0.0, 1.0);
     if curve.derivative(u) == Vec2::ZERO {

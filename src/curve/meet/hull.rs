@@ -1,9 +1,10 @@
 //! The hull tree of a curve: ever smaller pieces, each with its control polygon, box, lens and cone of tangents.
 //!
-//! Every kind of curve is a chain of Bézier pieces in homogeneous coordinates: lines have degree one, circular and elliptic arcs
-//! are cut into rational quadratics of at most a quarter turn. The piece lies in the convex hull of its control points, and since
-//! corner cutting only blends neighbouring legs, every tangent and every chord of it lies in the cone of the legs. Children are
-//! made by de Casteljau's algorithm at the middle, when first asked for, and kept: a piece is halved once whatever it is compared with.
+//! Every kind of curve is a chain of Bézier pieces in homogeneous coordinates: lines have degree one, circular and
+//! elliptic arcs are cut into rational quadratics of at most a quarter turn. The piece lies in the convex hull of its
+//! control points, and since corner cutting only blends neighbouring legs, every tangent and every chord of it lies in
+//! the cone of the legs. Children are made by de Casteljau's algorithm at the middle, when first asked for, and kept: a
+//! piece is halved once whatever it is compared with.
 
 use crate::curve::{Bezier, Cone, Curve, EllipticArc};
 use crate::geometry::{Point, Rect, Vec2, magnitude};
@@ -56,7 +57,8 @@ impl Piece {
 
     /// Whether the piece is a thin lens along its chord, travelled one way: no wider than an eighth of its length.
     pub fn is_slender(&self) -> bool {
-        // Legs of such a lens run within about π/6 of its chord where they advance, which is where Newton's method is quick.
+        // Legs of such a lens run within about π/6 of its chord where they advance, which is where Newton's method is
+        // quick.
         self.cone.is_some() && 8.0 * self.width() <= self.size
     }
 
@@ -69,7 +71,8 @@ impl Piece {
 /// How the parameter of a span runs along the curve's own.
 enum Pace {
     Even,
-    /// A conic of which half the angle is φ: tan(θ/2) = tan(φ/2)·(2s − 1) for the angle θ from its middle; here tan(φ/2).
+    /// A conic of which half the angle is φ: tan(θ/2) = tan(φ/2)·(2s − 1) for the angle θ from its middle; here
+    /// tan(φ/2).
     Angle(f64),
 }
 

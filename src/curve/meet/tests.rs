@@ -712,8 +712,8 @@ fn twenty_thousand_random_cubic_pairs_are_quick() {
     assert!(count > pairs / 2);
 }
 
-/// A curve from the origin that heads along `angle` with a handle of the length `handle` there and `far` at its other end, and bends to
-/// the left; of each kind that may have handles. Reversed where `end` is.
+/// A curve from the origin that heads along `angle` with a handle of the length `handle` there and `far` at its other
+/// end, and bends to the left; of each kind that may have handles. Reversed where `end` is.
 fn with_handles(kind: usize, angle: f64, handle: f64, far: f64, end: End) -> Curve {
     let ahead = Vec2::new(libm::cos(angle), libm::sin(angle));
     let place = |x: f64, y: f64| Point::ORIGIN + ahead * x + Vec2::new(-ahead.y, ahead.x) * y;

@@ -1,5 +1,6 @@
-//! Linework that is no edge of the part, where inside and outside are told by how often outlines go around: drawing frames, outlines that
-//! cross those of another layer, and bolt circles. It is taken as drawn, and told with the option that leaves it out.
+//! Linework that is no edge of the part, where inside and outside are told by how often outlines go around: drawing
+//! frames, outlines that cross those of another layer, and bolt circles. It is taken as drawn, and told with the option
+//! that leaves it out.
 
 use super::faces::Faces;
 use super::fill::closed_outlines;
@@ -72,8 +73,8 @@ impl<'a> Outlines<'a> {
         self.faces.parent[component].map(|face| self.faces.cycles[face].component)
     }
 
-    /// Layers of nothing but outlines in each other, the innermost of which holds outlines of other layers that hold others in turn; or that
-    /// holds any, where the layer is called a frame.
+    /// Layers of nothing but outlines in each other, the innermost of which holds outlines of other layers that hold
+    /// others in turn; or that holds any, where the layer is called a frame.
     fn frames(&self) -> Vec<String> {
         let mut of_layer: BTreeMap<LayerId, Vec<usize>> = BTreeMap::new();
         for (component, layers) in self.by_component.iter().enumerate() {
@@ -169,8 +170,8 @@ impl<'a> Outlines<'a> {
     }
 }
 
-/// The points at which closed outlines of two kinds cross, by the kinds: around the point their curves take turns. `kinds` are those of each
-/// curve of the domain.
+/// The points at which closed outlines of two kinds cross, by the kinds: around the point their curves take turns.
+/// `kinds` are those of each curve of the domain.
 fn crossings<K: Copy + Ord>(domain: &Domain, kinds: &[BTreeSet<K>]) -> BTreeMap<[K; 2], Vec<Point>> {
     let mut places: BTreeMap<[K; 2], Vec<Point>> = BTreeMap::new();
     for (point, star) in domain.stars.enumerate() {

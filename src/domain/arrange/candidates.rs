@@ -1,4 +1,5 @@
-//! What may meet: pairs of pieces, and of a node and a piece, whose boxes meet and of which it is not plain that they do not.
+//! What may meet: pairs of pieces, and of a node and a piece, whose boxes meet and of which it is not plain that they
+//! do not.
 
 use super::error::{ArrangeError, Unarranged};
 use super::network::{Network, Piece};
@@ -9,23 +10,26 @@ use crate::ids::{CurveId, Id, IdVec, PointId};
 use crate::watch::Watch;
 use std::f64::consts::TAU;
 
-/// Pairs of curves, or of a node and a curve, that are kept at most while it is looked for where they meet: half a gigabyte.
+/// Pairs of curves, or of a node and a curve, that are kept at most while it is looked for where they meet: half a
+/// gigabyte.
 const PAIRS_MAX: usize = 1 << 26;
 
 /// Cuts of one round that are kept at most, two a crossing: some gigabytes with the pieces that they make.
 pub(super) const CUTS_MAX: usize = 1 << 24;
 
-/// Curves part slowly where they stay within the tolerance of each other for so many tolerances; those that part at an angle with a sine of one
-/// over this do not.
+/// Curves part slowly where they stay within the tolerance of each other for so many tolerances; those that part at an
+/// angle with a sine of one over this do not.
 pub(super) const SLOW: f64 = 16.0;
 
-/// Circles that cross at a smaller angle (its sine) are compared in full: they stay within the tolerance of each other for long.
+/// Circles that cross at a smaller angle (its sine) are compared in full: they stay within the tolerance of each other
+/// for long.
 const SLANT: f64 = 1e-3;
 
 /// Fewer lines around a node are compared each with each.
 const HUB: usize = 16;
 
-/// Nodes at which many lines end. That a spoke's far end lies on another spoke is asked of its neighbours by angle only.
+/// Nodes at which many lines end. That a spoke's far end lies on another spoke is asked of its neighbours by angle
+/// only.
 struct Hubs {
     spokes: IdVec<PointId, Vec<CurveId>>,
     /// Hubs to which a line runs from a node.
@@ -72,7 +76,8 @@ impl Hubs {
             around.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
             let n = around.len();
             for (k, &(angle, id)) in around.iter().enumerate() {
-                // Half a circle's chord at least as long as the tolerance; 1e-12 is more than rounding does to an angle.
+                // Half a circle's chord at least as long as the tolerance; 1e-12 is more than rounding does to an
+                // angle.
                 let reach = (2.0 * network.tolerances.weld / arm(id).hypot()).min(4.0) + 1e-12;
                 let off = |other: f64| (other - angle).abs().min(TAU - (other - angle).abs());
                 let beside = |step: usize| (1..n).map(move |i| (k + i * step) % n);
@@ -174,14 +179,14 @@ impl Network<'_> {
         (from - arc.radius).abs() > self.off_circle(from + arc.radius)
     }
 
-    /// How far a point of an arc, computed from numbers of a magnitude, may lie off its circle, and a tolerance more. Moved ends are spread
-    /// along an arc: its points lie off its circle by two tolerances at most.
+    /// How far a point of an arc, computed from numbers of a magnitude, may lie off its circle, and a tolerance more.
+    /// Moved ends are spread along an arc: its points lie off its circle by two tolerances at most.
     fn off_circle(&self, magnitude: f64) -> f64 {
         8.0 * self.tolerances.weld.max(f64::EPSILON * magnitude)
     }
 
-    /// Whether two arcs meet nowhere, or nowhere but at their one common end, told by their circles: rings in each other and fans of arcs
-    /// have as many pairs of boxes that meet as there are pairs.
+    /// Whether two arcs meet nowhere, or nowhere but at their one common end, told by their circles: rings in each
+    /// other and fans of arcs have as many pairs of boxes that meet as there are pairs.
     fn are_circles_apart(&self, a: CurveId, b: CurveId) -> bool {
         let [first, second] = [a, b].map(|id| &self.pieces[id]);
         let (Curve::Arc(p), Curve::Arc(q)) = (&first.curve, &second.curve) else { return false };

@@ -1,4 +1,5 @@
-//! Drawn curves, cut on their own account: at breaks, around hooks, where they meet themselves, and once where they are closed.
+//! Drawn curves, cut on their own account: at breaks, around hooks, where they meet themselves, and once where they are
+//! closed.
 //!
 //! ```text
 //!          cusp                 hook               self-meeting           closed
@@ -21,8 +22,8 @@ use crate::watch::Watch;
 const HOOK_RAD: f64 = 0.05;
 const HOOK: f64 = 0.0625;
 
-/// A Bézier curve has no hooks where its speed along the chord is at least this part of its greatest: it bends no sharper than some
-/// millionth of its size then.
+/// A Bézier curve has no hooks where its speed along the chord is at least this part of its greatest: it bends no
+/// sharper than some millionth of its size then.
 const PACE: f64 = 1e-3;
 
 /// The pieces of a drawing, cut at breaks and self-meetings, not yet met with each other.
@@ -54,7 +55,8 @@ impl Network<'_> {
             return Ok(None);
         }
         if size <= weld {
-            // Too small for a shape of its own. Whether it is lost is told by its ends: a chain of short curves may be a long one.
+            // Too small for a shape of its own. Whether it is lost is told by its ends: a chain of short curves may be
+            // a long one.
             let [from, to] = [curve.start(), curve.end()].map(|at| self.add_node(at, Origin::Curve(source)));
             self.pieces.push(Piece::new(Part::whole(curve), [from, to], source));
             return Ok(Some([from, to]));
@@ -72,8 +74,8 @@ impl Network<'_> {
         Ok(Some([first, last]))
     }
 
-    /// The parts of a drawn curve when cut on its own account: at breaks, at self-meetings, and once more where a part would be closed.
-    /// Each with what its end is there for.
+    /// The parts of a drawn curve when cut on its own account: at breaks, at self-meetings, and once more where a part
+    /// would be closed. Each with what its end is there for.
     fn own_parts(&mut self, source: u32, curve: &Curve) -> Result<Vec<(Part, Origin)>, ArrangeError> {
         if matches!(curve, Curve::Line(_)) {
             return Ok(vec![(Part::whole(curve), Origin::Curve(source))]);
@@ -110,8 +112,9 @@ impl Network<'_> {
         parts.into_iter().flat_map(|part| self.parts_between_hooks(source, part)).collect()
     }
 
-    /// A regular part, cut around the hooks in it: bends far narrower than the tolerance, as handles a last digit away from their ends make
-    /// them. What is between the cuts is too short to stay: the hook becomes a corner, or the end that it is at.
+    /// A regular part, cut around the hooks in it: bends far narrower than the tolerance, as handles a last digit away
+    /// from their ends make them. What is between the cuts is too short to stay: the hook becomes a corner, or the end
+    /// that it is at.
     fn parts_between_hooks(&mut self, source: u32, regular: Part) -> Vec<Part> {
         let part = &regular.curve;
         if is_evenly_paced(part) {
@@ -144,8 +147,8 @@ impl Network<'_> {
         regular.split(&cuts)
     }
 
-    /// The parameters at which a regular part meets itself. Within the tolerance a loop is nothing but the curve's nearness to itself, but it
-    /// may cross itself there: asked only of parts that meet themselves nowhere else.
+    /// The parameters at which a regular part meets itself. Within the tolerance a loop is nothing but the curve's
+    /// nearness to itself, but it may cross itself there: asked only of parts that meet themselves nowhere else.
     fn self_cuts(&mut self, source: u32, part: &Curve) -> Result<Vec<f64>, ArrangeError> {
         let mut found = self.self_meetings_of(source, part, self.tolerances.weld)?;
         if found.is_empty() {

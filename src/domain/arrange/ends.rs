@@ -110,7 +110,8 @@ impl Network<'_> {
         FreeEnd { at: self.nodes[node].at, direction, owner: Owner::Node(node), chain, last_decimal }
     }
 
-    /// The pieces from a free end to the next free end or branch, each with the length of those before it, as the boxes around them tell it.
+    /// The pieces from a free end to the next free end or branch, each with the length of those before it, as the boxes
+    /// around them tell it.
     fn chain(&self, node: PointId, joints: &Joints) -> Vec<(CurveId, f64)> {
         let (mut here, mut along, mut before) = (node, joints.0[node][0], 0.0);
         let mut chain = vec![(along, before)];
@@ -125,7 +126,8 @@ impl Network<'_> {
         }
     }
 
-    /// The ends of entities that were left out because they leave the plane: what they would have closed is no open line.
+    /// The ends of entities that were left out because they leave the plane: what they would have closed is no open
+    /// line.
     pub fn off_plane_ends(&self) -> impl Iterator<Item = FreeEnd> {
         self.drawing.off_plane.iter().enumerate().flat_map(|(k, entity)| {
             let chain = entity.ends[0].distance(entity.ends[1]);
@@ -137,8 +139,9 @@ impl Network<'_> {
         })
     }
 
-    /// Of each end in `among`, the nearest line whose inside is nearer than `bound` allows; of its own chain, a line farther on. Only where
-    /// neither is connected with anything closed: lines that stop short of each other within a grid take nothing from what it bounds.
+    /// Of each end in `among`, the nearest line whose inside is nearer than `bound` allows; of its own chain, a line
+    /// farther on. Only where neither is connected with anything closed: lines that stop short of each other within a
+    /// grid take nothing from what it bounds.
     pub fn shorts(&self, ends: &[FreeEnd], among: &[usize], bound: impl Fn(usize) -> f64) -> Vec<Short> {
         let open = self.pieces_of_trees();
         let boxes = BoxHierarchy::new(open.iter().map(|&id| self.pieces[id].bounds));

@@ -16,8 +16,8 @@ use crate::geometry::{Rect, extent};
 use crate::watch::{Progress, Watch};
 use std::collections::BTreeSet;
 
-/// Axis-parallel lines tried through a component before its place counts as undecided; each fails only by passing within rounding of
-/// a vertex or along a curve.
+/// Axis-parallel lines tried through a component before its place counts as undecided; each fails only by passing
+/// within rounding of a vertex or along a curve.
 const LINES: usize = 64;
 
 /// More than the unit frame is wide, the box of `keep all` included: coordinates of at most 1 and 2√2 on either side.
@@ -37,7 +37,8 @@ pub(super) struct Faces {
 }
 
 impl Faces {
-    /// Finds out in which face each component of a domain lies, along lines that keep `margin` away from ends of curves.
+    /// Finds out in which face each component of a domain lies, along lines that keep `margin` away from ends of
+    /// curves.
     pub fn new(cycles: Cycles, domain: &Domain, margin: f64, watch: &mut Watch) -> Result<Self, Unarranged> {
         let parent = parents(&cycles, domain, margin, watch)?;
         let Cycles { cycle_of, cycles, outer } = cycles;
@@ -100,8 +101,8 @@ struct View<'a> {
     margin: f64,
     /// By component.
     bounds: Vec<Rect>,
-    /// By component, once it is known: the first cycle that is seen from its first crossing with some axis-parallel line, looking back
-    /// from there. `Some(None)`: nothing is there.
+    /// By component, once it is known: the first cycle that is seen from its first crossing with some axis-parallel
+    /// line, looking back from there. `Some(None)`: nothing is there.
     seen: Vec<Option<Option<usize>>>,
     /// By component: the last line that met it.
     met: Vec<usize>,
@@ -122,8 +123,8 @@ impl<'a> View<'a> {
         Self { cycles, locator: Locator::new(domain), margin, bounds, seen, met, lines: 0 }
     }
 
-    /// Lines to look along from a component. A level line cannot pass a height of a few margins clear of its ends; and where none is
-    /// clear, as at the tip of two curves that part slowly, upright ones may be.
+    /// Lines to look along from a component. A level line cannot pass a height of a few margins clear of its ends; and
+    /// where none is clear, as at the tip of two curves that part slowly, upright ones may be.
     fn lines_through(&self, component: usize) -> impl Iterator<Item = (Axis, f64)> + use<> {
         let bounds = self.bounds[component];
         let axes = [Axis::Horizontal, Axis::Vertical];
@@ -132,8 +133,8 @@ impl<'a> View<'a> {
         in_order.flat_map(move |axis| levels(bounds, axis).map(move |level| (axis, level)))
     }
 
-    /// Finds out what a component sees, if that is not known yet, and with it what others see that its line meets: rings in each other
-    /// are passed a few times all together, not each by each.
+    /// Finds out what a component sees, if that is not known yet, and with it what others see that its line meets:
+    /// rings in each other are passed a few times all together, not each by each.
     fn look_from(&mut self, component: usize) -> Result<(), ArrangeError> {
         let bounds = self.bounds[component];
         for (axis, level) in self.lines_through(component) {
@@ -158,8 +159,9 @@ impl<'a> View<'a> {
         Err(self.untold(component))
     }
 
-    /// Two components may see each other, each from another level. Those of such a ring lie in one face, and what is seen left of the leftmost
-    /// of them on any line bounds it, too: that is what all of them see from then on. A further ring joins further ones.
+    /// Two components may see each other, each from another level. Those of such a ring lie in one face, and what is
+    /// seen left of the leftmost of them on any line bounds it, too: that is what all of them see from then on. A
+    /// further ring joins further ones.
     fn part_rings(&mut self, watch: &mut Watch) -> Result<(), Unarranged> {
         // By component: one that it was in a ring with, the same of all of them.
         let mut group: Vec<usize> = (0..self.seen.len()).collect();
@@ -199,7 +201,8 @@ impl<'a> View<'a> {
         rings
     }
 
-    /// What the leftmost of a group sees on a line through one of them, which goes on to the end of the frame, all of them see.
+    /// What the leftmost of a group sees on a line through one of them, which goes on to the end of the frame, all of
+    /// them see.
     fn look_out_of(&mut self, component: usize, group: &[usize]) -> Result<(), ArrangeError> {
         for (axis, level) in self.lines_through(component) {
             let [low, high] = along(axis, self.bounds[component]);

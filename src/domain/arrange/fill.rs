@@ -43,8 +43,8 @@ struct Windings<'a> {
     faces: &'a Faces,
     domain: &'a Domain,
     rule: FillRule,
-    /// How often each curve counts: in its own direction, or by the odd-even rule in any; 0 where the same face lies on both sides, and of
-    /// open lines.
+    /// How often each curve counts: in its own direction, or by the odd-even rule in any; 0 where the same face lies on
+    /// both sides, and of open lines.
     weight: Vec<i32>,
     winding: Vec<Option<i32>>,
     /// Curves that count once, however many drawn ones run along them.
@@ -123,9 +123,9 @@ impl Windings<'_> {
 
     /// The ways to count the curves of a component, the first one first that comes out even at every point.
     ///
-    /// By the odd-even rule what is drawn several times at one place is one contour, and counts once. Where that leaves an odd number of
-    /// curves at some point, contours that share a wall were drawn each for itself (two rooms): then every copy counts, but where all is
-    /// drawn an even number of times half of them does.
+    /// By the odd-even rule what is drawn several times at one place is one contour, and counts once. Where that leaves
+    /// an odd number of curves at some point, contours that share a wall were drawn each for itself (two rooms): then
+    /// every copy counts, but where all is drawn an even number of times half of them does.
     fn counts(&self, curves: &[CurveId]) -> Vec<Count> {
         if !by_parity(self.rule) {
             return vec![Count::Copies { divided_by: 1 }];
@@ -142,7 +142,8 @@ impl Windings<'_> {
         }
     }
 
-    /// Whether as many curves arrive as leave, at every point: only then is the winding number the same along every way.
+    /// Whether as many curves arrive as leave, at every point: only then is the winding number the same along every
+    /// way.
     fn is_balanced(&self, curves: &[CurveId], count: &Count) -> bool {
         let mut flow: Vec<(PointId, i32)> = Vec::new();
         for &id in curves {
@@ -176,9 +177,9 @@ impl Windings<'_> {
     }
 }
 
-/// Which drawn curves are parts of closed outlines: a curve at a free end is none, nor what is left free without it. An end is not free where
-/// another curve runs along: partly drawn twice, an outline goes on there.
-/// Outlines of shapes are closed, and close no others.
+/// Which drawn curves are parts of closed outlines: a curve at a free end is none, nor what is left free without it. An
+/// end is not free where another curve runs along: partly drawn twice, an outline goes on there. Outlines of shapes are
+/// closed, and close no others.
 pub(super) fn closed_outlines(network: &Network) -> Vec<bool> {
     let is_line = |i: usize| network.drawing.curves[i].shape.is_none();
     let mut ends: Vec<Vec<PointId>> =
@@ -206,8 +207,8 @@ pub(super) fn closed_outlines(network: &Network) -> Vec<bool> {
     closed
 }
 
-/// Ends of drawn lines that lie within another line which ends within the first, each with these others. A line that lies within another
-/// with both its ends is a copy of a part of it, and nothing goes on there.
+/// Ends of drawn lines that lie within another line which ends within the first, each with these others. A line that
+/// lies within another with both its ends is a copy of a part of it, and nothing goes on there.
 ///
 /// ```text
 ///   a ═══════╤═══════ b      a ends within b, and b within a: where one ends the other goes on

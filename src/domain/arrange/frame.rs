@@ -1,4 +1,5 @@
-//! The unit frame: the drawing at the power of two that brings it to a size of about 1, and the lengths below which things are one there.
+//! The unit frame: the drawing at the power of two that brings it to a size of about 1, and the lengths below which
+//! things are one there.
 
 use super::ArrangeOptions;
 use super::error::ArrangeError;
@@ -6,8 +7,8 @@ use crate::curve::Curve;
 use crate::domain::{Drawing, DrawnPoint, SeedKind};
 use crate::geometry::{Point, Rect, extent, magnitude, scaled};
 
-/// A drawn point this many times as far from the origin as the curves reach is a mistake, and would take 20 of the 53 bits of every
-/// coordinate.
+/// A drawn point this many times as far from the origin as the curves reach is a mistake, and would take 20 of the 53
+/// bits of every coordinate.
 const STRAY: f64 = 1048576.0;
 
 /// Lengths below which things are one, in the unit frame.
@@ -37,7 +38,8 @@ impl Tolerances {
 }
 
 impl Drawing {
-    /// Refuses a drawing without curves, with places that are no numbers, or whose extent leaves no digits to work with.
+    /// Refuses a drawing without curves, with places that are no numbers, or whose extent leaves no digits to work
+    /// with.
     pub(super) fn check_extent(&self) -> Result<Rect, ArrangeError> {
         let stray = |p: Point| !p.is_finite();
         let places = self.points.iter().map(|p| (p.at, &p.entity)).chain(self.seeds.iter().map(|s| (s.at, &s.entity)));
@@ -116,8 +118,8 @@ impl Drawing {
                 "give a welding distance of 0 or a small part of the drawing's size",
             ))
         };
-        // Sixteen units of rounding of the largest number that points are computed from, as in the search for meetings: arcs from
-        // their centers too, though of nearly straight ones no more than the default tolerance.
+        // Sixteen units of rounding of the largest number that points are computed from, as in the search for meetings:
+        // arcs from their centers too, though of nearly straight ones no more than the default tolerance.
         let carried = self.curves.iter().map(|c| carrier_magnitude(&c.curve)).fold(magnitude(bounds), f64::max);
         let coordinates = 16.0 * f64::EPSILON * magnitude(bounds);
         let rounding = (16.0 * f64::EPSILON * carried).min(1e-9 * diagonal).max(coordinates);
@@ -138,7 +140,8 @@ impl Drawing {
         let joins = if options.tolerance.is_none() || options.raised { [1e-6, 1e-3] } else { [0.0, 0.0] };
         let [gap, written] = joins.map(|part| part * diagonal);
         let close = options.close.unwrap_or(0.0) * factor;
-        // A tolerance that was asked for says what is one; else a contact of curves drawn to touch stays the point that it is.
+        // A tolerance that was asked for says what is one; else a contact of curves drawn to touch stays the point that
+        // it is.
         let zip = options.tolerance.is_some_and(|given| given > 0.0);
         Ok(Tolerances { weld: weld.max(rounding), gap, written, close, zip, rounding, unit: 1.0 / factor })
     }

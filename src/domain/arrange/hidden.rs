@@ -1,10 +1,10 @@
-//! What nobody sees: stretches of the outlines of a picture's shapes that later shapes cover. Where overlapping shapes are painted one over
-//! another, such a stretch bounds nothing, and the face that it runs through is one.
+//! What nobody sees: stretches of the outlines of a picture's shapes that later shapes cover. Where overlapping shapes
+//! are painted one over another, such a stretch bounds nothing, and the face that it runs through is one.
 //!
 //! Likewise what a clip cuts away, and of the outline of a clip all but the part that bounds what it cuts.
 //!
-//! What was split only where such stretches met it is made whole again: the same part of the drawn curve, not its fragments. The network is
-//! settled once more after that, as what was split had been moved by up to a tolerance.
+//! What was split only where such stretches met it is made whole again: the same part of the drawn curve, not its
+//! fragments. The network is settled once more after that, as what was split had been moved by up to a tolerance.
 
 use super::faces::Faces;
 use super::network::{Network, Part, Piece, is_spiral};
@@ -21,8 +21,8 @@ use std::collections::BTreeSet;
 const STRAIGHT_ON: f64 = 0.01;
 
 impl Network<'_> {
-    /// Leaves out the hidden stretches and notes on the others which shapes are seen beside them; whether there were any. `faces` are those
-    /// of the settled network. Of `all` shapes, not only of the topmost, the borders are kept.
+    /// Leaves out the hidden stretches and notes on the others which shapes are seen beside them; whether there were
+    /// any. `faces` are those of the settled network. Of `all` shapes, not only of the topmost, the borders are kept.
     pub fn drop_hidden(&mut self, faces: &Faces, all: bool) -> bool {
         let (seen, painters) = painters(self, faces, all);
         let beside = |id: CurveId, side| faces.face(Half { curve: id, side }).and_then(|face| painters[face]);
@@ -73,7 +73,8 @@ impl Network<'_> {
         shape.is_some_and(|shape| self.drawing.shapes[shape].part_of.is_some())
     }
 
-    /// The name of the boundary along a piece: the drawn one, but of the outline of a clip that of the shape which it cuts.
+    /// The name of the boundary along a piece: the drawn one, but of the outline of a clip that of the shape which it
+    /// cuts.
     pub fn boundary_name(&self, piece: &Piece) -> NameId {
         let drawn = self.drawing.curves[piece.source as usize].name;
         let cut = piece.paint.into_iter().flatten().flatten().map(|seen| self.seen.top(seen)).max();

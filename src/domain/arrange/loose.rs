@@ -32,7 +32,8 @@ const FARTHER: f64 = 2.0;
 const LISTED: usize = 3;
 
 impl Network<'_> {
-    /// Joins free ends that are each other's nearest, within the gaps that the tolerances allow; whether there were any.
+    /// Joins free ends that are each other's nearest, within the gaps that the tolerances allow; whether there were
+    /// any.
     ///
     /// **Termination.** Every round but the last joins two ends or more.
     pub fn join_free_ends(&mut self) -> bool {
@@ -100,7 +101,8 @@ impl Network<'_> {
         }
     }
 
-    /// Refuses outlines that miss closing, and leaves out or tells of what is open, as `loose` says; what is to be told.
+    /// Refuses outlines that miss closing, and leaves out or tells of what is open, as `loose` says; what is to be
+    /// told.
     ///
     /// # Errors
     /// With the ends, the gaps, and the option that closes them.
@@ -176,8 +178,8 @@ impl Network<'_> {
     }
 }
 
-/// Where two free ends are joined: at the corner that their lines make a little farther on, so that neither turns; where they hardly make
-/// one, at the first.
+/// Where two free ends are joined: at the corner that their lines make a little farther on, so that neither turns;
+/// where they hardly make one, at the first.
 ///
 /// ```text
 ///      a ────── · corner

@@ -1,4 +1,5 @@
-//! Where pieces meet: nodes on pieces, crossings of lines, meetings and contacts of curves. Each becomes a cut or a link of two nodes.
+//! Where pieces meet: nodes on pieces, crossings of lines, meetings and contacts of curves. Each becomes a cut or a
+//! link of two nodes.
 
 use super::candidates::{SLOW, too_many_cuts};
 use super::error::{ArrangeError, Unarranged};
@@ -10,10 +11,12 @@ use crate::geometry::exact::{Orientation, orient};
 use crate::ids::{CurveId, PointId};
 use crate::watch::Watch;
 
-/// In the middle of such a contact they are within this part of their widest distance: less than straight lines would be.
+/// In the middle of such a contact they are within this part of their widest distance: less than straight lines would
+/// be.
 const BENT: f64 = 0.375;
 
-/// Pieces that cross within the tolerance of a common end begin up to so many times as far from it, and no farther than this part of the tolerance.
+/// Pieces that cross within the tolerance of a common end begin up to so many times as far from it, and no farther than
+/// this part of the tolerance.
 const BEYOND: f64 = 16.0;
 const BEYOND_REACH: f64 = 0.9;
 
@@ -97,7 +100,8 @@ impl Network<'_> {
         Ok(())
     }
 
-    /// The proper crossing of two lines without a common end. All other ways in which lines meet have an end of one on the other.
+    /// The proper crossing of two lines without a common end. All other ways in which lines meet have an end of one on
+    /// the other.
     fn cross_lines(&mut self, a: CurveId, b: CurveId, found: &mut Found) {
         let [p, q] = [a, b].map(|id| &self.pieces[id]);
         let (p0, p1, q0, q1) = (p.curve.start(), p.curve.end(), q.curve.start(), q.curve.end());
@@ -107,7 +111,8 @@ impl Network<'_> {
         }
         let (dp, dq, between) = (p1 - p0, q1 - q0, q0 - p0);
         let det = dp.cross(dq);
-        // The signs above are exact: the lines do cross. Where rounding leaves nothing of the determinant, the middles will do.
+        // The signs above are exact: the lines do cross. Where rounding leaves nothing of the determinant, the middles
+        // will do.
         let [t, u] = if det == 0.0 { [0.5, 0.5] } else { [between.cross(dq) / det, between.cross(dp) / det] };
         let (t, u) = (t.clamp(0.0, 1.0), u.clamp(0.0, 1.0));
         self.join_pieces((a, t), (b, u), p0.lerp(p1, t), found);
@@ -136,8 +141,9 @@ impl Network<'_> {
         Ok(())
     }
 
-    /// Whether two pieces touch and part so slowly that what is between them, as long as that is within the tolerance, would take more
-    /// triangles than it is worth: they are one there. Straight lines at an angle are not made one, the wedge would only begin elsewhere.
+    /// Whether two pieces touch and part so slowly that what is between them, as long as that is within the tolerance,
+    /// would take more triangles than it is worth: they are one there. Straight lines at an angle are not made one, the
+    /// wedge would only begin elsewhere.
     fn part_slowly(&self, ids: [CurveId; 2], meeting: &Meeting) -> bool {
         let Overlap { t, u } = meeting.contact;
         if meeting.kind == MeetingKind::Crossing || t[0] == t[1] || u[0] == u[1] {
@@ -153,9 +159,10 @@ impl Network<'_> {
         within(0.5 * (t[0] + t[1])) <= BENT * widest
     }
 
-    /// Further meetings of two pieces with a common end. Within the tolerance of it all is one contact, but the curves may cross there
-    /// once more: they are cut there. Where even that is within the tolerance of the end, both begin at the crossing instead. Asked
-    /// only of pieces that meet nowhere else: those that repeat each other are cut and become one first.
+    /// Further meetings of two pieces with a common end. Within the tolerance of it all is one contact, but the curves
+    /// may cross there once more: they are cut there. Where even that is within the tolerance of the end, both begin at
+    /// the crossing instead. Asked only of pieces that meet nowhere else: those that repeat each other are cut and
+    /// become one first.
     ///
     /// ```text
     ///    p ╲   ╱ q
@@ -173,8 +180,9 @@ impl Network<'_> {
         let rounding = self.tolerances.rounding;
         for meeting in self.meetings_of(ids[0], ids[1], rounding)?.points {
             let ts = [meeting.t, meeting.u];
-            // Circles that were drawn to touch come out a few roundings deep in each other; a cut there, where they stay that near to each
-            // other for the square root of it, would leave an edge that nothing can be meshed beside.
+            // Circles that were drawn to touch come out a few roundings deep in each other; a cut there, where they
+            // stay that near to each other for the square root of it, would leave an edge that nothing can be meshed
+            // beside.
             if self.is_contact(ids, ts, 4.0 * rounding) {
                 continue;
             }
@@ -193,8 +201,9 @@ impl Network<'_> {
         Ok(())
     }
 
-    /// Where two pieces that cross near a node are to begin: farther from it than where they cross, as far as the tolerance goes. What is left of
-    /// them turns a little as it is moved to the node, and so would cross again, somewhat nearer; farther away they have parted.
+    /// Where two pieces that cross near a node are to begin: farther from it than where they cross, as far as the
+    /// tolerance goes. What is left of them turns a little as it is moved to the node, and so would cross again,
+    /// somewhat nearer; farther away they have parted.
     fn beyond(&self, ids: [CurveId; 2], ts: [f64; 2], node: PointId) -> [f64; 2] {
         let away = |k: usize, t: f64| self.pieces[ids[k]].curve.point(t).distance(self.nodes[node].at);
         let reach = BEYOND_REACH * self.tolerances.weld;
@@ -216,8 +225,8 @@ impl Network<'_> {
         })
     }
 
-    /// Whether a meeting of two pieces is nothing but their contact at a common end: from there to the meeting they stay within `slack`
-    /// of each other.
+    /// Whether a meeting of two pieces is nothing but their contact at a common end: from there to the meeting they
+    /// stay within `slack` of each other.
     fn is_contact(&self, ids: [CurveId; 2], ts: [f64; 2], slack: f64) -> bool {
         let [p, q] = ids.map(|id| &self.pieces[id]);
         let within = |t: f64, end: usize, curve: &Curve, other: &Curve| {

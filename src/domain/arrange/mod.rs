@@ -1,47 +1,54 @@
 //! Drawing → Domain: weld, meet, split, drop, trace, name. The only door to a [`Domain`].
 //!
 //! 0. `frame`: the drawing is brought to a size of about 1, and its tolerances are chosen.
-//! 1. `cut`: drawn curves are cut at breaks (cusps, tangent jumps), at their meetings with themselves, and once where they are closed. What
-//!    comes of it are the nodes and pieces of a `network`.
-//! 2. `candidates`, `meet`, `weld`: pieces are cut where they meet, places within the tolerance become one node, and pieces are moved by a
-//!    similarity to end at their nodes, bit for bit; again, until nothing meets but at common ends. The node is the truth: a drawn end,
-//!    where there is one, rather than a computed crossing. Pieces that coincide become one.
-//! 3. `ends`, `rings`, `loose`: free ends, the outlines that miss closing because of them, and what becomes of lines that stay open.
+//! 1. `cut`: drawn curves are cut at breaks (cusps, tangent jumps), at their meetings with themselves, and once where
+//!    they are closed. What comes of it are the nodes and pieces of a `network`.
+//! 2. `candidates`, `meet`, `weld`: pieces are cut where they meet, places within the tolerance become one node, and
+//!    pieces are moved by a similarity to end at their nodes, bit for bit; again, until nothing meets but at common
+//!    ends. The node is the truth: a drawn end, where there is one, rather than a computed crossing. Pieces that
+//!    coincide become one.
+//! 3. `ends`, `rings`, `loose`: free ends, the outlines that miss closing because of them, and what becomes of lines
+//!    that stay open.
 //! 4. `star`: the curves around every point, in order.
 //! 5. `trace`, `faces`: cycles of curve sides, and how they lie in each other.
-//! 6. `paint`, `fill`, `regions`: painted shapes, winding numbers, which faces are inside; hole and region seeds, names.
-//! 7. `hidden`: stretches of outlines that later shapes of a picture cover, and what clips cut away, are left out, and 2, 4 and 5 repeated
-//!    without them.
+//! 6. `paint`, `fill`, `regions`: painted shapes, winding numbers, which faces are inside; hole and region seeds,
+//!    names.
+//! 7. `hidden`: stretches of outlines that later shapes of a picture cover, and what clips cut away, are left out, and
+//!    2, 4 and 5 repeated without them.
 //!
 //! `auxiliary` tells of frames and crossing layers; `repair` lists what was mended.
 //!
-//! **Invariant.** A drawn curve runs along pieces in its order, or its loss is itemised; every piece ends at the places of its two nodes, bit for
-//! bit, and lies within the tolerance of its curve for every time that it was moved.
+//! **Invariant.** A drawn curve runs along pieces in its order, or its loss is itemised; every piece ends at the places
+//! of its two nodes, bit for bit, and lies within the tolerance of its curve for every time that it was moved.
 //!
-//! **Result.** When a round finds nothing, no node lies within the tolerance of a piece but at its ends, and no two pieces meet but at common ends
-//! (as far as [`meetings`](crate::curve::meetings) tells, which misses none by its own invariant). Such pieces with their stars are a plane graph:
-//! the cycles of curve sides bound its faces, V − E + F = 1 + C, winding numbers follow from one face to the next. [`Domain::flaws`] holds all
-//! of that against the domain by other means: each pair met anew, Euler's formula, winding numbers by rays.
+//! **Result.** When a round finds nothing, no node lies within the tolerance of a piece but at its ends, and no two
+//! pieces meet but at common ends (as far as [`meetings`](crate::curve::meetings) tells, which misses none by its own
+//! invariant). Such pieces with their stars are a plane graph: the cycles of curve sides bound its faces, V − E + F =
+//! 1 + C, winding numbers follow from one face to the next. [`Domain::flaws`] holds all of that against the domain by
+//! other means: each pair met anew, Euler's formula, winding numbers by rays.
 //!
-//! **Termination.** Each round welds two nodes or cuts a piece more than a tolerance from its ends; only moved pieces can meet anew. Pieces that
-//! cross beside a common end would settle by a steady factor only, and are cut farther away. Still no proof: rounds have a budget, and its
-//! end is an error with the place. Most drawings take four rounds, welds within 1e-4 of the diagonal up to a dozen.
+//! **Termination.** Each round welds two nodes or cuts a piece more than a tolerance from its ends; only moved pieces
+//! can meet anew. Pieces that cross beside a common end would settle by a steady factor only, and are cut farther away.
+//! Still no proof: rounds have a budget, and its end is an error with the place. Most drawings take four rounds, welds
+//! within 1e-4 of the diagonal up to a dozen.
 //!
-//! **What survives.** Of welded nodes a drawn end or break, of several the first drawn; computed crossings move to it. Of coincident curves the first
-//! drawn, which remembers the others. A gap is closed at the end that was drawn first.
+//! **What survives.** Of welded nodes a drawn end or break, of several the first drawn; computed crossings move to it.
+//! Of coincident curves the first drawn, which remembers the others. A gap is closed at the end that was drawn first.
 //!
-//! A tolerance acts feature by feature: what is wider than it keeps its shape and its side of the border, whatever its length; only what
-//! fits within it becomes a point or a line, and is itemised ([`RepairKind::Collapsed`]). A chain of shorter curves is thinned to steps
-//! of about a tolerance, so a loop of such is safe from three tolerances on.
+//! A tolerance acts feature by feature: what is wider than it keeps its shape and its side of the border, whatever its
+//! length; only what fits within it becomes a point or a line, and is itemised ([`RepairKind::Collapsed`]). A chain of
+//! shorter curves is thinned to steps of about a tolerance, so a loop of such is safe from three tolerances on.
 //!
-//! Lines around one point, repeated ends and components in each other cost n log n. Compared each with each are still: pieces whose boxes meet
-//! although they do not (rings in each other, fans of curves, long parallel slanted lines), and curves between the same two points.
+//! Lines around one point, repeated ends and components in each other cost n log n. Compared each with each are still:
+//! pieces whose boxes meet although they do not (rings in each other, fans of curves, long parallel slanted lines), and
+//! curves between the same two points.
 //!
-//! Within a tolerance that was asked for, curves that part slowly (from a tangent contact, or from a common end) are one as long as they are
-//! within it: else the sliver between them, which begins at width 0, would stay at any tolerance. Bends far narrower than the tolerance become
-//! corners.
+//! Within a tolerance that was asked for, curves that part slowly (from a tangent contact, or from a common end) are
+//! one as long as they are within it: else the sliver between them, which begins at width 0, would stay at any
+//! tolerance. Bends far narrower than the tolerance become corners.
 //!
-//! All of it happens in a frame scaled by a power of two, so that the same drawing at another such scale gives the same bits.
+//! All of it happens in a frame scaled by a power of two, so that the same drawing at another such scale gives the same
+//! bits.
 
 mod auxiliary;
 mod candidates;
@@ -82,18 +89,19 @@ use trace::Cycles;
 /// How a drawing is arranged.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ArrangeOptions {
-    /// Ends nearer than this are one vertex; `None`: 1e-9 of the diagonal, and ends that meet nothing else up to 1e-6 of it, or two units of
-    /// the last decimal in which they are written, at most 1e-3 of it. 0 heals nothing.
+    /// Ends nearer than this are one vertex; `None`: 1e-9 of the diagonal, and ends that meet nothing else up to 1e-6
+    /// of it, or two units of the last decimal in which they are written, at most 1e-3 of it. 0 heals nothing.
     pub tolerance: Option<f64>,
     /// `None`: the drawing's own rule.
     pub fill: Option<FillRule>,
-    /// `keep all`: an axis-parallel box named `box` is added, one diagonal of the drawing away from it on every side, and every
-    /// bounded face kept, whatever the fill rule and the hole seeds say.
+    /// `keep all`: an axis-parallel box named `box` is added, one diagonal of the drawing away from it on every side,
+    /// and every bounded face kept, whatever the fill rule and the hole seeds say.
     pub keep_all: bool,
-    /// Where filled shapes of a picture overlap, each set of them has a region of its own, named by all of them, the topmost first:
-    /// `leaf+stem`. Else the topmost shape has it all.
+    /// Where filled shapes of a picture overlap, each set of them has a region of its own, named by all of them, the
+    /// topmost first: `leaf+stem`. Else the topmost shape has it all.
     pub fragments: bool,
-    /// Free ends that are each other's nearest, or that stop short of an open line, are joined up to this far, and nothing else is welded by it.
+    /// Free ends that are each other's nearest, or that stop short of an open line, are joined up to this far, and
+    /// nothing else is welded by it.
     pub close: Option<f64>,
     /// What becomes of lines that bound no region.
     pub loose: Loose,
@@ -121,8 +129,8 @@ impl Drawing {
     ///
     /// # Errors
     ///
-    /// Where there is nothing to mesh, a coordinate is not a finite number, or curves run so near to each other that rounded
-    /// arithmetic cannot tell how they lie: with the place and the way out.
+    /// Where there is nothing to mesh, a coordinate is not a finite number, or curves run so near to each other that
+    /// rounded arithmetic cannot tell how they lie: with the place and the way out.
     pub fn arrange(&self, options: &ArrangeOptions) -> Result<Domain, ArrangeError> {
         self.arrange_watched(options, &mut |_| true).map_err(|why| match why {
             Unarranged::Invalid(error) => error,
@@ -145,8 +153,8 @@ impl Drawing {
         }
     }
 
-    /// What [`Drawing::arrange`] mends by default and leaves alone within a tolerance of 0: every repair of the default that is wider than
-    /// the rounding of coordinates, or is not made within that.
+    /// What [`Drawing::arrange`] mends by default and leaves alone within a tolerance of 0: every repair of the default
+    /// that is wider than the rounding of coordinates, or is not made within that.
     ///
     /// # Errors
     ///

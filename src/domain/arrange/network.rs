@@ -131,7 +131,8 @@ pub(super) struct Network<'a> {
     pub nodes: IdVec<PointId, Node>,
     pub pieces: IdVec<CurveId, Piece>,
     pub repairs: Vec<Repair>,
-    /// Loops of a drawn curve that became lines: the curve, the place and the width. Itemised where some of the curve is left.
+    /// Loops of a drawn curve that became lines: the curve, the place and the width. Itemised where some of the curve
+    /// is left.
     pub loops: Vec<(u32, Point, f64)>,
     /// The ends of the drawn curves, as they were drawn; `None` of curves of no length.
     pub drawn_ends: Vec<Option<[PointId; 2]>>,
@@ -168,8 +169,8 @@ impl Seen {
     }
 }
 
-/// Whether a curve is an arc that winds off its circle: only parts of it are arcs of circles, and those on both sides of a cut are of
-/// different ones.
+/// Whether a curve is an arc that winds off its circle: only parts of it are arcs of circles, and those on both sides
+/// of a cut are of different ones.
 pub(super) fn is_spiral(curve: &Curve) -> bool {
     matches!(curve, Curve::Arc(arc) if arc.is_spiral())
 }

@@ -9,8 +9,9 @@ use crate::geometry::extent;
 use crate::ids::{ClipId, CurveId, IdVec, NameId, Names, SeenId, ShapeId};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// How often each shape goes around one face, and which shapes fill it. Held for one face at a time: a tour of all faces crosses one
-/// curve after another, and back, so that shapes nested a thousand deep cost no more than the curves they are made of.
+/// How often each shape goes around one face, and which shapes fill it. Held for one face at a time: a tour of all
+/// faces crosses one curve after another, and back, so that shapes nested a thousand deep cost no more than the curves
+/// they are made of.
 struct Paint<'a> {
     drawing: &'a Drawing,
     winding: BTreeMap<ShapeId, i32>,
@@ -147,7 +148,8 @@ pub(super) fn painters(network: &Network, faces: &Faces, all: bool) -> (Seen, Ve
     (seen, painters)
 }
 
-/// Whether each piece is one that curves of no shape run along, of which one lies in its clip or has none. All outlines must be there.
+/// Whether each piece is one that curves of no shape run along, of which one lies in its clip or has none. All outlines
+/// must be there.
 pub(super) fn lines_in_clips(network: &Network, faces: &Faces) -> IdVec<CurveId, bool> {
     let lines = |id: CurveId| {
         let drawn = network.drawn_along(id).map(|(source, _)| &network.drawing.curves[source as usize]);
@@ -165,8 +167,8 @@ pub(super) fn lines_in_clips(network: &Network, faces: &Faces) -> IdVec<CurveId,
     kept
 }
 
-/// What is seen in each face, as noted on the curves around it. They agree, but where a tolerance moved one over another: then
-/// most of the border says.
+/// What is seen in each face, as noted on the curves around it. They agree, but where a tolerance moved one over
+/// another: then most of the border says.
 fn painters_beside(network: &Network, faces: &Faces) -> Vec<Option<SeenId>> {
     let mut votes: Vec<BTreeMap<Option<SeenId>, f64>> = vec![BTreeMap::new(); faces.cycles.len()];
     for (id, piece) in network.pieces.enumerate() {

@@ -21,7 +21,8 @@ enum Said {
     Region(NameId, Option<f64>),
 }
 
-/// Chooses the kept faces, names their regions and writes them on the sides of the curves. `network` is what the domain was made of.
+/// Chooses the kept faces, names their regions and writes them on the sides of the curves. `network` is what the domain
+/// was made of.
 pub(super) fn keep(
     network: &Network,
     domain: &mut Domain,
@@ -131,8 +132,8 @@ fn face_areas(faces: &Faces) -> Vec<f64> {
     areas
 }
 
-/// One region for each name and area limit that is given, in order of the names; then one for each other kept face, the largest
-/// first, under a name that no other region has.
+/// One region for each name and area limit that is given, in order of the names; then one for each other kept face, the
+/// largest first, under a name that no other region has.
 fn name_regions(
     network: &Network,
     domain: &mut Domain,
@@ -176,7 +177,8 @@ fn name_regions(
     region_of
 }
 
-/// The layer that most of the outline of a face is drawn on; `None` where the file has no layers, or for the one that every file has.
+/// The layer that most of the outline of a face is drawn on; `None` where the file has no layers, or for the one that
+/// every file has.
 fn layer_of_outline<'a>(network: &Network<'a>, faces: &Faces, face: usize) -> Option<&'a str> {
     let drawing = network.drawing;
     let mut lengths: BTreeMap<LayerId, f64> = BTreeMap::new();

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-/// Something that was mended on the way in, with its place and size (a length, in units of the drawing): how far ends moved, how wide the gap
-/// between curves was that became one, how large what was lost; 0 where nothing moved.
+/// Something that was mended on the way in, with its place and size (a length, in units of the drawing): how far ends
+/// moved, how wide the gap between curves was that became one, how large what was lost; 0 where nothing moved.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, schemars::JsonSchema)]
 pub struct Repair {
     /// What was mended.
@@ -20,7 +20,8 @@ pub struct Repair {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum RepairKind {
-    /// The whole drawing was welded within more than the default tolerance: its slivers would have taken too many vertices.
+    /// The whole drawing was welded within more than the default tolerance: its slivers would have taken too many
+    /// vertices.
     ToleranceRaised,
     /// Ends within the tolerance became one vertex.
     Weld,
@@ -115,7 +116,8 @@ impl Places {
         Self { cells, counts }
     }
 
-    /// Whether there is a repair of the same kind in the same cell or the ones around it, which then is there no longer.
+    /// Whether there is a repair of the same kind in the same cell or the ones around it, which then is there no
+    /// longer.
     pub fn take(&mut self, repair: &Repair) -> bool {
         for cell in self.cells.around(repair.at) {
             if let Some(count) = self.counts.get_mut(&(repair.kind, cell)).filter(|count| **count > 0) {

@@ -1,4 +1,5 @@
-//! Outlines that miss closing: rings of chains whose free ends are nearest to each other, with gaps that are short beside the chains.
+//! Outlines that miss closing: rings of chains whose free ends are nearest to each other, with gaps that are short
+//! beside the chains.
 //!
 //! ```text
 //!    ┌──────────┐          Each free end is linked with its nearest one where the gap is below a twentieth of both chains. A link between
@@ -7,8 +8,8 @@
 //!           gap
 //! ```
 //!
-//! A free end without such a link may stop short of the inside of another open line, which goes on beyond the corner: it is linked with the
-//! nearest point there, under the same limits.
+//! A free end without such a link may stop short of the inside of another open line, which goes on beyond the corner:
+//! it is linked with the nearest point there, under the same limits.
 
 use super::ends::{FreeEnd, Gap, Owner, Short, nearest_ends};
 use super::error::ArrangeError;
@@ -51,7 +52,8 @@ struct Ring {
     off_plane: BTreeSet<usize>,
 }
 
-/// Nodes, then both ends of each entity that leaves the plane, then the points that free ends stop short of; what leads from each to others.
+/// Nodes, then both ends of each entity that leaves the plane, then the points that free ends stop short of; what leads
+/// from each to others.
 struct Ways<'n, 'a> {
     network: &'n Network<'a>,
     ends: &'n [FreeEnd],
@@ -137,8 +139,8 @@ impl<'n, 'a> Ways<'n, 'a> {
         across.chain(self.shorts.iter().enumerate().map(onto)).collect()
     }
 
-    /// The ring that a link from one place to another closes: by the way of the fewest steps. `None` where it is too narrow, or not found
-    /// within the budget.
+    /// The ring that a link from one place to another closes: by the way of the fewest steps. `None` where it is too
+    /// narrow, or not found within the budget.
     fn ring(&mut self, [start, goal]: [usize; 2], link: Via) -> Option<Ring> {
         let mut via = self.way(start, goal)?;
         via.push((goal, start, link));

@@ -1,4 +1,5 @@
-//! Stars: the curves at every point, counter-clockwise. The order is topological: where tangents do not tell, it is read off a circle.
+//! Stars: the curves at every point, counter-clockwise. The order is topological: where tangents do not tell, it is
+//! read off a circle.
 
 use super::error::{ArrangeError, Unarranged};
 use crate::curve::{Curve, End};
@@ -44,8 +45,8 @@ fn order(at: Point, star: &mut Vec<Incident>, curves: &IdVec<CurveId, DomainCurv
     }
     let mut leaving: Vec<(Vec2, Incident)> = star.iter().map(|i| (curve(i).direction_at(i.end), *i)).collect();
     leaving.sort_by(|a, b| angle(a.0).total_cmp(&angle(b.0)).then(a.1.curve.cmp(&b.1.curve)));
-    // Two curves that leave at an angle θ may bend towards each other and cross at once, θ²/κ deep; at 1e-3 that is more than rounding
-    // (1e-14) for radii of curvature down to 1e-8.
+    // Two curves that leave at an angle θ may bend towards each other and cross at once, θ²/κ deep; at 1e-3 that is
+    // more than rounding (1e-14) for radii of curvature down to 1e-8.
     let are_tied = |a: &(Vec2, Incident), b: &(Vec2, Incident)| turn_from(a.0, b.0).abs() <= TANGENTS_TELL;
     // Begin between two that are not tied, so that no group of tied ones straddles the beginning.
     let n = leaving.len();
@@ -62,8 +63,9 @@ fn order(at: Point, star: &mut Vec<Incident>, curves: &IdVec<CurveId, DomainCurv
     Ok(())
 }
 
-/// Sorts curves that leave in one direction, from right to left. A circle may part some of them only: a short curve allows none that is
-/// large enough for two long ones beside it. Those that it leaves together are parted by circles of their own.
+/// Sorts curves that leave in one direction, from right to left. A circle may part some of them only: a short curve
+/// allows none that is large enough for two long ones beside it. Those that it leaves together are parted by circles of
+/// their own.
 fn order_tied(
     at: Point,
     ahead: Vec2,
@@ -79,9 +81,9 @@ fn order_tied(
     Ok(())
 }
 
-/// Sorts curves by where they first leave a circle around the point, and tells which of them, next to each other, it did not part.
-/// Curves that meet nowhere inside it and keep to the half plane ahead leave it in the order in which they lie, whatever its radius:
-/// the largest circle that all of them reach so tells them apart best.
+/// Sorts curves by where they first leave a circle around the point, and tells which of them, next to each other, it
+/// did not part. Curves that meet nowhere inside it and keep to the half plane ahead leave it in the order in which
+/// they lie, whatever its radius: the largest circle that all of them reach so tells them apart best.
 fn part(
     at: Point,
     ahead: Vec2,
@@ -99,7 +101,8 @@ fn part(
         if let Some(exits) = exits {
             let mut around: Vec<(Point, Incident)> = exits.into_iter().zip(tied.iter().copied()).collect();
             around.sort_by(|a, b| turn_from(b.0 - at, a.0 - at).total_cmp(&0.0).then(a.1.curve.cmp(&b.1.curve)));
-            // Rounding cannot have swapped neighbours that are 16 units in the last place apart; curves that run nearer than that are one.
+            // Rounding cannot have swapped neighbours that are 16 units in the last place apart; curves that run nearer
+            // than that are one.
             let noise = 16.0 * f64::EPSILON * at.x.abs().max(at.y.abs()).max(radius);
             let mut from = 0;
             let runs = around.chunk_by(|a, b| a.0.distance(b.0) <= noise).map(|run| {

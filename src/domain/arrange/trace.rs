@@ -64,7 +64,8 @@ impl Cycles {
         let count = cycles.iter().map(|c| c.component + 1).max().unwrap_or(0);
         let mut outer: Vec<Option<usize>> = vec![None; count];
         for (i, cycle) in cycles.iter().enumerate() {
-            // The signed areas of a component's cycles add up to nothing, and the one around it is the only negative one.
+            // The signed areas of a component's cycles add up to nothing, and the one around it is the only negative
+            // one.
             let best = &mut outer[cycle.component];
             if best.is_none_or(|b| cycle.area < cycles[b].area) {
                 *best = Some(i);

@@ -1,4 +1,5 @@
-//! Welding: nodes within the tolerance become one, pieces are cut and moved to end at their nodes, repeated pieces become one.
+//! Welding: nodes within the tolerance become one, pieces are cut and moved to end at their nodes, repeated pieces
+//! become one.
 
 use super::candidates::CUTS_MAX;
 use super::error::{ArrangeError, Unarranged};
@@ -11,26 +12,26 @@ use crate::ids::{CurveId, Forest, Id, IdVec, PointId};
 use crate::watch::Watch;
 use std::collections::BTreeMap;
 
-/// Rounds of meeting and welding. Each round moves what it welds by a tolerance at most, which seldom makes a new meeting; a drawing
-/// that needs more rounds is one whose features lie as near to each other as its tolerance.
+/// Rounds of meeting and welding. Each round moves what it welds by a tolerance at most, which seldom makes a new
+/// meeting; a drawing that needs more rounds is one whose features lie as near to each other as its tolerance.
 const ROUNDS: usize = 48;
 
-/// After the first round pieces meet where they were moved to, seldom twice on a piece. Where it is so often in the mean, whole bundles of
-/// curves lie within the tolerance of each other, and each round finds more of them.
+/// After the first round pieces meet where they were moved to, seldom twice on a piece. Where it is so often in the
+/// mean, whole bundles of curves lie within the tolerance of each other, and each round finds more of them.
 const CROWDED: usize = 32;
 
 impl Network<'_> {
     /// Meets and welds until nothing meets but at common ends.
     ///
-    /// **Invariant.** After every round each piece ends at the places of its two nodes, bit for bit; the nodes that drawn ends and drawn
-    /// points became are known; and every drawn curve that had a size either runs along some pieces (as source or as merged), or its
-    /// loss is itemised at the end. On success the last round found nothing: no node lies within the tolerance of a piece but at its
-    /// ends, and no two pieces meet but at common ends.
+    /// **Invariant.** After every round each piece ends at the places of its two nodes, bit for bit; the nodes that
+    /// drawn ends and drawn points became are known; and every drawn curve that had a size either runs along some
+    /// pieces (as source or as merged), or its loss is itemised at the end. On success the last round found nothing: no
+    /// node lies within the tolerance of a piece but at its ends, and no two pieces meet but at common ends.
     ///
-    /// **Termination.** A round does one of two things to the nodes: it makes one of two, which lessens them; or it cuts a piece at a place
-    /// more than a tolerance from its ends, which the length of the drawing allows only so often as long as pieces stay where they
-    /// are. Pieces that move, by up to a tolerance, may meet others anew, so this is no proof: the rounds have a budget, and its end
-    /// is an error with the place.
+    /// **Termination.** A round does one of two things to the nodes: it makes one of two, which lessens them; or it
+    /// cuts a piece at a place more than a tolerance from its ends, which the length of the drawing allows only so
+    /// often as long as pieces stay where they are. Pieces that move, by up to a tolerance, may meet others anew, so
+    /// this is no proof: the rounds have a budget, and its end is an error with the place.
     pub fn settle(&mut self, watch: &mut Watch) -> Result<(), Unarranged> {
         self.weld(Found::default());
         let mut at = Point::ORIGIN;
@@ -48,7 +49,8 @@ impl Network<'_> {
         Err(ArrangeError::near(what, at, help).into())
     }
 
-    /// One round: clusters the nodes, cuts the pieces, moves their ends to the clusters, and drops what is repeated or of no length.
+    /// One round: clusters the nodes, cuts the pieces, moves their ends to the clusters, and drops what is repeated or
+    /// of no length.
     ///
     /// ```text
     ///   p ─────── a   b ─────── q           p ──────╲ ╱────── q       a and b are nearer to each other than the tolerance, and so is r. They
@@ -96,11 +98,12 @@ impl Network<'_> {
         order
     }
 
-    /// Joins every node to the nearest leader within the tolerance; a node that finds none becomes a leader. So no cluster is wider
-    /// than two tolerances, however close its neighbours stand.
+    /// Joins every node to the nearest leader within the tolerance; a node that finds none becomes a leader. So no
+    /// cluster is wider than two tolerances, however close its neighbours stand.
     fn join_near(&self, order: &[PointId], forest: &mut Forest) {
         let weld = self.tolerances.weld;
-        // The leaders by square cells as wide as the tolerance: none holds more than four, however many nodes crowd there.
+        // The leaders by square cells as wide as the tolerance: none holds more than four, however many nodes crowd
+        // there.
         let mut leaders: BTreeMap<[i64; 2], Vec<PointId>> = BTreeMap::new();
         let cells = Cells::as_wide_as(weld);
         for &id in order {
@@ -176,7 +179,8 @@ impl Network<'_> {
         }
     }
 
-    /// Moves the ends of a part to its nodes; drops it where nothing is left, and halves it first where that would bend it out of shape.
+    /// Moves the ends of a part to its nodes; drops it where nothing is left, and halves it first where that would bend
+    /// it out of shape.
     pub fn place_part(&mut self, part: Piece) {
         let weld = self.tolerances.weld;
         let [from, to] = part.ends.map(|end| self.nodes[end].at);
@@ -254,8 +258,9 @@ impl Network<'_> {
         self.pieces = pieces.enumerate().filter(|&(id, _)| !dropped[id]).map(|(_, p)| p.clone()).collect();
     }
 
-    /// The widest gap between two pieces with the same ends, where they coincide: where neither is farther than the tolerance from the
-    /// other, nor the face between them wider. They do not cross in between, or will be split there, so a few samples tell.
+    /// The widest gap between two pieces with the same ends, where they coincide: where neither is farther than the
+    /// tolerance from the other, nor the face between them wider. They do not cross in between, or will be split there,
+    /// so a few samples tell.
     fn gap_of_coincident(&self, a: CurveId, b: CurveId) -> Option<f64> {
         let [p, q] = [a, b].map(|id| &self.pieces[id].curve);
         if matches!((p, q), (Curve::Line(_), Curve::Line(_))) {
@@ -327,8 +332,8 @@ impl Network<'_> {
 /// Samples that tell whether two pieces coincide are this part of them apart.
 const SAMPLES: usize = 8;
 
-/// The width of the face between two curves at a place on the first: along its normal there. Where the normal passes the second, the
-/// distance to it. Around a small disc every point is near the ends, but the other side is not.
+/// The width of the face between two curves at a place on the first: along its normal there. Where the normal passes
+/// the second, the distance to it. Around a small disc every point is near the ends, but the other side is not.
 fn gap_across(from: &Curve, t: f64, to: &Curve) -> f64 {
     let at = from.point(t);
     let tangent = from.tangent(t, End::Start);

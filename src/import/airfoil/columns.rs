@@ -89,8 +89,8 @@ fn around(rows: &[Gathered], upper: [usize; 2], lower: [usize; 2]) -> Vec<Sample
     plain(upper).chain(second).collect()
 }
 
-/// Whether the first column counts from 0 or 1, anew for every surface or element, and the second is an abscissa: of a table with the
-/// ordinates of both surfaces the two after the first are alike at its ends.
+/// Whether the first column counts from 0 or 1, anew for every surface or element, and the second is an abscissa: of a
+/// table with the ordinates of both surfaces the two after the first are alike at its ends.
 fn is_index(rows: &[&Gathered]) -> bool {
     let first = |i: usize| rows[i].numbers.first;
     let starts = |v: f64| v == 0.0 || v == 1.0;
@@ -104,7 +104,8 @@ fn is_index(rows: &[&Gathered]) -> bool {
         && !(is_table && is_monotone((0..rows.len()).map(|i| first(i)[0])) && crosses_once(rows))
 }
 
-/// Whether the numbers after the first never change which of them is the larger: those of an upper and a lower surface do not.
+/// Whether the numbers after the first never change which of them is the larger: those of an upper and a lower surface
+/// do not.
 fn crosses_once(rows: &[&Gathered]) -> bool {
     let above = |row: &&&Gathered| row.numbers.first[1] > row.numbers.first[2];
     let below = |row: &&&Gathered| row.numbers.first[1] < row.numbers.first[2];
@@ -131,7 +132,8 @@ fn spans_alike(a: impl Iterator<Item = f64>, b: impl Iterator<Item = f64>) -> bo
     slack > 0.0 && (a.0 - b.0).abs() <= slack && (a.1 - b.1).abs() <= slack
 }
 
-/// Ordinates of two surfaces lie on either side of the nose beside it. Of camber and thickness, or of another table, they do not.
+/// Ordinates of two surfaces lie on either side of the nose beside it. Of camber and thickness, or of another table,
+/// they do not.
 fn refuse_not_around(rows: &[&Gathered], x: usize) -> Result<(), ImportError> {
     let ordinates = |i: usize| (rows[i].numbers.first[x + 1], rows[i].numbers.first[x + 2]);
     let around = |end: usize, beside: usize| {

@@ -39,7 +39,8 @@ pub fn refuse_lost_start(rows: &[Row], start: usize) -> Result<(), ImportError> 
     }
 }
 
-/// Steps over the four-number line of MSES and XFOIL, over counts and over names of two numbers; gives Lednicer's counts.
+/// Steps over the four-number line of MSES and XFOIL, over counts and over names of two numbers; gives Lednicer's
+/// counts.
 pub fn skip_special(rows: &[Row], mut start: usize, notes: &mut Vec<String>) -> (usize, Option<[usize; 2]>) {
     let mut counts = None;
     // A name of numbers, a box and counts: three such lines at most.

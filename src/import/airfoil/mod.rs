@@ -1,14 +1,15 @@
 //! Coordinates of airfoil sections: Selig, Lednicer and MSES/XFOIL files.
 //!
-//! These files were typed by hand for sixty years. Understood are: any number of header lines or none, names that are numbers, the
-//! four-number line of MSES and XFOIL, Lednicer's line of two counts (also where it is wrong), numbers of a header that are no point,
-//! `999. 999.` between elements, blank or text lines between surfaces, commas, tabs, decimal commas, typographic minus signs, columns that
-//! run together, Fortran exponents, a column that counts the points, tables of one abscissa and two ordinates, further columns, Latin-1,
-//! percent of chord, and text behind the data. What was met is told in notes. Refused is a point that is no number.
-//! Coordinates are kept as they are, percent apart.
+//! These files were typed by hand for sixty years. Understood are: any number of header lines or none, names that are
+//! numbers, the four-number line of MSES and XFOIL, Lednicer's line of two counts (also where it is wrong), numbers of
+//! a header that are no point, `999. 999.` between elements, blank or text lines between surfaces, commas, tabs,
+//! decimal commas, typographic minus signs, columns that run together, Fortran exponents, a column that counts the
+//! points, tables of one abscissa and two ordinates, further columns, Latin-1, percent of chord, and text behind the
+//! data. What was met is told in notes. Refused is a point that is no number. Coordinates are kept as they are, percent
+//! apart.
 //!
-//! `rows.rs` tells what a line is, `gather.rs` where the coordinates are, `columns.rs` which columns they are, and `table.rs` makes elements of
-//! them. What a section is made of is the part of `section/`.
+//! `rows.rs` tells what a line is, `gather.rs` where the coordinates are, `columns.rs` which columns they are, and
+//! `table.rs` makes elements of them. What a section is made of is the part of `section/`.
 
 mod columns;
 mod gather;

@@ -70,7 +70,7 @@ fn skip_numbers_of_header(samples: &mut Vec<Sample>, notes: &mut Vec<String>) {
 /// ```text
 ///      header ·            p₁ … pₙ close without p₀, or nearly, and p₀ lies inside, or upright beside p₁;
 ///         \                or p₀ lies far off; or p₀ → p₁ runs against p₁ → p₂ for a twentieth of the width
-///   ───────p₁             
+///   ───────p₁
 ///   ───────pₙ
 /// ```
 fn starts_beside(samples: &[Sample]) -> bool {
@@ -108,7 +108,8 @@ fn starts_beside(samples: &[Sample]) -> bool {
 
 /// Sections about as wide as 100 are in percent of chord, unless the header speaks of a unit of length.
 fn unscale_percent(elements: &mut [Vec<Sample>], header: &[&str], notes: &mut Vec<String>) {
-    // The nose of a cambered section, a rotor blade's tab and an end that was cut off lie that far from the ends of the chord.
+    // The nose of a cambered section, a rotor blade's tab and an end that was cut off lie that far from the ends of the
+    // chord.
     const PERCENT: std::ops::RangeInclusive<f64> = 98.5..=101.5;
     const UNITS: [&str; 8] = ["mm", "cm", "millimetre", "millimetres", "millimeter", "millimeters", "inch", "inches"];
     let Some(bounds) = bounds_of(elements.iter().flatten().map(|s| s.at)) else { return };

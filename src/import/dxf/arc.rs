@@ -12,8 +12,8 @@ const CLOSING: f64 = 1e-7;
 /// And the most that may be missing where the angles have few digits.
 const LARGEST_CLOSING: f64 = 1e-3;
 
-/// A way counter-clockwise from one angle to another, as a positive part of a full turn; all of it where they are the same, or where
-/// what is missing of it is within two units of the last decimal in which they are written.
+/// A way counter-clockwise from one angle to another, as a positive part of a full turn; all of it where they are the
+/// same, or where what is missing of it is within two units of the last decimal in which they are written.
 pub(super) fn sweep(from: f64, to: f64, turn: f64, last_decimal: f64, notices: &mut Notices) -> f64 {
     let sweep = (to - from).rem_euclid(turn);
     let is_whole = |missing: f64| sweep > turn - missing || sweep == 0.0 || (to - from).abs() >= turn - missing;
@@ -44,7 +44,8 @@ pub(super) fn arc(record: &Record, notices: &mut Notices) -> Result<Figure<'stat
     Ok(single(plane.place(built(record, curve)?, z), plane.level(z), last_decimal))
 }
 
-/// Center and axis of an ellipse are coordinates of the drawing; its extrusion direction says where the minor axis points.
+/// Center and axis of an ellipse are coordinates of the drawing; its extrusion direction says where the minor axis
+/// points.
 pub(super) fn ellipse(record: &Record, notices: &mut Notices) -> Result<Figure<'static>, Refusal> {
     let plane = Plane::of(record)?;
     let ([x, y, z], axis) = (record.point(10)?, record.point(11)?);

@@ -27,7 +27,8 @@ const LONGEST_PATH: usize = 200;
 /// The scales of an insertion that leave numbers to work with.
 const SCALES: std::ops::Range<f64> = 1e-150..1e150;
 
-/// An entity, read once and drawn as often as its block. Layers and blocks are places in their tables: names may be long.
+/// An entity, read once and drawn as often as its block. Layers and blocks are places in their tables: names may be
+/// long.
 struct Entity<'a> {
     kind: String,
     label: String,
@@ -177,7 +178,8 @@ impl<'f, 'a> Sketch<'f, 'a> {
         let figure = match self.layers.why_not(layer) {
             _ if is_set(67) => Err("in paper space"),
             _ if is_set(60) => Err("invisible"),
-            // On layer 0 of a block an entity is as visible as the block, and a block may hold what is not on its layer.
+            // On layer 0 of a block an entity is as visible as the block, and a block may hold what is not on its
+            // layer.
             Some(why) if layer != LAYER_0 && record.kind != "INSERT" => Err(why),
             _ => match figure(record, followers, &mut self.notices) {
                 Ok(figure) => Ok(figure),

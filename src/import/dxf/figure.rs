@@ -85,7 +85,8 @@ pub(super) fn single(curve: Curve, level: Level, last_decimal: f64) -> Figure<'s
     Figure::Curves { curves: vec![curve], level, parts: "", last_decimal }
 }
 
-/// A curve that its entity describes in full: nothing to draw where it has no extent, an error where its data contradict each other.
+/// A curve that its entity describes in full: nothing to draw where it has no extent, an error where its data
+/// contradict each other.
 pub(super) fn built(record: &Record, curve: Result<Curve, CurveError>) -> Result<Curve, Refusal> {
     curve.map_err(|error| match error {
         CurveError::Radius { .. } | CurveError::Sweep { .. } => Refusal::Degenerate,

@@ -1,4 +1,5 @@
-//! What the hatches of a drawing are: pictures of filled shapes where nothing else is drawn; else names, outlines or regions.
+//! What the hatches of a drawing are: pictures of filled shapes where nothing else is drawn; else names, outlines or
+//! regions.
 
 use crate::curve::Curve;
 use crate::domain::{Drawing, DrawnCurve, FillRule, Seed, SeedKind, Shape};
@@ -11,8 +12,9 @@ use std::collections::BTreeSet;
 const COPY: f64 = 1e-4;
 /// And no farther than this, whatever the digits.
 const FARTHEST_COPY: f64 = 1e-2;
-/// A polygon that stands for a curve, its corners on it, leaves it by no more than this share of its sides: one of six sides for a circle
-/// does. LibreCAD writes hatched circles with seven; a part whose outlines touch at corner after corner would fall apart.
+/// A polygon that stands for a curve, its corners on it, leaves it by no more than this share of its sides: one of six
+/// sides for a circle does. LibreCAD writes hatched circles with seven; a part whose outlines touch at corner after
+/// corner would fall apart.
 const SAGITTA: f64 = 0.15;
 
 /// The hatched area of one entity.
@@ -87,7 +89,8 @@ pub(super) fn add(fills: &[Fill], drawing: &mut Drawing) {
     for ((fill, place), is_region) in fills.iter().zip(places).zip(regions) {
         match place {
             Some(Place::Inside(at) | Place::Unknown(at)) if !is_region => fill.name(at, drawing),
-            // What is hatched is there, even if the outlines alone would make a hole of it; on a layer of outlines they decide.
+            // What is hatched is there, even if the outlines alone would make a hole of it; on a layer of outlines they
+            // decide.
             Some(_) if is_region || is_alone(fill) => {
                 told.regions += 1;
                 fill.paint(drawing);
@@ -150,7 +153,8 @@ impl<'a> Outlines<'a> {
         Self { curves, tree, bounds, left: LOOKED_AT }
     }
 
-    /// Whether an outline runs along these all the way, up to the digits in which both are written, or as a polygon that stands for them.
+    /// Whether an outline runs along these all the way, up to the digits in which both are written, or as a polygon
+    /// that stands for them.
     fn repeat(&self, outline: &[Curve], last_decimal: f64) -> bool {
         let bounds = outline.iter().map(Curve::bounds).reduce(|a, b| a.union(b)).unwrap_or_default();
         let extent = bounds.width().max(bounds.height());
@@ -177,7 +181,8 @@ impl<'a> Outlines<'a> {
         })
     }
 
-    /// Where a hatch lies: the middle of its longest stretch on a few lines across, rather of one that is also inside by the outlines.
+    /// Where a hatch lies: the middle of its longest stretch on a few lines across, rather of one that is also inside
+    /// by the outlines.
     fn place(&mut self, fill: &Fill) -> Option<Place> {
         /// Heights of the lines, shares of the whole that no drawing has its corners at.
         const LINES: [f64; 5] = [0.5037, 0.2963, 0.7193, 0.1043, 0.8989];

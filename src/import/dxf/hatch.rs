@@ -19,8 +19,8 @@ mod flag {
     pub const OUTERMOST: i64 = 16;
 }
 
-/// Paths times pairs of a hatch up to which loops are compared each with each, to see which lie in which. The flags tell that, too, but
-/// many a writer has all paths external, or none; those of larger hatches are believed.
+/// Paths times pairs of a hatch up to which loops are compared each with each, to see which lie in which. The flags
+/// tell that, too, but many a writer has all paths external, or none; those of larger hatches are believed.
 const COMPARED: usize = 1 << 22;
 
 /// A path with the pairs that describe it.
@@ -174,7 +174,8 @@ fn ellipse(edge: &Record, notices: &mut Notices) -> Result<Result<Curve, CurveEr
     Ok(Curve::ellipse(at(edge, 10)?, major, minor, from, turn))
 }
 
-/// A gap in a boundary wider than this share of its size is drawn: arranging heals up to the same share of the whole drawing.
+/// A gap in a boundary wider than this share of its size is drawn: arranging heals up to the same share of the whole
+/// drawing.
 const GAP: f64 = 1e-6;
 
 /// The loops of a path: its edges turned to follow each other, with a line in every gap.

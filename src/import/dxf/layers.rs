@@ -182,8 +182,9 @@ impl<'s> Layers<'s> {
     }
 }
 
-/// Whether the pattern of a line type mixes dashes with dots, or long dashes with short ones, as chain lines do under any name (SLD-Center of
-/// SolidWorks, AM_ISO08W050, Strichpunkt). Patterns with letters or symbols in them are pipes and fences.
+/// Whether the pattern of a line type mixes dashes with dots, or long dashes with short ones, as chain lines do under
+/// any name (SLD-Center of SolidWorks, AM_ISO08W050, Strichpunkt). Patterns with letters or symbols in them are pipes
+/// and fences.
 fn is_chained(record: &Record) -> bool {
     /// Dashes are as long as each other up to this share.
     const ALIKE: f64 = 0.9;
@@ -193,11 +194,12 @@ fn is_chained(record: &Record) -> bool {
     shortest < ALIKE * longest && reals(74).iter().all(|&symbol| symbol == 0.0)
 }
 
-/// Whether a line type, in upper case, is one that drafting standards use for centre lines, for what is hidden, or for borders.
+/// Whether a line type, in upper case, is one that drafting standards use for centre lines, for what is hidden, or for
+/// borders.
 ///
-/// The names are those of `acad.lin` and `acadiso.lin`: groups of the standard types, of which `CENTER2` and `CENTERX2` are finer and coarser
-/// ones, and those of ISO 128 by their numbers, 02 dashed, 03 dashed spaced, 04 to 15 with dots or double dashes;
-/// of JIS 08 are centre lines and 09 phantom lines.
+/// The names are those of `acad.lin` and `acadiso.lin`: groups of the standard types, of which `CENTER2` and `CENTERX2`
+/// are finer and coarser ones, and those of ISO 128 by their numbers, 02 dashed, 03 dashed spaced, 04 to 15 with dots
+/// or double dashes; of JIS 08 are centre lines and 09 phantom lines.
 fn is_auxiliary(line_type: &str) -> bool {
     const GROUPS: [&str; 9] =
         ["CENTER", "CENTRE", "PHANTOM", "HIDDEN", "DASHDOT", "DIVIDE", "BORDER", "JIS_08", "JIS_09"];

@@ -1,4 +1,5 @@
-//! MLINE: parallel lines along a polyline. The entity itself tells how far each line lies from every vertex, along the miter there.
+//! MLINE: parallel lines along a polyline. The entity itself tells how far each line lies from every vertex, along the
+//! miter there.
 
 use super::figure::{Figure, Notices, Refusal};
 use super::plane::flat;
@@ -37,8 +38,8 @@ pub(super) fn mline(record: &Record, notices: &mut Notices) -> Result<Figure<'st
     Ok(Figure::Curves { curves, level, parts: "segment", last_decimal: record.last_decimal(&[11, 21]) })
 }
 
-/// Vertices are groups 11 and 21, miters 13 and 23. Of each line follow a count, group 74, and as many numbers, group 41: the first is its
-/// offset, a second where it starts, more where it is broken.
+/// Vertices are groups 11 and 21, miters 13 and 23. Of each line follow a count, group 74, and as many numbers, group
+/// 41: the first is its offset, a second where it starts, more where it is broken.
 fn corners(record: &Record) -> Result<Vec<Corner>, Refusal> {
     const BROKEN: i64 = 2;
     let mut corners: Vec<Corner> = Vec::new();

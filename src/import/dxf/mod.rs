@@ -1,14 +1,16 @@
 //! DXF, the drawing exchange format of AutoCAD: text and binary, from before R12 to R2018. Curves stay what they are.
 //!
-//! - *Curves*: LINE, LWPOLYLINE and POLYLINE (bulges become arcs), MLINE, ARC, CIRCLE, ELLIPSE, SPLINE, the outlines of SOLID, TRACE and
-//!   3DFACE and flat meshes, and all of these in blocks, as INSERT draws them. A curve's name is its layer. POINT is a point.
+//! - *Curves*: LINE, LWPOLYLINE and POLYLINE (bulges become arcs), MLINE, ARC, CIRCLE, ELLIPSE, SPLINE, the outlines of
+//!   SOLID, TRACE and 3DFACE and flat meshes, and all of these in blocks, as INSERT draws them. A curve's name is its
+//!   layer. POINT is a point.
 //! - *Regions*: closed outlines are filled by the odd-even rule, so that an outline within an outline is a hole.
-//! - *Hatches* (and MPOLYGON): a drawing of nothing else is a picture of filled shapes, whose regions are named after their layers.
-//!   Beside other curves, a boundary that repeats what they draw, rounded or as a polygon, is no curve: the layer of the hatch names the
-//!   region in which it lies. A boundary that repeats nothing is an outline like the others of its layer. A hatch on a layer without
-//!   other curves is a region of that name and of its own extent.
-//! - *Left out and counted*: what is not in model space, not visible (layers that are off or frozen, and `Defpoints`), not on a layer that is
-//!   asked for, not of a line type for edges, not parallel to the XY plane, and every entity that is no curve. Heights are dropped.
+//! - *Hatches* (and MPOLYGON): a drawing of nothing else is a picture of filled shapes, whose regions are named after
+//!   their layers. Beside other curves, a boundary that repeats what they draw, rounded or as a polygon, is no curve:
+//!   the layer of the hatch names the region in which it lies. A boundary that repeats nothing is an outline like the
+//!   others of its layer. A hatch on a layer without other curves is a region of that name and of its own extent.
+//! - *Left out and counted*: what is not in model space, not visible (layers that are off or frozen, and `Defpoints`),
+//!   not on a layer that is asked for, not of a line type for edges, not parallel to the XY plane, and every entity
+//!   that is no curve. Heights are dropped.
 //! - *Unit*: `$INSUNITS`, else what `$MEASUREMENT` suggests, else none.
 //!
 //! The format: Autodesk, *DXF Reference*, with the arbitrary axis algorithm of its chapter "Object Coordinate Systems".
@@ -61,7 +63,8 @@ pub enum LineTypes {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case", default)]
 pub struct DxfOptions {
-    /// DXF: edges leaves out what is drawn in line types for centre, hidden and phantom lines, unless nothing else is drawn.
+    /// DXF: edges leaves out what is drawn in line types for centre, hidden and phantom lines, unless nothing else is
+    /// drawn.
     #[schemars(extend("group" = "input", "value" = "WHICH"))]
     pub line_types: LineTypes,
     /// DXF: what leaves the XY plane is projected onto it; else it is left out.
@@ -78,8 +81,9 @@ impl Default for DxfOptions {
 /// Reads a drawing, of the layers that `selection` asks for; `stem` is its title.
 ///
 /// # Errors
-/// With the line and the entity: where the file is no DXF file or is cut short before the end of its entities, where a number of a
-/// drawn entity is none or its data contradict each other, and where blocks unfold to more than a million curves.
+/// With the line and the entity: where the file is no DXF file or is cut short before the end of its entities, where a
+/// number of a drawn entity is none or its data contradict each other, and where blocks unfold to more than a million
+/// curves.
 pub fn read(bytes: &[u8], stem: &str, options: &DxfOptions, selection: &Selection) -> Result<Drawing, ImportError> {
     let file = Sections::read(bytes)?;
     let header = Header::read(&file);

@@ -72,8 +72,8 @@ impl<'a> Pair<'a> {
         }
     }
 
-    /// One unit of the last decimal that a text writes, 0.001 of `80.000`; 0 of whole numbers and of the numbers of a binary file. One
-    /// zero behind the point stands there only because some writers put no number without.
+    /// One unit of the last decimal that a text writes, 0.001 of `80.000`; 0 of whole numbers and of the numbers of a
+    /// binary file. One zero behind the point stands there only because some writers put no number without.
     pub fn last_decimal(&self) -> f64 {
         let Value::Text(text) = self.value else { return 0.0 };
         let text = text.trim_ascii();
@@ -158,7 +158,8 @@ impl<'a> Pairs<'a> {
         }
         for sentinel in SENTINELS {
             if let Some(rest) = bytes.strip_prefix(sentinel) {
-                // The first group is 0 SECTION, or a comment, 999: only codes of two bytes have a second byte of 0 or 3.
+                // The first group is 0 SECTION, or a comment, 999: only codes of two bytes have a second byte of 0
+                // or 3.
                 let wide = rest.len() > 1 && (rest[1] == 0 || rest[..2] == 999u16.to_le_bytes());
                 return Ok(Self { rest, form: Form::Binary { wide, read: sentinel.len() } });
             }

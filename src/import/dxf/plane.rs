@@ -46,8 +46,9 @@ impl Plane {
         }
     }
 
-    /// From coordinates of the entity to those of the drawing: the arbitrary axis algorithm, by which the x axis of an entity whose normal
-    /// is along z is that of the drawing, or its opposite. `z` is the height in the plane's own coordinates.
+    /// From coordinates of the entity to those of the drawing: the arbitrary axis algorithm, by which the x axis of an
+    /// entity whose normal is along z is that of the drawing, or its opposite. `z` is the height in the plane's own
+    /// coordinates.
     pub fn affine(self, z: f64) -> Affine {
         match self {
             Self::Above => Affine::IDENTITY,

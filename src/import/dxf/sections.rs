@@ -102,7 +102,8 @@ impl<'a> Record<'a> {
         self.pairs.iter().filter(|p| p.code == code).map(|pair| self.real_of(pair)).collect()
     }
 
-    /// The unit of the last decimal of the numbers with these codes: of the one that has the most; 0 where all are whole.
+    /// The unit of the last decimal of the numbers with these codes: of the one that has the most; 0 where all are
+    /// whole.
     pub fn last_decimal(&self, codes: &[i32]) -> f64 {
         finest(self.pairs.iter().filter(|p| codes.contains(&p.code)).map(Pair::last_decimal))
     }
@@ -170,7 +171,8 @@ enum End {
 
 impl<'a> Sections<'a> {
     /// # Errors
-    /// Where the file is no sequence of pairs, or ends before its entities do: half a drawing must not pass for a whole one.
+    /// Where the file is no sequence of pairs, or ends before its entities do: half a drawing must not pass for a whole
+    /// one.
     pub fn read(bytes: &'a [u8]) -> Result<Self, ImportError> {
         let mut pairs = Pairs::new(bytes)?;
         let mut file = Self { is_binary: pairs.is_binary(), ..Self::default() };
@@ -290,7 +292,8 @@ fn cut_in(pairs: &Pairs, section: &str) -> ImportError {
     pairs.place().error(format!("the file ends in the middle of section {section}"), CUT)
 }
 
-/// The records of a section. Pairs that say nothing of geometry are left out: links to other entities and data of applications.
+/// The records of a section. Pairs that say nothing of geometry are left out: links to other entities and data of
+/// applications.
 fn read_records<'a>(
     pairs: &mut Pairs<'a>,
     section: &str,

@@ -7,7 +7,8 @@ use crate::curve::Curve;
 use crate::geometry::{Point, Vec2};
 use crate::import::ImportError;
 
-/// The highest degree of a spline; curves of CAD systems end at 25. Each span costs the degree, so memory stays a share of the file.
+/// The highest degree of a spline; curves of CAD systems end at 25. Each span costs the degree, so memory stays a share
+/// of the file.
 const MAX_DEGREE: i64 = 30;
 /// How far knots may lie out of order where the entity does not say (group 42).
 const KNOT_TOLERANCE: f64 = 1e-7;
@@ -121,8 +122,8 @@ impl SplineData {
 
     /// Knots, control points and weights with as many knots as there are control points, degree and one together.
     ///
-    /// Of a periodic spline some writers give one period only: a knot more than control points. It goes on by its period, each knot
-    /// with the control point of the period before.
+    /// Of a periodic spline some writers give one period only: a knot more than control points. It goes on by its
+    /// period, each knot with the control point of the period before.
     fn unwrapped(self, degree: usize, notices: &mut Notices) -> (Vec<f64>, Vec<Point>, Vec<f64>) {
         let Self { mut knots, mut control, mut weights, closed, .. } = self;
         let n = control.len();

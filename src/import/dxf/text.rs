@@ -1,4 +1,5 @@
-//! Texts: what they say without the codes of their format, and where they stand. Glyphs have no outlines here; a text may name a region.
+//! Texts: what they say without the codes of their format, and where they stand. Glyphs have no outlines here; a text
+//! may name a region.
 
 use super::figure::{Figure, NO_OUTLINE, Refusal};
 use super::sections::Record;
@@ -21,7 +22,8 @@ pub(super) fn text(record: &Record) -> Result<Figure<'static>, Refusal> {
     Ok(Figure::Text { at: Point::new(x, y), bytes: parts.collect::<Vec<_>>().concat() })
 }
 
-/// What a text says, in one line; `None` of what is no name: an empty text, a long one, or one without a letter, as a dimension has.
+/// What a text says, in one line; `None` of what is no name: an empty text, a long one, or one without a letter, as a
+/// dimension has.
 pub(super) fn name(text: &str) -> Option<String> {
     let plain = plain(text).split_whitespace().collect::<Vec<_>>().join(" ");
     // A diameter is written with a letter that is none here.

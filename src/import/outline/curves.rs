@@ -8,7 +8,8 @@ use std::fmt::Display;
 
 /// Evaluation costs the square of the degree; this is where `Curve::bezier` ends too.
 const MAX_DEGREE: usize = 300;
-/// How far the stated ends of an arc may lie from where its angles put them, in its size: rounding of a file with six decimals.
+/// How far the stated ends of an arc may lie from where its angles put them, in its size: rounding of a file with six
+/// decimals.
 const END_SLACK: f64 = 1e-5;
 
 pub(super) type Pair = [f64; 2];
@@ -188,8 +189,9 @@ fn polyline(points: &[Point], closed: bool) -> Result<Vec<Curve>, String> {
     edges.map(|[a, b]| Curve::line(a, b).map_err(said)).collect()
 }
 
-/// A Bézier span. Weights are kept as they are, so that what was written reads back the same, unless they are all equal (and say
-/// nothing), so far from 1 that products of them would leave the range, or so far apart that `Curve::rational_bezier` evens them.
+/// A Bézier span. Weights are kept as they are, so that what was written reads back the same, unless they are all equal
+/// (and say nothing), so far from 1 that products of them would leave the range, or so far apart that
+/// `Curve::rational_bezier` evens them.
 fn bezier(points: &[Pair], weights: Option<Vec<f64>>) -> Result<Curve, String> {
     let Some(weights) = weights else { return Curve::bezier(all(points)).map_err(said) };
     match Curve::rational_bezier(all(points), weights.clone()).map_err(said)? {
@@ -307,7 +309,8 @@ impl ClothoidForm {
         if to.distance(made.end()) > END_SLACK * size || !to.is_finite() {
             return Err("`to` does not lie where the curvatures put it".into());
         }
-        // The rounding of what was written is kept as it is; what a file's decimals leave off is made up for by a turn and a scaling.
+        // The rounding of what was written is kept as it is; what a file's decimals leave off is made up for by a turn
+        // and a scaling.
         Ok(made.with_rounded_end(to).unwrap_or_else(|| made.with_ends(made.start(), to)))
     }
 }

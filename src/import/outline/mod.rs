@@ -1,4 +1,5 @@
-//! Our own curves as JSON: every kind of curve exactly, names, points, seeds and sizes. [`SCHEMA`] describes it to editors.
+//! Our own curves as JSON: every kind of curve exactly, names, points, seeds and sizes. [`SCHEMA`] describes it to
+//! editors.
 //!
 //! ```
 //! let text = r#"{ "squinch": 1, "unit": "mm", "curves": [

@@ -295,7 +295,8 @@ fn located(error: serde_json::Error) -> ImportError {
 }
 
 impl File {
-    /// Refuses clips that are not listed, that lie within later ones, or whose parts a later one cuts: only so does each have an end.
+    /// Refuses clips that are not listed, that lie within later ones, or whose parts a later one cuts: only so does
+    /// each have an end.
     fn check_clips(&self) -> Result<(), ImportError> {
         let refuse = |what: String| Err(ImportError::new(what, HELP));
         let count = self.clips.len();

@@ -98,7 +98,8 @@ fn curve_value(i: usize, drawn: &DrawnCurve, names: &Names) -> Value {
     with_entity(value, &drawn.entity, &curve_entity(i))
 }
 
-/// The kind and its value: the plain form where reading that gives the same curve, else the one that spells everything out.
+/// The kind and its value: the plain form where reading that gives the same curve, else the one that spells everything
+/// out.
 fn kind_value(curve: &Curve) -> (&'static str, Value) {
     let same = |plain: Result<Curve, CurveError>| plain.as_ref() == Ok(curve);
     match curve {

@@ -1,10 +1,12 @@
-//! STEP files (ISO 10303-21), whatever their application protocol: a planar face of a solid, with its holes and curved edges.
+//! STEP files (ISO 10303-21), whatever their application protocol: a planar face of a solid, with its holes and curved
+//! edges.
 //!
-//! step-io's parser gives the entities by their numbers; what they mean (ISO 10303-42) is read here. Its model of whole products is
-//! not used: it gives entities numbers of its own, by which nobody could find an edge in the file.
+//! step-io's parser gives the entities by their numbers; what they mean (ISO 10303-42) is read here. Its model of whole
+//! products is not used: it gives entities numbers of its own, by which nobody could find an edge in the file.
 //!
-//! A file holds many faces and a drawing one plane, so one planar face is read: the largest, or the one that is asked for. Faces on
-//! other surfaces are counted as left out. Coordinates are those of the face's own part: the placements of an assembly are not applied.
+//! A file holds many faces and a drawing one plane, so one planar face is read: the largest, or the one that is asked
+//! for. Faces on other surfaces are counted as left out. Coordinates are those of the face's own part: the placements
+//! of an assembly are not applied.
 
 use super::MOST_LISTED;
 use super::entity::{Entity, File, Result, parsed, parts};
@@ -21,8 +23,8 @@ use step_io::parser::Graph;
 /// Reads one planar face: the one that is asked for by its number (`12` or `#12`) or its name, else the largest.
 ///
 /// # Errors
-/// [`ImportError`] with the line where the file breaks the format or an entity cannot be read; also where there is no planar face,
-/// or not the one that is asked for.
+/// [`ImportError`] with the line where the file breaks the format or an entity cannot be read; also where there is no
+/// planar face, or not the one that is asked for.
 pub fn read(bytes: &[u8], stem: &str, face: Option<&str>) -> Result<Drawing> {
     let (graph, mended) = parsed(bytes)?;
     let file = File { graph: &graph };

@@ -156,7 +156,8 @@ pub(super) fn plane_of_net(rows: &[Vec<[f64; 3]>], uncertainty: f64) -> Option<F
     let origin = *rows.first()?.first()?;
     let offsets = || rows.iter().flatten().map(|p| minus(*p, origin));
     let extent = offsets().map(length).fold(0.0, f64::max);
-    // What the cells of the net span together by their diagonals: u × v is the surface's normal, and rows follow each other along u.
+    // What the cells of the net span together by their diagonals: u × v is the surface's normal, and rows follow each
+    // other along u.
     let mut normal = [0.0; 3];
     for (below, above) in rows.iter().zip(rows.iter().skip(1)) {
         for (a, b) in below.windows(2).zip(above.windows(2)) {
@@ -182,7 +183,8 @@ pub(super) fn with_multiplicities(entity: &Entity, first: usize, degree: usize, 
     Ok(knots.collect())
 }
 
-/// The knots that a type of spline implies: evenly spaced; clamped but of a uniform one; full inside of a chain of Béziers.
+/// The knots that a type of spline implies: evenly spaced; clamped but of a uniform one; full inside of a chain of
+/// Béziers.
 pub(super) fn implied_knots(
     entity: &Entity,
     raw: Option<&RawEntity>,

@@ -15,7 +15,8 @@ pub(super) struct Context {
 }
 
 impl<'a> File<'a> {
-    /// The context of every face: that of the representation whose items lead to it, but for items that show another representation.
+    /// The context of every face: that of the representation whose items lead to it, but for items that show another
+    /// representation.
     pub(super) fn contexts_of_faces(&self) -> BTreeMap<u64, Context> {
         let mut contexts = BTreeMap::new();
         let mut seen = BTreeSet::new();

@@ -1,4 +1,5 @@
-//! Basic shapes of CSS, by which elements are cut: `circle(…)`, `ellipse(…)`, `inset(…)`, `polygon(…)` and `path(…)` (CSS Shapes 1).
+//! Basic shapes of CSS, by which elements are cut: `circle(…)`, `ellipse(…)`, `inset(…)`, `polygon(…)` and `path(…)`
+//! (CSS Shapes 1).
 
 use super::path::Outline;
 use super::units::{Axis, Quantity, Viewport};

@@ -1,5 +1,5 @@
-//! What elements are cut by: clip paths, viewports that hide what reaches beyond them, basic shapes of CSS, and the page
-//! (CSS Masking 1, SVG 2 section 14.4, CSS Shapes 1).
+//! What elements are cut by: clip paths, viewports that hide what reaches beyond them, basic shapes of CSS, and the
+//! page (CSS Masking 1, SVG 2 section 14.4, CSS Shapes 1).
 
 use super::super::ImportError;
 use super::basic_shape::basic_outline;
@@ -76,7 +76,8 @@ pub(super) enum OnPage {
 
 /// Clip paths that are cut by clip paths.
 const DEPTH_MAX: usize = 16;
-/// What reaches beyond a clip by less than this part of the clip's diagonal is whole: what rounding makes of the same number.
+/// What reaches beyond a clip by less than this part of the clip's diagonal is whole: what rounding makes of the same
+/// number.
 const ROUNDING: f64 = 1e-9;
 /// Likewise beyond the page: what nobody sees.
 const BLEED: f64 = 1e-3;
@@ -366,7 +367,8 @@ impl<'a> Reader<'a> {
 
     // ---- what is cut ----
 
-    /// What a cutter and all that it lies within leave of something within these bounds; the page too, where that `is_painted`.
+    /// What a cutter and all that it lies within leave of something within these bounds; the page too, where that
+    /// `is_painted`.
     ///
     /// # Errors
     /// Where clips within clips come to more curves than a drawing can need.

@@ -1,4 +1,5 @@
-//! Style sheets (CSS Syntax, Cascade and Media Queries, as far as drawings use them): rules by specificity, `!important`, `@media`.
+//! Style sheets (CSS Syntax, Cascade and Media Queries, as far as drawings use them): rules by specificity,
+//! `!important`, `@media`.
 //!
 //! Rules are found by what they ask of the element itself; matching goes on from there, and has a budget.
 
@@ -119,7 +120,8 @@ impl<'a> Sheet<'a> {
         }
     }
 
-    /// Takes the rules of an at-rule that applies, and returns what comes behind it: it ends with a semicolon or with its block.
+    /// Takes the rules of an at-rule that applies, and returns what comes behind it: it ends with a semicolon or with
+    /// its block.
     fn at_rule(&mut self, text: &'a str, nesting: usize) -> &'a str {
         let Some(open) = find_outside(text, b";{") else { return "" };
         let (head, rest) = (&text[1..open], &text[open + 1..]);

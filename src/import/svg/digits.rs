@@ -3,7 +3,8 @@
 /// Digits that no picture needs: pens, screens and single precision end at nine, careful programs write twelve.
 const EXACT_DIGITS: usize = 13;
 
-/// Part of a file's numbers that are exact in a picture too: sums that a program left as they came out, a symbol that it computed.
+/// Part of a file's numbers that are exact in a picture too: sums that a program left as they came out, a symbol that
+/// it computed.
 const STRAY: f64 = 0.1;
 
 /// Whether few numbers of a file have more digits than pictures need.
@@ -13,7 +14,8 @@ pub(super) fn is_sketch(text: &str) -> bool {
     exact as f64 <= STRAY * counts.len() as f64
 }
 
-/// The significant digits of every number but 0, without exponents. As in path data, a number ends where a second point begins the next.
+/// The significant digits of every number but 0, without exponents. As in path data, a number ends where a second point
+/// begins the next.
 fn significant_digits(text: &str) -> Vec<usize> {
     let mut counts = Vec::new();
     for run in text.split(|c: char| !c.is_ascii_digit() && c != '.') {

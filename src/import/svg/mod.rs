@@ -1,12 +1,15 @@
-//! SVG: what is filled becomes shapes in the order of painting, as exact curves; centre lines of strokes where they are wanted.
+//! SVG: what is filled becomes shapes in the order of painting, as exact curves; centre lines of strokes where they are
+//! wanted.
 //!
-//! Coordinates are the user units of the outermost `svg` element, with y turned upward: the mirror image in its view box
-//! (y → 2·min-y + height − y), without one in its height, without either about y = 0. [`Drawing::unit`] says what a user unit is.
+//! Coordinates are the user units of the outermost `svg` element, with y turned upward: the mirror image in its view
+//! box (y → 2·min-y + height − y), without one in its height, without either about y = 0. [`Drawing::unit`] says what a
+//! user unit is.
 //!
-//! Names: the Inkscape layer, else the id of the element or of the nearest group around it (a `use` gives its id to what it shows),
-//! else the colour. A path is drawn up to the first error in its data, as SVG asks. Clip paths and viewports cut what they hold, the page
-//! only where it says so; what lies wholly outside of it is left out. Not applied, but counted: masks, filters, markers, patterns; not
-//! read, but counted: text, images, whatever is hidden. Strokes have no width unless what they cover is asked for.
+//! Names: the Inkscape layer, else the id of the element or of the nearest group around it (a `use` gives its id to
+//! what it shows), else the colour. A path is drawn up to the first error in its data, as SVG asks. Clip paths and
+//! viewports cut what they hold, the page only where it says so; what lies wholly outside of it is left out. Not
+//! applied, but counted: masks, filters, markers, patterns; not read, but counted: text, images, whatever is hidden.
+//! Strokes have no width unless what they cover is asked for.
 
 mod basic_shape;
 mod clip;
@@ -91,12 +94,12 @@ impl Default for SvgOptions {
     }
 }
 
-/// Reads an SVG file, or a compressed one (`.svgz`). The names of which `selection` speaks are those of an element and of all groups
-/// around it: ids, and labels as Inkscape gives them to layers.
+/// Reads an SVG file, or a compressed one (`.svgz`). The names of which `selection` speaks are those of an element and
+/// of all groups around it: ids, and labels as Inkscape gives them to layers.
 ///
 /// # Errors
-/// Where the text is no XML or no SVG, a number is too large for any drawing, or the file unfolds beyond its bounds; where nothing is left
-/// of it and the data of an element are in error: the first such place.
+/// Where the text is no XML or no SVG, a number is too large for any drawing, or the file unfolds beyond its bounds;
+/// where nothing is left of it and the data of an element are in error: the first such place.
 pub fn read(bytes: &[u8], stem: &str, options: &SvgOptions, selection: &Selection) -> Result<Drawing, ImportError> {
     let (text, encoding) = xml::text(bytes)?;
     let document = xml::parse(&text)?;

@@ -159,7 +159,8 @@ impl Pen {
     }
 }
 
-/// An elliptic arc by its ends (SVG 2, appendix B.2): radii that are too small grow until they reach. `None`: it is a straight line.
+/// An elliptic arc by its ends (SVG 2, appendix B.2): radii that are too small grow until they reach. `None`: it is a
+/// straight line.
 fn arc(from: Point, to: Point, radii: Vec2, turned_deg: f64, large: bool, positive: bool) -> Option<Curve> {
     if radii.x == 0.0 || radii.y == 0.0 {
         return None;

@@ -1,5 +1,5 @@
-//! Selectors (Selectors Level 4, as far as a still picture needs them): types, ids, classes, attributes, places among siblings,
-//! `:not`, `:is`, `:where`, and all four combinators.
+//! Selectors (Selectors Level 4, as far as a still picture needs them): types, ids, classes, attributes, places among
+//! siblings, `:not`, `:is`, `:where`, and all four combinators.
 
 use roxmltree::{Document, Node};
 use std::cell::Cell;
@@ -90,7 +90,8 @@ pub(super) enum Key<'a> {
 /// What matching takes: where elements stand among their siblings, and how much was compared so far.
 #[derive(Default)]
 pub(super) struct Matcher {
-    /// Of every element, from 1: its place among all siblings and among those of its type, each from the first and from the last.
+    /// Of every element, from 1: its place among all siblings and among those of its type, each from the first and from
+    /// the last.
     places: Vec<[[u32; 2]; 2]>,
     spent: Cell<u64>,
 }

@@ -219,7 +219,8 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// The mean colour of a gradient along its stops, its own or those of the one that it refers to; without any it paints nothing.
+    /// The mean colour of a gradient along its stops, its own or those of the one that it refers to; without any it
+    /// paints nothing.
     fn mean_of_stops(&self, id: &'a str) -> Option<[f64; 4]> {
         let is_stop = |node: &Node| local_name(*node) == Some("stop");
         let mut chain = std::iter::successors(self.by_id(id), |gradient| self.target(*gradient)).take(USE_DEPTH_MAX);

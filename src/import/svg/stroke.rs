@@ -1,5 +1,5 @@
-//! What a stroke covers (SVG 2, section 13.5): the body along each curve, joins between them and caps at their ends, as closed outlines
-//! that all wind in the positive sense, so that the rule "nonzero" makes one of them.
+//! What a stroke covers (SVG 2, section 13.5): the body along each curve, joins between them and caps at their ends, as
+//! closed outlines that all wind in the positive sense, so that the rule "nonzero" makes one of them.
 //!
 //! ```text
 //!      ┌───────────────┐╲ join: the corner outside of a turn
@@ -8,8 +8,8 @@
 //!                    │body│
 //! ```
 //!
-//! Beside a line lies a rectangle, beside an arc the sector of a ring, both exact; offsets of other curves are cubics within a distance that a
-//! note states.
+//! Beside a line lies a rectangle, beside an arc the sector of a ring, both exact; offsets of other curves are cubics
+//! within a distance that a note states.
 
 use super::path::Subpath;
 use crate::curve::{Curve, End};

@@ -126,8 +126,8 @@ fn is_wide(value: &str) -> bool {
     matches!(value, "inherit" | "initial" | "unset" | "revert" | "revert-layer")
 }
 
-/// A value, where it is a variable the value of that or what it falls back to; `None` where it has none. A variable among other words
-/// is not read.
+/// A value, where it is a variable the value of that or what it falls back to; `None` where it has none. A variable
+/// among other words is not read.
 fn substituted<'a>(text: &'a str, variables: &Variables<'a>) -> Option<&'a str> {
     let mut text = text;
     for _ in 0..SUBSTITUTIONS_MAX {

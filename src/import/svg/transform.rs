@@ -1,5 +1,5 @@
-//! Transforms: the attribute and the property, the properties `translate`, `rotate` and `scale`, and what they turn about
-//! (SVG 2, chapter 8; CSS Transforms 2).
+//! Transforms: the attribute and the property, the properties `translate`, `rotate` and `scale`, and what they turn
+//! about (SVG 2, chapter 8; CSS Transforms 2).
 
 use super::style::{Declared, Property};
 use super::units::{Axis, Quantity, Viewport};

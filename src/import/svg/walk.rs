@@ -250,8 +250,8 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// The context inside an `svg` or a `symbol`: its view box fitted to its viewport, which hides what reaches beyond it. The outermost
-    /// is its own measure.
+    /// The context inside an `svg` or a `symbol`: its view box fitted to its viewport, which hides what reaches beyond
+    /// it. The outermost is its own measure.
     fn viewport(
         &mut self,
         node: Node<'a, 'a>,
@@ -360,8 +360,8 @@ fn given_size<'a>(target: Node, declared: &Declared<'a>) -> [Option<&'a str>; 2]
     }
 }
 
-/// The viewport of an `svg` or a `symbol` inside another: its box, the map from its own coordinates to those around it, and what lengths
-/// are parts of there; `None` of one without extent.
+/// The viewport of an `svg` or a `symbol` inside another: its box, the map from its own coordinates to those around it,
+/// and what lengths are parts of there; `None` of one without extent.
 fn nested_viewport<'a>(
     node: Node,
     declared: &Declared<'a>,

@@ -110,7 +110,8 @@ fn check_cost(text: &str) -> Result<(), ImportError> {
     Ok(())
 }
 
-/// A bound of what the entities unfold to: every reference to the longest of them. The parser allows 255 references within one.
+/// A bound of what the entities unfold to: every reference to the longest of them. The parser allows 255 references
+/// within one.
 fn entity_bytes(text: &str) -> usize {
     let Some(first) = text.find("<!ENTITY") else { return 0 };
     let last = text.rfind("<!ENTITY").unwrap_or(first);

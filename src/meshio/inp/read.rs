@@ -1,10 +1,10 @@
-//! Abaqus' and CalculiX's input deck: `*NODE`, `*ELEMENT` of triangles (CPS3, CPE3, CAX3, S3, STRI3 and their likes of 6 nodes)
-//! and of lines (T2D2, B21, … and of 3 nodes), the element set as region or boundary; `*SURFACE` of element faces as boundary.
-//! Other keywords are passed over.
+//! Abaqus' and CalculiX's input deck: `*NODE`, `*ELEMENT` of triangles (CPS3, CPE3, CAX3, S3, STRI3 and their likes of
+//! 6 nodes) and of lines (T2D2, B21, … and of 3 nodes), the element set as region or boundary; `*SURFACE` of element
+//! faces as boundary. Other keywords are passed over.
 //!
-//! The set of an element is the one that its `*ELEMENT` line names. Where that is none, or an entity of the program that wrote the
-//! deck (Gmsh's `Surface2`, `Line1`; FreeCAD's `Efaces`, `Eedges`), it is the smallest of the `*ELSET` lists that hold the element:
-//! there Gmsh writes its physical groups.
+//! The set of an element is the one that its `*ELEMENT` line names. Where that is none, or an entity of the program
+//! that wrote the deck (Gmsh's `Surface2`, `Line1`; FreeCAD's `Efaces`, `Eedges`), it is the smallest of the `*ELSET`
+//! lists that hold the element: there Gmsh writes its physical groups.
 
 use crate::geometry::written::number;
 use crate::meshio::draft::{BOUNDARY, Draft, REGION};

@@ -1,5 +1,5 @@
-//! Gmsh's MSH 2.2 and 4.1, text or binary of either byte order. Physical groups are the names; a cell in several groups has the
-//! first. Nodes come in the order of their numbers.
+//! Gmsh's MSH 2.2 and 4.1, text or binary of either byte order. Physical groups are the names; a cell in several groups
+//! has the first. Nodes come in the order of their numbers.
 
 use crate::geometry::written::number;
 use crate::meshio::draft::{BOUNDARY, Draft, REGION};
@@ -230,7 +230,8 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// Nodes of 2.2. Parametric ones also say on which entity they lie, and where on it: a parameter on a curve, two on a surface.
+    /// Nodes of 2.2. Parametric ones also say on which entity they lie, and where on it: a parameter on a curve, two on
+    /// a surface.
     fn nodes_2(&mut self, parametric: bool) -> Result<()> {
         let count = self.count_2()?;
         for _ in 0..count {

@@ -1,4 +1,5 @@
-//! Wavefront OBJ: faces and lines; the group (`g`), else the object (`o`), is the name. Normals, textures and curves are passed over.
+//! Wavefront OBJ: faces and lines; the group (`g`), else the object (`o`), is the name. Normals, textures and curves
+//! are passed over.
 
 use crate::geometry::written::number;
 use crate::meshio::draft::{BOUNDARY, Draft, REGION};

@@ -1,9 +1,9 @@
-//! Wavefront OBJ: a group `g` of faces for every region and one of lines `l` for every boundary. Group names are words without
-//! blanks; a comment keeps what a name was. Coordinates have all their digits. Cells of order 2 are written as straight ones
-//! between all their nodes: four a triangle, two an edge.
+//! Wavefront OBJ: a group `g` of faces for every region and one of lines `l` for every boundary. Group names are words
+//! without blanks; a comment keeps what a name was. Coordinates have all their digits. Cells of order 2 are written as
+//! straight ones between all their nodes: four a triangle, two an edge.
 //!
-//! A `.mtl` file beside it has a material for every region, under the name of its group: the colour of the drawing, in sRGB, and its
-//! opacity, else a colour of its own. Lines have one more.
+//! A `.mtl` file beside it has a material for every region, under the name of its group: the colour of the drawing, in
+//! sRGB, and its opacity, else a colour of its own. Lines have one more.
 //!
 //! VTK's reader sets groups on the wrong cells beside lines: they can be left out (`lines` false).
 //!
@@ -19,8 +19,8 @@ use std::io::{self, Write};
 /// The material of lines, where no region has the name.
 const INK: &str = "boundary";
 
-/// Writes the mesh, its boundaries as lines where asked for; `stem` is the name of the file of its materials without suffix, `None` where
-/// there is none.
+/// Writes the mesh, its boundaries as lines where asked for; `stem` is the name of the file of its materials without
+/// suffix, `None` where there is none.
 ///
 /// # Errors
 /// Those of `out`; `InvalidInput` where the mesh's lists do not fit together.

@@ -1,5 +1,5 @@
-//! STL as text, which unlike the binary form has names and all digits of a coordinate: one `solid` a region. Cells of order 2 are
-//! written as four straight ones.
+//! STL as text, which unlike the binary form has names and all digits of a coordinate: one `solid` a region. Cells of
+//! order 2 are written as four straight ones.
 //!
 //! Not held: boundaries, shared nodes (readers join equal coordinates), order 2, the unit, links to curves, balls.
 

@@ -1,12 +1,12 @@
 //! SU2's native mesh, in two dimensions.
 //!
-//! Every edge that has a triangle on one side only is in exactly one marker: its boundary's, or `boundary` where the mesh has no
-//! name for it. Edges between two kept regions are in none: to SU2 a marker is a border of the flow. Order 2 is refused: SU2 has
-//! straight cells only.
+//! Every edge that has a triangle on one side only is in exactly one marker: its boundary's, or `boundary` where the
+//! mesh has no name for it. Edges between two kept regions are in none: to SU2 a marker is a border of the flow. Order
+//! 2 is refused: SU2 has straight cells only.
 //!
-//! A configuration must be able to name every marker: SU2 splits its values at blanks and `( ) { } : ,`, its lines at `=` and `;`, begins
-//! a comment at `%`, goes on after `\` and reads `NONE` as no marker. These become `_` in tags (`NONE` becomes `NONE_`), tags stay apart
-//! whatever their case, and a comment keeps what a name was.
+//! A configuration must be able to name every marker: SU2 splits its values at blanks and `( ) { } : ,`, its lines at
+//! `=` and `;`, begins a comment at `%`, goes on after `\` and reads `NONE` as no marker. These become `_` in tags
+//! (`NONE` becomes `NONE_`), tags stay apart whatever their case, and a comment keeps what a name was.
 //!
 //! Not held: regions (SU2 has one zone), the names of interfaces, the unit, the plane in space, links to curves, balls.
 

@@ -1,5 +1,5 @@
-//! Triangle's `.ele` with the `.node` beside it, and the `.poly` for its segments if there is one. The first attribute of a
-//! triangle is its region, the marker of a segment its boundary.
+//! Triangle's `.ele` with the `.node` beside it, and the `.poly` for its segments if there is one. The first attribute
+//! of a triangle is its region, the marker of a segment its boundary.
 
 use crate::geometry::written::number;
 use crate::meshio::draft::{BOUNDARY, Draft, REGION};

@@ -1,5 +1,6 @@
-//! Legacy VTK (`.vtk`), text or binary: unstructured grids of versions up to 4 (`CELLS` with sizes) and of 5.1 (`OFFSETS`,
-//! `CONNECTIVITY`; meshio's types of numbers too). Groups are read as in VTU: the first of [`FOREIGN`] among the integer cell arrays, our own names from field arrays.
+//! Legacy VTK (`.vtk`), text or binary: unstructured grids of versions up to 4 (`CELLS` with sizes) and of 5.1
+//! (`OFFSETS`, `CONNECTIVITY`; meshio's types of numbers too). Groups are read as in VTU: the first of [`FOREIGN`]
+//! among the integer cell arrays, our own names from field arrays.
 
 use crate::geometry::written::number;
 use crate::meshio::draft::{BOUNDARY, Draft, FOREIGN, REGION};

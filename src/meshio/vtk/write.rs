@@ -1,17 +1,17 @@
 //! Legacy VTK (`.vtk`, version 3.0): triangles, then boundary lines; binary (big-endian) or as text.
 //!
-//! Cell arrays `region` and `boundary` number the groups from 1, 0 of cells of the other kind. Field arrays `region:NAME` and
-//! `boundary:NAME` hold the number that bears the name; blanks, `%` and control characters of names are written `%20` as VTK
-//! itself does. Order 2 is held (types 22 and 21).
+//! Cell arrays `region` and `boundary` number the groups from 1, 0 of cells of the other kind. Field arrays
+//! `region:NAME` and `boundary:NAME` hold the number that bears the name; blanks, `%` and control characters of names
+//! are written `%20` as VTK itself does. Order 2 is held (types 22 and 21).
 //!
-//! The fields stand behind `CELL_TYPES`. Before `POINTS`, Gmsh (4.15) and FreeFEM (4.11) refuse the file and meshio (5.3) loses the
-//! names; as data of cells they would need a value a cell.
+//! The fields stand behind `CELL_TYPES`. Before `POINTS`, Gmsh (4.15) and FreeFEM (4.11) refuse the file and meshio
+//! (5.3) loses the names; as data of cells they would need a value a cell.
 //!
-//! MFEM (4.10), deal.II (9.4) and Gmsh read text only. MFEM moreover refuses lines beside triangles, so that text has none unless
-//! asked for: there a field array `boundary:NAME` is a list of edges, each of the two nodes at its ends (of order 2, and of the one
-//! within). MFEM takes its attributes from the array `material`, which has to be the first; deal.II takes material ids, and with lines
-//! boundary ids, from `MaterialID`. Both hold the number of the region or, above those, of the boundary. Gmsh and FreeFEM read the
-//! cells, and no array of them.
+//! MFEM (4.10), deal.II (9.4) and Gmsh read text only. MFEM moreover refuses lines beside triangles, so that text has
+//! none unless asked for: there a field array `boundary:NAME` is a list of edges, each of the two nodes at its ends (of
+//! order 2, and of the one within). MFEM takes its attributes from the array `material`, which has to be the first;
+//! deal.II takes material ids, and with lines boundary ids, from `MaterialID`. Both hold the number of the region or,
+//! above those, of the boundary. Gmsh and FreeFEM read the cells, and no array of them.
 //!
 //! Not held: the unit, links to curves, balls: use VTU for those. deal.II has no cells of order 2.
 

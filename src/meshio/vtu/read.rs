@@ -1,10 +1,10 @@
 //! VTK XML unstructured grids (`.vtu`) → Mesh, whoever wrote them: ASCII, inline or appended (base64 or raw), with
 //! zlib or without.
 //!
-//! Read are triangles (types 5 and 22) and lines (types 3 and 21) in a plane; vertices (types 1 and 2) are left out and counted,
-//! any other cell is an error. What our writer adds is read back bit for bit. In a
-//! foreign file, regions and boundaries are the values of the first of the cell arrays [`FOREIGN`] that it has, named
-//! by their numbers. A mesh in a plane in space is read into the coordinates of that plane, which our writer tells.
+//! Read are triangles (types 5 and 22) and lines (types 3 and 21) in a plane; vertices (types 1 and 2) are left out and
+//! counted, any other cell is an error. What our writer adds is read back bit for bit. In a foreign file, regions and
+//! boundaries are the values of the first of the cell arrays [`FOREIGN`] that it has, named by their numbers. A mesh in
+//! a plane in space is read into the coordinates of that plane, which our writer tells.
 
 use super::unpack::Unpacker;
 use super::xml::{File, Kind, Section};
@@ -307,8 +307,8 @@ fn frame(unpacker: &mut Unpacker) -> Result<Option<Frame>> {
     if right { Ok(Some(frame)) } else { Err(broken("the axes of the frame are not orthonormal")) }
 }
 
-/// The points in the coordinates of a plane: those that the file gives, where they are of these very points, else the points laid
-/// into the plane.
+/// The points in the coordinates of a plane: those that the file gives, where they are of these very points, else the
+/// points laid into the plane.
 fn in_plane(unpacker: &mut Unpacker, places: &[[f64; 3]], frame: &Frame) -> Result<Vec<Point>> {
     if let Some(array) = unpacker.file.array(Section::PointData, "plane") {
         let values = unpacker.numbers(array, 2 * places.len() as u64)?;

@@ -19,9 +19,10 @@
 //! `String` ("Illegal data type"), while both it and VTK list the names of field arrays as they are. For meshio, too,
 //! no empty array is compressed.
 //!
-//! MFEM 4.10 refuses field data that stand before the piece, and lines beside triangles: a plain file has neither. MFEM takes its attributes
-//! from the first array of the cells where `Scalars` of `CellData` says `material`, whatever the array is called, and makes all of them 1
-//! otherwise: there the number of the region comes once more, as `material`. Names and boundaries reach MFEM by MSH.
+//! MFEM 4.10 refuses field data that stand before the piece, and lines beside triangles: a plain file has neither. MFEM
+//! takes its attributes from the first array of the cells where `Scalars` of `CellData` says `material`, whatever the
+//! array is called, and makes all of them 1 otherwise: there the number of the region comes once more, as `material`.
+//! Names and boundaries reach MFEM by MSH.
 //!
 //! Written here and not by the vtkio crate (0.7.0-rc2), which keeps a second model of the whole file in memory and
 //! compresses one block after the other; here each array is made, compressed in parallel blocks and written before

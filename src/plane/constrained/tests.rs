@@ -1,5 +1,5 @@
-//! Random points in general position with random segments that do not cross, against slow oracles: building anew, and looking at every
-//! segment for every line of sight.
+//! Random points in general position with random segments that do not cross, against slow oracles: building anew, and
+//! looking at every segment for every line of sight.
 
 use super::*;
 use crate::geometry::Vec2;
@@ -42,7 +42,8 @@ impl Scene {
         built
     }
 
-    /// Whether a point sees any place of a segment: between two neighbouring rays to ends of segments it sees all or nothing.
+    /// Whether a point sees any place of a segment: between two neighbouring rays to ends of segments it sees all or
+    /// nothing.
     fn sees(&self, from: Point, [x, y]: [Point; 2]) -> bool {
         let share = |p: Point| (x - from).cross(p - from) / ((x - from).cross(p - from) - (y - from).cross(p - from));
         let rays = self.segments.iter().flatten().map(|&v| share(self.points[v]));

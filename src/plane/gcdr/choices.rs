@@ -14,8 +14,9 @@ use std::fmt;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case", default)]
 pub struct Choices {
-    /// With gcdr: points in triangles lie within r(1 - delta2) of the circumcenter, off-centres and optimal points within r - delta2 l/(2 sin
-    /// angle), where l is the shortest edge [default: 1; with strategies that choose within disks that are alike the least that the angle allows]
+    /// With gcdr: points in triangles lie within r(1 - delta2) of the circumcenter, off-centres and optimal points
+    /// within r - delta2 l/(2 sin angle), where l is the shortest edge
+    /// [default: 1; with strategies that choose within disks that are alike the least that the angle allows]
     #[schemars(extend("group" = "gcdr", "value" = "D", "rare" = true))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub delta2: Option<f64>,
@@ -37,7 +38,8 @@ pub struct Choices {
     /// With --steiner random.
     #[schemars(extend("group" = "gcdr", "value" = "N", "rare" = true))]
     pub seed: u64,
-    /// With gcdr: measure how much nearer to others every point was inserted than the drawing asks for, and hold it to the bounds known.
+    /// With gcdr: measure how much nearer to others every point was inserted than the drawing asks for, and hold it to
+    /// the bounds known.
     #[schemars(extend("group" = "gcdr", "value" = "on|off", "rare" = true))]
     pub densities: Switch,
 }
@@ -77,8 +79,8 @@ impl Choices {
         }
     }
 
-    /// δ₂, δ₁ and μ as given; where not: 1, but the widest disks that the angle leaves to a strategy whose disks are alike and that would not
-    /// take centres.
+    /// δ₂, δ₁ and μ as given; where not: 1, but the widest disks that the angle leaves to a strategy whose disks are
+    /// alike and that would not take centres.
     pub fn regions(&self, angle_min_rad: f64) -> Regions {
         let default = match self.steiner {
             Steiner::Center | Steiner::Offcenter | Steiner::Optimal | Steiner::OffcenterFree | Steiner::OptimalFree => {

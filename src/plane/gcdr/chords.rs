@@ -1,11 +1,12 @@
 //! The beginning: pieces of curves whose chords are a valid PSLG, and stay one however the pieces are split.
 //!
-//! What is split later stays within the convex hull of its piece, and so does every chord of it. A piece of lens angle λ lies in its
-//! lens, which is convex and lies in the rhombus on its chord with angles 2λ at the ends. So curved pieces are split until no two rhombi
-//! meet but in a common end: at the bisector, or on curves that end at a sharp corner on [shells](shell_between) around it, so that edges
-//! across a cusp have their ends equally far from it and may stay. Two curves that share an end at a sharp corner may lie in each other's
-//! hulls however short they are: there all curves are cut at one distance from the corner, and from then on together ([`Fan`]): equal
-//! distances keep their order.
+//! What is split later stays within the convex hull of its piece, and so does every chord of it. A piece of lens angle
+//! λ lies in its lens, which is convex and lies in the rhombus on its chord with angles 2λ at the ends. So curved
+//! pieces are split until no two rhombi meet but in a common end: at the bisector, or on curves that end at a sharp
+//! corner on [shells](shell_between) around it, so that edges across a cusp have their ends equally far from it and may
+//! stay. Two curves that share an end at a sharp corner may lie in each other's hulls however short they are: there all
+//! curves are cut at one distance from the corner, and from then on together ([`Fan`]): equal distances keep their
+//! order.
 
 use super::{Fan, Origin};
 use crate::curve::{Curve, End};
@@ -78,8 +79,8 @@ impl<'a> Beginning<'a> {
         }
     }
 
-    /// A fan at every sharp corner that a bent curve ends at: of a radius that is a power of two, at most a third of lfs(p), so that two
-    /// never meet and nothing else comes in.
+    /// A fan at every sharp corner that a bent curve ends at: of a radius that is a power of two, at most a third of
+    /// lfs(p), so that two never meet and nothing else comes in.
     fn place_fans(&mut self, field: &SizeField) -> IdVec<PointId, Option<FanId>> {
         let bent = |p: PointId| self.domain.star(p).iter().any(|i| !self.domain.curves()[i.curve].curve.is_straight());
         let wanted: Vec<PointId> = self.domain.points().ids().filter(|&p| self.sharp[p] && bent(p)).collect();
@@ -169,7 +170,8 @@ impl<'a> Beginning<'a> {
         })
     }
 
-    /// Whether one is a spoke and the other lies on a curve of the same corner: spokes keep their order, and the others lie outside.
+    /// Whether one is a spoke and the other lies on a curve of the same corner: spokes keep their order, and the others
+    /// lie outside.
     fn share_a_fan(&self, first: &Piece, second: &Piece) -> bool {
         let meets = |spoke: &Piece, other: &Piece| {
             let Standing::OfFan(fan) = spoke.standing else { return false };
@@ -179,8 +181,8 @@ impl<'a> Beginning<'a> {
         meets(first, second) || meets(second, first)
     }
 
-    /// Splits a bent piece on a shell around a sharp corner, or at its bisector; `None` of a spoke, and where coordinates cannot hold it:
-    /// joining will tell.
+    /// Splits a bent piece on a shell around a sharp corner, or at its bisector; `None` of a spoke, and where
+    /// coordinates cannot hold it: joining will tell.
     fn split(&mut self, id: PieceId) -> Option<[PieceId; 2]> {
         let piece = *self.subcurves.get(id);
         let shape = shape_of(self.domain, &piece);
@@ -217,9 +219,9 @@ pub(super) fn curve_of(piece: &Piece) -> CurveId {
     }
 }
 
-/// On a curve that ends at a sharp corner: which end that is, and the distance from it at which a piece is split: the roundest binary
-/// number in the middle third. Next to the corner that is a power of two (Ruppert's concentric shells); and wherever they are split, the
-/// two curves of a narrow corner are split at the same distances.
+/// On a curve that ends at a sharp corner: which end that is, and the distance from it at which a piece is split: the
+/// roundest binary number in the middle third. Next to the corner that is a power of two (Ruppert's concentric shells);
+/// and wherever they are split, the two curves of a narrow corner are split at the same distances.
 pub(super) fn shell_between(
     domain: &Domain,
     sharp: &IdVec<PointId, bool>,

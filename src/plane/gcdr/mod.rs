@@ -1,33 +1,40 @@
 //! Generalized constrained Delaunay refinement, GCDR (Foteinos, Chernikov & Chrisochoides 2010, Algorithm 2).
 //!
-//! The engine keeps a constrained Delaunay triangulation of what stands. As long as a triangle is skinny, a point p of its selection
-//! disk is chosen (type A). If a segment s hides p from the triangle, p is rejected: the free vertices in the diametral circle of the
-//! nearest such s that see s are deleted, and s is split within its selection interval, of type C if another vertex in its diametral circle
-//! sees it, else of type B. Otherwise p goes in. Whose point it is, a [`SteinerStrategy`] says.
+//! The engine keeps a constrained Delaunay triangulation of what stands. As long as a triangle is skinny, a point p of
+//! its selection disk is chosen (type A). If a segment s hides p from the triangle, p is rejected: the free vertices in
+//! the diametral circle of the nearest such s that see s are deleted, and s is split within its selection interval, of
+//! type C if another vertex in its diametral circle sees it, else of type B. Otherwise p goes in. Whose point it is, a
+//! [`SteinerStrategy`] says.
 //!
-//! *What is proven.* It ends, on segments that meet at 60° and more, for angles up to 30° and points within their regions (Theorem 6.1). Good
-//! grading is proven where C₁C₂ > 1, up to 26.57° for centres ([`Regions::least_densities`]); beyond, it is observed. Off-centres and
-//! locally optimal points have larger [disks](steiner::Disks::ByShape) without loss of the bounds on insertion radii: that refinement ends is
-//! proven to the same angle, that it is well graded is observed. Above 30°, with a [free](SteinerStrategy::is_free) strategy, on curves and
-//! at sharper corners, that it ends is observed, and the budget ends what does not.
+//! *What is proven.* It ends, on segments that meet at 60° and more, for angles up to 30° and points within their
+//! regions (Theorem 6.1). Good grading is proven where C₁C₂ > 1, up to 26.57° for centres
+//! ([`Regions::least_densities`]); beyond, it is observed. Off-centres and locally optimal points have larger
+//! [disks](steiner::Disks::ByShape) without loss of the bounds on insertion radii: that refinement ends is proven to
+//! the same angle, that it is well graded is observed. Above 30°, with a [free](SteinerStrategy::is_free) strategy, on
+//! curves and at sharper corners, that it ends is observed, and the budget ends what does not.
 //!
 //! What the paper leaves open, and how it is done here:
 //!
-//! - *Curves.* A segment is a piece of a curve, seen as its chord; its point is taken on the curve, above the place chosen on the chord.
-//!   `chords` splits curves at the beginning until chords are a valid PSLG, whatever is split later. To move a segment to its curve, its
-//!   chord is taken out of the triangulation, the point inserted and the two new chords joined; regions are carved anew there.
-//! - *Corners sharper than 60°.* Segments that end there are split on concentric shells (Ruppert 1995), at distances from the corner that
-//!   are round binary numbers; a triangle whose shortest edge lies across the corner, from one curve to the other, with ends equally far from the corner is
-//!   left as it is: its small angle is the input's. Curves that leave a sharp corner are cut together: `chords` says why.
-//! - *Order.* Algorithm 2 leaves open which triangle comes first. Segments that a vertex which will stay sees at more than 180° − 2κ come before
-//!   all else: they cannot stand, and split late they would undo what was refined beside them. Then comes what the strategy says.
-//! - *Rounding.* Decisions are made on the rounded point. A point that would not remove its triangle is not inserted, and owed.
+//! - *Curves.* A segment is a piece of a curve, seen as its chord; its point is taken on the curve, above the place
+//!   chosen on the chord. `chords` splits curves at the beginning until chords are a valid PSLG, whatever is split
+//!   later. To move a segment to its curve, its chord is taken out of the triangulation, the point inserted and the two
+//!   new chords joined; regions are carved anew there.
+//! - *Corners sharper than 60°.* Segments that end there are split on concentric shells (Ruppert 1995), at distances
+//!   from the corner that are round binary numbers; a triangle whose shortest edge lies across the corner, from one
+//!   curve to the other, with ends equally far from the corner is left as it is: its small angle is the input's. Curves
+//!   that leave a sharp corner are cut together: `chords` says why.
+//! - *Order.* Algorithm 2 leaves open which triangle comes first. Segments that a vertex which will stay sees at more
+//!   than 180° − 2κ come before all else: they cannot stand, and split late they would undo what was refined beside
+//!   them. Then comes what the strategy says.
+//! - *Rounding.* Decisions are made on the rounded point. A point that would not remove its triangle is not inserted,
+//!   and owed.
 //!
-//! *Which engine.* Of 180 drawings at 20.7° with free optimal points (outlines, maps, DXF, SVG) all end that end with corner lopping, all but
-//! one with fewer triangles: a fourth to a half of them by folder, in the geometric mean. That holds of straight input and curved, with
-//! sharp corners and without. So the drawing does not tell which engine is the better one, and there is none called `auto`: what is asked of
-//! the mesh tells. Corner lopping proves its angle on more input, bounds the largest angle, and makes a whole Delaunay triangulation with empty
-//! diametral circles; this engine makes fewer triangles, and larger angles.
+//! *Which engine.* Of 180 drawings at 20.7° with free optimal points (outlines, maps, DXF, SVG) all end that end with
+//! corner lopping, all but one with fewer triangles: a fourth to a half of them by folder, in the geometric mean. That
+//! holds of straight input and curved, with sharp corners and without. So the drawing does not tell which engine is the
+//! better one, and there is none called `auto`: what is asked of the mesh tells. Corner lopping proves its angle on
+//! more input, bounds the largest angle, and makes a whole Delaunay triangulation with empty diametral circles; this
+//! engine makes fewer triangles, and larger angles.
 
 mod choices;
 mod chords;
@@ -76,8 +83,8 @@ pub struct Options {
 pub const SHARP_RAD: f64 = FRAC_PI_3 - 1e-8;
 
 impl Options {
-    /// What the judge holds a mesh to that was made by these options and a strategy that is `free` or not; `foreign`: it comes from
-    /// elsewhere, without links to curves.
+    /// What the judge holds a mesh to that was made by these options and a strategy that is `free` or not; `foreign`:
+    /// it comes from elsewhere, without links to curves.
     pub fn promise(&self, free: bool, foreign: bool) -> Promise {
         let proven = self.regions.proven_above(self.angle_min_rad);
         Promise {
@@ -147,8 +154,8 @@ pub fn refine(
 }
 
 impl Options {
-    /// What the densities of a domain's mesh are held to by a strategy whose disks are alike, and that keeps to them: `None` on curves, at
-    /// angles below 60°, and where sizes are asked for, which insert vertices of their own.
+    /// What the densities of a domain's mesh are held to by a strategy whose disks are alike, and that keeps to them:
+    /// `None` on curves, at angles below 60°, and where sizes are asked for, which insert vertices of their own.
     pub fn density_promise(&self, domain: &Domain) -> Option<DensityPromise> {
         let straight = domain.curves().iter().all(|c| c.curve.is_straight());
         let sharp = |p: PointId| domain.corner(p).is_some_and(|corner| corner.angle_rad <= SHARP_RAD);
@@ -253,8 +260,8 @@ impl<'s> Gcdr<'s> {
 impl Engine for Gcdr<'_> {
     type Outcome = Result<Refined, RefineError>;
 
-    /// Splits the first of: a piece that is too large, the worst skinny triangle, the largest triangle. `false`: there is none, or the run
-    /// is over.
+    /// Splits the first of: a piece that is too large, the worst skinny triangle, the largest triangle. `false`: there
+    /// is none, or the run is over.
     fn step(&mut self) -> bool {
         if self.state.reason == StopReason::Done
             && let Some(piece) = self.state.suspects.pop()

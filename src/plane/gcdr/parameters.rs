@@ -6,7 +6,8 @@ use std::f64::consts::FRAC_PI_2;
 /// The sizes of the selection regions (Definitions 3.1–3.3); 1: the region is its centre.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Regions {
-    /// Type A points lie within r(1−δ₂) of the circumcenter, or, where [disks are by shape](super::steiner::Disks::ByShape), within r − δ₂ρ̄l.
+    /// Type A points lie within r(1−δ₂) of the circumcenter, or, where
+    /// [disks are by shape](super::steiner::Disks::ByShape), within r − δ₂ρ̄l.
     pub delta2: f64,
     /// Type B points lie in the middle part of length |s|(1−δ₁).
     pub delta1: f64,
@@ -44,8 +45,8 @@ impl Regions {
         Self { delta2: (1.0 / rho).min(1.0), ..Self::CENTERS }
     }
 
-    /// Whether (3.1)–(3.3) hold; `angle_rad` is the smallest input angle of 60° or more. Above 30°, where ρ̄ < 1, centres are all that is
-    /// left.
+    /// Whether (3.1)–(3.3) hold; `angle_rad` is the smallest input angle of 60° or more. Above 30°, where ρ̄ < 1,
+    /// centres are all that is left.
     ///
     /// # Errors
     /// The first inequality that is violated.
@@ -78,18 +79,19 @@ impl Regions {
         ([rho * delta2, 0.5 * delta1 * 3f64.sqrt(), c3, c4], [(2.0 - delta2) / delta2, b3, (2.0 - mu) / mu])
     }
 
-    /// The input angle above which refinement of segments is proven to end, and where disks are alike, well graded; `None` where it is
-    /// not.
+    /// The input angle above which refinement of segments is proven to end, and where disks are alike, well graded;
+    /// `None` where it is not.
     ///
-    /// That is where (5.11)–(5.19) have a solution. The proof of Theorem 4.6 has C₂ = δ₁cos κ before it puts in 30°: with that centres are
-    /// proven up to 26.57°, as Shewchuk (2002) has it for Chew's algorithm.
+    /// That is where (5.11)–(5.19) have a solution. The proof of Theorem 4.6 has C₂ = δ₁cos κ before it puts in 30°:
+    /// with that centres are proven up to 26.57°, as Shewchuk (2002) has it for Chew's algorithm.
     pub fn proven_above(&self, angle_min_rad: f64) -> Option<f64> {
         let ([c1, _, c3, _], _) = self.constants(radius_edge_of(angle_min_rad), FRAC_PI_2);
         let c2 = self.delta1 * libm::cos(angle_min_rad);
         (c1 > 1.0 && c1 * c2 > 1.0 && c3 > 1.0).then(|| libm::acos(0.5 * self.mu))
     }
 
-    /// What densities are held to: the least solution where there is one; else what (5.23) prints, of which nothing is proven.
+    /// What densities are held to: the least solution where there is one; else what (5.23) prints, of which nothing is
+    /// proven.
     pub fn density_promise(&self, rho: f64, angle_rad: f64) -> DensityPromise {
         let least = self.least_densities(rho, angle_rad);
         DensityPromise {
@@ -113,14 +115,16 @@ impl Regions {
 
     /// The least solution of (5.11)–(5.19); `None` where there is none, which is so unless C₁C₂ > 1, C₃ > 1 and C₄ > 1.
     ///
-    /// *Corrected*: (5.12) asks for D_A ≥ B₁ + D_B/C₁, which the printed (5.23) does not keep. Each inequality bounds one density from
-    /// below by an increasing function of another, so the least solution is where repeated substitution from 1 ends.
+    /// *Corrected*: (5.12) asks for D_A ≥ B₁ + D_B/C₁, which the printed (5.23) does not keep. Each inequality bounds
+    /// one density from below by an increasing function of another, so the least solution is where repeated
+    /// substitution from 1 ends.
     pub fn least_densities(&self, rho: f64, angle_rad: f64) -> Option<Densities> {
         let ([c1, c2, c3, c4], [b1, b3, b4]) = self.constants(rho, angle_rad);
         if !(c1 > 1.0 && c1 * c2 > 1.0 && c3 > 1.0 && c4 > 1.0) {
             return None;
         }
-        // Every round trip shrinks what is missing by 1/(C₁C₂), 1/C₃ or 1/C₄; near 1 that takes long, and the rest is no news.
+        // Every round trip shrinks what is missing by 1/(C₁C₂), 1/C₃ or 1/C₄; near 1 that takes long, and the rest is
+        // no news.
         let mut d = Densities { a: 1.0, b: 1.0, c: 1.0 };
         for _ in 0..100_000 {
             let next = Densities {

@@ -42,8 +42,9 @@ impl Gcdr<'_> {
         }
     }
 
-    /// Lines 7–14 of Algorithm 2: free vertices in the diametral circle go, and a point of type B or C comes. A spoke takes its whole fan
-    /// with it. `latest` is the parent where no vertex crowds the segment. `false` where coordinates cannot hold it.
+    /// Lines 7–14 of Algorithm 2: free vertices in the diametral circle go, and a point of type B or C comes. A spoke
+    /// takes its whole fan with it. `latest` is the parent where no vertex crowds the segment. `false` where
+    /// coordinates cannot hold it.
     pub(super) fn split_segment(&mut self, id: PieceId, latest: Option<VertexId>, why: &'static str) -> bool {
         let piece = *self.state.subcurves.get(id);
         if let Standing::OfFan(fan) = piece.standing {
@@ -140,8 +141,8 @@ impl Gcdr<'_> {
         }
     }
 
-    /// Cuts all curves of a fan at half its radius, and where their chords between there and the old radius might come to cross, at more
-    /// distances in between.
+    /// Cuts all curves of a fan at half its radius, and where their chords between there and the old radius might come
+    /// to cross, at more distances in between.
     fn cut_fan(&mut self, id: FanId, why: &'static str) -> bool {
         let fan = &self.fans[id];
         let (corner, radius) = (VertexId(fan.corner.0), 0.5 * fan.radius);
@@ -160,7 +161,8 @@ impl Gcdr<'_> {
         true
     }
 
-    /// Parameters, ascending, at which spokes are cut from `radius` on outward: so many shells that the hulls of neighbours are apart.
+    /// Parameters, ascending, at which spokes are cut from `radius` on outward: so many shells that the hulls of
+    /// neighbours are apart.
     fn shells(&self, corner: VertexId, radius: f64, spokes: &[PieceId]) -> Vec<(PieceId, Vec<f64>)> {
         const SHELLS_MOST: u32 = 64;
         let center = self.mesh.point(corner);
@@ -188,7 +190,8 @@ impl Gcdr<'_> {
         }
     }
 
-    /// Ascending parameters at which a spoke leaves the circles of ascending radii around its corner; NaN where it does not.
+    /// Ascending parameters at which a spoke leaves the circles of ascending radii around its corner; NaN where it does
+    /// not.
     fn leaves(&self, spoke: PieceId, corner: VertexId, radii: &[f64]) -> Vec<f64> {
         let piece = self.state.subcurves.get(spoke);
         let end = if piece.ends[0] == corner { End::Start } else { End::Finish };
@@ -209,7 +212,8 @@ impl Gcdr<'_> {
         bounds.windows(2).map(|t| Hull::of(&self.state.domain, piece, [t[0], t[1]])).collect()
     }
 
-    /// Splits a piece at a parameter, after the deletion of `free` vertices that encroach it. `None` where coordinates cannot hold it.
+    /// Splits a piece at a parameter, after the deletion of `free` vertices that encroach it. `None` where coordinates
+    /// cannot hold it.
     fn split_at(&mut self, id: PieceId, t: f64, free: Vec<VertexId>, why: &'static str) -> Option<VertexId> {
         let piece = *self.state.subcurves.get(id);
         if !self.has_room(&piece, &[t]) {
@@ -233,8 +237,9 @@ impl Gcdr<'_> {
         Some(v)
     }
 
-    /// Splits pieces at ascending parameters, all at once: between two of a fan chords may cross. `free` vertices, those that encroach,
-    /// are deleted first. `None` where coordinates cannot hold it: the place is owed; if that shows only half-way, the run is over.
+    /// Splits pieces at ascending parameters, all at once: between two of a fan chords may cross. `free` vertices,
+    /// those that encroach, are deleted first. `None` where coordinates cannot hold it: the place is owed; if that
+    /// shows only half-way, the run is over.
     fn split_together(
         &mut self,
         cuts: &[(PieceId, Vec<f64>)],
@@ -285,8 +290,8 @@ impl Gcdr<'_> {
         at.iter().copied().chain([(piece.t[1], piece.ends[1])]).map(&mut add).collect()
     }
 
-    /// Whether points of a piece can part it: coordinates tell them from each other and from the ends, and they lie in the diametral
-    /// circle.
+    /// Whether points of a piece can part it: coordinates tell them from each other and from the ends, and they lie in
+    /// the diametral circle.
     fn has_room(&self, piece: &Piece, ts: &[f64]) -> bool {
         let [x, y] = self.ends_of(piece);
         let shape = shape_of(&self.state.domain, piece);

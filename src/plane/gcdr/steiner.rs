@@ -11,7 +11,8 @@ use std::f64::consts::TAU;
 pub struct Skinny {
     /// Counter-clockwise; the first two are the ends of its shortest edge.
     pub corners: [Point; 3],
-    /// The corner across each side (0: between corners 0 and 1, and so on); `None` where a segment stands, or nothing is beyond.
+    /// The corner across each side (0: between corners 0 and 1, and so on); `None` where a segment stands, or nothing
+    /// is beyond.
     pub across: [Option<Point>; 3],
     /// The circumcenter.
     pub center: Point,
@@ -50,19 +51,22 @@ pub enum Order {
 pub enum Disks {
     /// r(1−δ₂), as printed (Definition 3.1).
     Alike,
-    /// r − δ₂ρ̄l: the skinnier the triangle, the larger a part of its circle, as in the second kind of disk of Chernikov & Chrisochoides
-    /// (2009).
+    /// r − δ₂ρ̄l: the skinnier the triangle, the larger a part of its circle, as in the second kind of disk of
+    /// Chernikov & Chrisochoides (2009).
     ///
-    /// That is Definition 3.1 with a δ₂ of the triangle's own, δ = δ₂ρ̄l/r, and Theorem 4.6 holds with the constants printed: case (1)
-    /// since R(p) ≥ δr = C₁l; case (2) since Lemma 4.5 needs no more than δ ≥ l/r, and δ₂ρ̄ ≥ 1 by (3.1); case (3) since half the segment,
-    /// √(r² − (r − δ₂ρ̄l)²) at least, grows with r, and for r = ρ̄l is what (4.5) says. So insertion radii are bounded, and refinement
-    /// ends, where C₁C₂ > 1. Densities are not bounded so: B₁ = (2−δ)/δ has no largest value.
+    /// That is Definition 3.1 with a δ₂ of the triangle's own, δ = δ₂ρ̄l/r, and Theorem 4.6 holds with the constants
+    /// printed: case (1) since R(p) ≥ δr = C₁l; case (2) since Lemma 4.5 needs no more than δ ≥ l/r, and δ₂ρ̄ ≥ 1 by
+    /// (3.1); case (3) since half the segment, √(r² − (r − δ₂ρ̄l)²) at least, grows with r, and for r = ρ̄l is what
+    /// (4.5) says. So insertion radii are bounded, and refinement ends, where C₁C₂ > 1. Densities are not bounded so:
+    /// B₁ = (2−δ)/δ has no largest value.
     ByShape,
 }
 
-/// F_A, F_B and F_C of Algorithm 2. What it answers is moved to the nearest place in the region, unless it is [free](Self::is_free).
+/// F_A, F_B and F_C of Algorithm 2. What it answers is moved to the nearest place in the region, unless it is
+/// [free](Self::is_free).
 pub trait SteinerStrategy {
-    /// F_A: a point of the selection disk. Triangles that are only too large are asked for, too, unless the strategy is free.
+    /// F_A: a point of the selection disk. Triangles that are only too large are asked for, too, unless the strategy is
+    /// free.
     fn in_disk(&mut self, triangle: &Skinny) -> Point;
 
     /// F_B and F_C: a share of the way from end to end, within the interval.
@@ -70,13 +74,15 @@ pub trait SteinerStrategy {
         0.5
     }
 
-    /// Which triangle comes first: another order than by angle is for strategies whose points are far from the shortest edge.
+    /// Which triangle comes first: another order than by angle is for strategies whose points are far from the shortest
+    /// edge.
     fn order(&self) -> Order {
         Order::SmallestAngle
     }
 
-    /// How large the disks are that its points of type A are kept in. `ByShape` is for points that are kept far from the shortest edge by
-    /// themselves: above 30° only disks that are alike shrink to centres, and points that come near edges there may go on to the budget.
+    /// How large the disks are that its points of type A are kept in. `ByShape` is for points that are kept far from
+    /// the shortest edge by themselves: above 30° only disks that are alike shrink to centres, and points that come
+    /// near edges there may go on to the budget.
     fn disks(&self) -> Disks {
         Disks::Alike
     }
@@ -97,8 +103,9 @@ impl SteinerStrategy for Center {
     }
 }
 
-/// The off-centre (Üngör 2004): on the way to the circumcenter, no farther from the shortest edge than makes a triangle with it that is
-/// not skinny. It is never nearer than 0.95cos²(κ/2)/sin κ > ρ̄ edges, so it lies in its [disk](Disks::ByShape) as long as δ₂ ≤ 1.
+/// The off-centre (Üngör 2004): on the way to the circumcenter, no farther from the shortest edge than makes a triangle
+/// with it that is not skinny. It is never nearer than 0.95cos²(κ/2)/sin κ > ρ̄ edges, so it lies in its
+/// [disk](Disks::ByShape) as long as δ₂ ≤ 1.
 #[derive(Clone, Copy, Debug)]
 pub struct OffCenter {
     /// Length from the shortest edge, in units of it.
@@ -142,8 +149,8 @@ impl SteinerStrategy for OffCenter {
 /// On the border of a petal triangles would be on the brink.
 const PETAL: f64 = 0.98;
 
-/// The locally optimal point (Erten & Üngör 2007): of the places that make a triangle with the shortest edge which is not skinny (its
-/// *petal*), the one farthest from all vertices that the triangle and its neighbours know.
+/// The locally optimal point (Erten & Üngör 2007): of the places that make a triangle with the shortest edge which is
+/// not skinny (its *petal*), the one farthest from all vertices that the triangle and its neighbours know.
 #[derive(Clone, Copy, Debug)]
 pub struct Optimal {
     off_center: OffCenter,
@@ -167,7 +174,8 @@ impl SteinerStrategy for Optimal {
         let petal = p.midpoint(q) + toward * height;
         let known = || [p, q, r].into_iter().chain(triangle.across.into_iter().flatten());
         let room = |at: Point| known().map(|v| v.distance(at)).fold(f64::INFINITY, f64::min);
-        // Centers of the circles through a longer side and what lies across it; where they lie outside, the way to them leaves the petal.
+        // Centers of the circles through a longer side and what lies across it; where they lie outside, the way to them
+        // leaves the petal.
         let around = [(q, r, triangle.across[1]), (r, p, triangle.across[2])];
         let vertices = around.into_iter().filter_map(|(a, b, across)| circumcenter([b, a, across?]));
         let candidates = vertices.filter_map(|voronoi| {
@@ -291,8 +299,8 @@ impl SteinerStrategy for Places {
     }
 }
 
-/// On the way from the shortest edge to the centre, where the new edges to its ends have the length that is asked for; the centre where
-/// that is farther, or nothing is asked for.
+/// On the way from the shortest edge to the centre, where the new edges to its ends have the length that is asked for;
+/// the centre where that is farther, or nothing is asked for.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct BySize;
 

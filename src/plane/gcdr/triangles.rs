@@ -105,9 +105,9 @@ impl Gcdr<'_> {
         self.kill(suspect, p, parent);
     }
 
-    /// The segment of a triangle that must be split whatever else is: a vertex that will stay sees it at an angle so wide that the
-    /// triangle on it will be skinny as long as it stands. Split at once, it spares free vertices that would be deleted later. Its point
-    /// is of type C, which needs no rejected point to be proven.
+    /// The segment of a triangle that must be split whatever else is: a vertex that will stay sees it at an angle so
+    /// wide that the triangle on it will be skinny as long as it stands. Split at once, it spares free vertices that
+    /// would be deleted later. Its point is of type C, which needs no rejected point to be proven.
     fn doomed(&self, t: TriangleId) -> Option<PieceId> {
         let topology = self.mesh.topology();
         let widest = 1.0 - 2.0 * self.state.sin2_min;
@@ -135,7 +135,8 @@ impl Gcdr<'_> {
         a.max(b)
     }
 
-    /// Whether the shortest edge of a triangle lies across a sharp corner, with its ends equally far from it: an angle that the input has.
+    /// Whether the shortest edge of a triangle lies across a sharp corner, with its ends equally far from it: an angle
+    /// that the input has.
     fn is_excused(&self, vertices: [VertexId; 3]) -> bool {
         let shortest = self.shortest_edge_first(vertices);
         let [u, v] = [shortest[0], shortest[1]].map(|v| self.origins[v]);
@@ -190,7 +191,8 @@ impl Gcdr<'_> {
         }
     }
 
-    /// The radius of a triangle's selection disk. What is only too large has no shorter edge than r/ρ̄: to it disks are alike.
+    /// The radius of a triangle's selection disk. What is only too large has no shorter edge than r/ρ̄: to it disks are
+    /// alike.
     fn reach(&self, t: TriangleId, radius: f64) -> f64 {
         let spared = match self.strategy.disks() {
             Disks::Alike => radius,

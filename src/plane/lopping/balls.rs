@@ -1,7 +1,7 @@
 //! Protecting balls around acute corners: B(p), open, of radius d(p) (Pav & Walkington 2005, section 3).
 //!
-//! At birth d(p) = (√2−1)·lfs₀(p), capped so that what lies inside, which is never refined, meets the size limits. A ball then only
-//! shrinks, by β, when a vertex of a curve that does not end at p comes in. The closed balls never meet.
+//! At birth d(p) = (√2−1)·lfs₀(p), capped so that what lies inside, which is never refined, meets the size limits. A
+//! ball then only shrinks, by β, when a vertex of a curve that does not end at p comes in. The closed balls never meet.
 
 use crate::curve::Curve;
 use crate::domain::Domain;
@@ -83,7 +83,8 @@ impl Balls {
         self.balls.ids()
     }
 
-    /// The ball that holds a place, and the place's distance from its corner. The balls are disjoint: there is at most one.
+    /// The ball that holds a place, and the place's distance from its corner. The balls are disjoint: there is at most
+    /// one.
     pub fn holding(&self, at: Point) -> Option<(BallId, f64)> {
         let mut held = None;
         self.index.meeting(Rect::from_points(at, at), |i| {
@@ -121,7 +122,8 @@ fn box_of(ball: &Ball) -> Rect {
 }
 
 impl Ball {
-    /// The radius at the next step of shrinking by `beta`, or, `batched`, at the first step that is clear of every vertex that came in.
+    /// The radius at the next step of shrinking by `beta`, or, `batched`, at the first step that is clear of every
+    /// vertex that came in.
     pub fn shrunk(&self, beta: f64, batched: bool) -> f64 {
         let mut radius = self.radius * beta;
         while batched && self.intruder < radius {

@@ -44,7 +44,8 @@ impl Lopping {
         }
     }
 
-    /// The arcs of the kept sectors of a ball at a radius: for each, the directions of its ends and the number of equal arcs.
+    /// The arcs of the kept sectors of a ball at a radius: for each, the directions of its ends and the number of equal
+    /// arcs.
     fn arcs_at(&self, id: BallId, radius: f64, arc_turning: f64) -> Vec<Sector> {
         let ball = self.balls.get(id);
         let star = self.state.domain.star(ball.corner);
@@ -108,9 +109,10 @@ impl Lopping {
         Room::Clear
     }
 
-    /// Whether a vertex lies nearer to a pseudo midpoint than half the radius, for arcs of π/3; finer arcs have their vertices nearer to
-    /// each other and to the spokes, and crowd in proportion (equal arcs turn at least half of what they may, and 2·sin(T/4) > 3T/2π).
-    /// A vertex on another ball's arc does not count: the balls keep apart by themselves.
+    /// Whether a vertex lies nearer to a pseudo midpoint than half the radius, for arcs of π/3; finer arcs have their
+    /// vertices nearer to each other and to the spokes, and crowd in proportion (equal arcs turn at least half of what
+    /// they may, and 2·sin(T/4) > 3T/2π). A vertex on another ball's arc does not count: the balls keep apart by
+    /// themselves.
     fn is_crowded(&self, id: BallId, radius: f64, at: Point) -> bool {
         let arc_turning = self.options.corner_arcs.unwrap_or(FRAC_PI_3);
         let nearest = 0.5 * radius * (arc_turning / FRAC_PI_3);
@@ -129,7 +131,8 @@ impl Lopping {
         if entry.standing == Standing::Spoke(id) || !self.encroaches(at, piece) {
             return Room::Clear;
         }
-        // The curve strays up to half its chord times tan(λ/2) from it: with that, lfs(p) ≤ 1.5·d(p) of a piece that is short.
+        // The curve strays up to half its chord times tan(λ/2) from it: with that, lfs(p) ≤ 1.5·d(p) of a piece that is
+        // short.
         let [x, y] = entry.ends.map(|v| self.delaunay.point(v));
         let lens = self.shape(entry.carrier).lens_angle(entry.t[0], entry.t[1]);
         let reach = x.distance(y) * (1.0 + libm::tan(0.5 * lens));

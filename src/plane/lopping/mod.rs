@@ -1,33 +1,38 @@
-//! Corner lopping (Pav & Walkington 2005, *Delaunay Refinement by Corner Lopping*, Algorithm 1, with the corner arcs of section 6).
+//! Corner lopping (Pav & Walkington 2005, *Delaunay Refinement by Corner Lopping*, Algorithm 1, with the corner arcs of
+//! section 6).
 //!
-//! The engine keeps P′ ⊇ P, the subcurves C′ and D(P′), the whole Delaunay triangulation, and applies the first rule that can be:
+//! The engine keeps P′ ⊇ P, the subcurves C′ and D(P′), the whole Delaunay triangulation, and applies the first rule
+//! that can be:
 //!
-//! 1. *splitball*: a vertex lies in the ball B(p) of an acute corner: d(p) shrinks by β, and each curve at p is cut where it leaves
-//!    the ball.
+//! 1. *splitball*: a vertex lies in the ball B(p) of an acute corner: d(p) shrinks by β, and each curve at p is cut
+//!    where it leaves the ball.
 //! 2. *splitcurve*: a vertex lies in the open diametral circle of a piece's chord, or the piece is larger than asked.
 //! 3. *corner arcs*: a ball whose arcs are due gets them, once they would neither crowd a vertex nor encroach a piece.
-//! 4. *splittri*: a triangle has an angle below κ, or is larger than asked: its circumcenter goes in, unless it encroaches a piece,
-//!    which is split instead.
+//! 4. *splittri*: a triangle has an angle below κ, or is larger than asked: its circumcenter goes in, unless it
+//!    encroaches a piece, which is split instead.
 //!
 //! Where this differs from the printed algorithm, and why:
 //!
-//! - *Order.* Section 6 looks for room for the arcs whenever a ball is cut; here the cut is made first, rules 1 and 2 run until neither
-//!   applies, and only then are the arcs looked at. Every piece is an edge at that moment, so what an arc's vertex would encroach is read
-//!   off its cavity. The conditions are those of the corrected section 6: a pseudo midpoint with a vertex nearer than d/2, or that
-//!   encroaches a piece shorter than d, shrinks the ball; a longer piece is split.
-//! - *Neighbouring arcs.* A vertex on the arc of another ball does not crowd a pseudo midpoint, and an arc piece that it encroaches is
-//!   split, however short. Were they to shrink the ball, lfs(p) ≤ C₀·d(p) would fail: with |pq| = lfs₀(p) and both balls at birth, the
-//!   two arcs come within (√2−1)·d(p) < d(p)/2 of each other. Nothing is lost: d(p) + d(q) ≤ 2(√2−1)|pq| keeps them at least
-//!   (3−2√2)·|pq| apart at all times, and arc pieces shorter than twice that are not encroached.
-//! - *Batched shrinking.* d(p) ← β·d(p) is repeated until the ball is clear, and the curves are cut once. The literal rule cuts at every
-//!   step, which leaves a shell of vertices a step ([`Shrinking::Literal`]).
-//! - *Incident vertices.* Ball points are rounded. Lemma 3 says that only vertices of curves that do not end at p come into B(p); so only
-//!   those are looked for.
-//! - *Rounded circumcenters.* Each decision (ball, encroachment, cavity) is made on the rounded point. A circumcenter outside its own
-//!   cavity would not remove its triangle: it is not inserted, and the triangle is owed.
+//! - *Order.* Section 6 looks for room for the arcs whenever a ball is cut; here the cut is made first, rules 1 and 2
+//!   run until neither applies, and only then are the arcs looked at. Every piece is an edge at that moment, so what an
+//!   arc's vertex would encroach is read off its cavity. The conditions are those of the corrected section 6: a pseudo
+//!   midpoint with a vertex nearer than d/2, or that encroaches a piece shorter than d, shrinks the ball; a longer
+//!   piece is split.
+//! - *Neighbouring arcs.* A vertex on the arc of another ball does not crowd a pseudo midpoint, and an arc piece that
+//!   it encroaches is split, however short. Were they to shrink the ball, lfs(p) ≤ C₀·d(p) would fail: with |pq| =
+//!   lfs₀(p) and both balls at birth, the two arcs come within (√2−1)·d(p) < d(p)/2 of each other. Nothing is lost:
+//!   d(p) + d(q) ≤ 2(√2−1)|pq| keeps them at least (3−2√2)·|pq| apart at all times, and arc pieces shorter than twice
+//!   that are not encroached.
+//! - *Batched shrinking.* d(p) ← β·d(p) is repeated until the ball is clear, and the curves are cut once. The literal
+//!   rule cuts at every step, which leaves a shell of vertices a step ([`Shrinking::Literal`]).
+//! - *Incident vertices.* Ball points are rounded. Lemma 3 says that only vertices of curves that do not end at p come
+//!   into B(p); so only those are looked for.
+//! - *Rounded circumcenters.* Each decision (ball, encroachment, cavity) is made on the rounded point. A circumcenter
+//!   outside its own cavity would not remove its triangle: it is not inserted, and the triangle is owed.
 //!
-//! Termination is Corollary 3's for κ below [`guaranteed_angle`](crate::promise::guaranteed_angle); beyond it the vertex budget ends what does not end by itself. The
-//! result says which it was. A piece that coordinates cannot split any more ends the run with its place.
+//! Termination is Corollary 3's for κ below [`guaranteed_angle`](crate::promise::guaranteed_angle); beyond it the
+//! vertex budget ends what does not end by itself. The result says which it was. A piece that coordinates cannot split
+//! any more ends the run with its place.
 
 mod balls;
 mod begin;
@@ -86,7 +91,8 @@ impl Default for Options {
 }
 
 impl Options {
-    /// What the judge holds a mesh to that was made by these options; `foreign`: it comes from elsewhere, without links to curves.
+    /// What the judge holds a mesh to that was made by these options; `foreign`: it comes from elsewhere, without links
+    /// to curves.
     pub fn promise(&self, foreign: bool) -> Promise {
         let lopping = LoppingPromise {
             beta: self.rules.beta,
@@ -146,7 +152,8 @@ pub enum Shrinking {
     Literal,
 }
 
-/// Meshes a domain whose curves turn at most π/3 each, as long as `watch` says to go on; what a valid mesh needs is still done then.
+/// Meshes a domain whose curves turn at most π/3 each, as long as `watch` says to go on; what a valid mesh needs is
+/// still done then.
 ///
 /// # Errors
 /// Where coordinates cannot tell features apart.

@@ -64,9 +64,10 @@ impl Lopping {
 
     /// Whether a vertex lies in the open diametral circle of a piece.
     ///
-    /// If the piece is an edge of D, one of the two apexes does if any vertex does. If it is not, look at the quadrilateral of the piece
-    /// `x y` and the first edge `a b` that crosses it: y lies not inside the circle of `x a b`, so the angles at a and b sum up to at
-    /// least 180°, and the larger is at least 90°; both are 90° only if all four are cocircular: then the edge is flipped.
+    /// If the piece is an edge of D, one of the two apexes does if any vertex does. If it is not, look at the
+    /// quadrilateral of the piece `x y` and the first edge `a b` that crosses it: y lies not inside the circle of
+    /// `x a b`, so the angles at a and b sum up to at least 180°, and the larger is at least 90°; both are 90° only if
+    /// all four are cocircular: then the edge is flipped.
     fn encroacher(&mut self, id: PieceId) -> Look {
         let piece = *self.state.subcurves.get(id);
         let [x, y] = piece.ends;
@@ -103,7 +104,8 @@ impl Lopping {
         Look::Encroached(y)
     }
 
-    /// The side opposite to x, in the triangle that the segment from x to y enters; `None` where a vertex blocks the way.
+    /// The side opposite to x, in the triangle that the segment from x to y enters; `None` where a vertex blocks the
+    /// way.
     fn crossing_side(&self, x: VertexId, y: Point) -> Option<Side> {
         let topology = self.delaunay.topology();
         let px = self.delaunay.point(x);
@@ -130,14 +132,16 @@ impl Lopping {
         blocking.unwrap_or(x)
     }
 
-    /// The end of a crossing side that lies inside the diametral circle of `x y`. Spokes are not encroached, only hidden by ties.
+    /// The end of a crossing side that lies inside the diametral circle of `x y`. Spokes are not encroached, only
+    /// hidden by ties.
     fn inside_diametral_of(&self, x: Point, y: Point, crossing: Side, spoke: bool) -> Option<VertexId> {
         let topology = self.delaunay.topology();
         let inside = |&v: &VertexId| in_diametral(x, y, self.delaunay.point(v)) == CircleSide::Inside;
         [topology.origin(crossing), topology.target(crossing)].into_iter().filter(|_| !spoke).find(inside)
     }
 
-    /// Flips a side between cocircular triangles (both triangulations are Delaunay); `false` where they are not, or a piece lies on it.
+    /// Flips a side between cocircular triangles (both triangulations are Delaunay); `false` where they are not, or a
+    /// piece lies on it.
     fn flip_to_reach(&mut self, side: Side) -> bool {
         let topology = self.delaunay.topology();
         let far = topology.apex(topology.twin(side));
@@ -161,7 +165,8 @@ impl Lopping {
         self.split_piece_at(id, t, why);
     }
 
-    /// Splits a piece at a parameter: a vertex, two pieces. `None`, and the run is over, where coordinates cannot hold it.
+    /// Splits a piece at a parameter: a vertex, two pieces. `None`, and the run is over, where coordinates cannot hold
+    /// it.
     pub(super) fn split_piece_at(&mut self, id: PieceId, t: f64, why: &'static str) -> Option<[PieceId; 2]> {
         let piece = *self.state.subcurves.get(id);
         let at = self.shape(piece.carrier).point(t);
@@ -230,7 +235,8 @@ impl Lopping {
         }
     }
 
-    /// The cavity's border to search in: within points on one circle it has as many sides as there are points, and as many pieces.
+    /// The cavity's border to search in: within points on one circle it has as many sides as there are points, and as
+    /// many pieces.
     pub(super) fn sorted_border(&self) -> Vec<Side> {
         let mut border = self.state.cavity.border.clone();
         border.sort_unstable();

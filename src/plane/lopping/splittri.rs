@@ -109,7 +109,8 @@ impl Lopping {
             }
             return;
         }
-        // What is hidden now and was not encroached is a spoke, by rounding; so is a center in a ball whose arcs it does not encroach.
+        // What is hidden now and was not encroached is a spoke, by rounding; so is a center in a ball whose arcs it
+        // does not encroach.
         let border = self.sorted_border();
         let hides_spoke = pieces.iter().any(|(side, _)| border.binary_search(side).is_err());
         let in_ball = self.balls.holding(center).is_some();

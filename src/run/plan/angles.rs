@@ -1,15 +1,19 @@
 //! The largest smallest angle: what is done where the one asked for may be beyond what a drawing allows.
 //!
-//! Above 30° no engine is proven to end, and up to what angle it does depends on the drawing: some reach 36°, some not 33°. Beyond, the engine makes
-//! as many bad triangles as it removes, and what it leaves is worse than what a smaller angle would have given. So:
+//! Above 30° no engine is proven to end, and up to what angle it does depends on the drawing: some reach 36°, some not
+//! 33°. Beyond, the engine makes as many bad triangles as it removes, and what it leaves is worse than what a smaller
+//! angle would have given. So:
 //!
-//! - Up to [`USUAL_DEG`], where most runs end, the engine runs as it is asked to. It stops by itself where angles do not get larger any more
-//!   ([`Headway`](crate::refine::Headway)); then the next smaller whole degree is tried, and so on.
-//! - Beyond it, the engine runs at [`USUAL_DEG`] first. What that takes, N vertices, is the measure: the angle asked for gets [`MORE`]·N. So the whole
-//!   costs less than 3·N, whatever the angle, and where it ends within that it gives the mesh that it always gave.
+//! - Up to [`USUAL_DEG`], where most runs end, the engine runs as it is asked to. It stops by itself where angles do
+//!   not get larger any more ([`Headway`](crate::refine::Headway)); then the next smaller whole degree is tried, and so
+//!   on.
+//! - Beyond it, the engine runs at [`USUAL_DEG`] first. What that takes, N vertices, is the measure: the angle asked
+//!   for gets [`MORE`]·N. So the whole costs less than 3·N, whatever the angle, and where it ends within that it gives
+//!   the mesh that it always gave.
 //!
-//! *The best mesh* is that of the largest angle that ended. The state in which the hopeless run had its smallest angle largest is no better: it held half a
-//! degree more, but sizes, which come after angles, were not met in it; and nothing could be typed that gives it again without the detour.
+//! *The best mesh* is that of the largest angle that ended. The state in which the hopeless run had its smallest angle
+//! largest is no better: it held half a degree more, but sizes, which come after angles, were not met in it; and
+//! nothing could be typed that gives it again without the detour.
 
 use super::Plan;
 use crate::domain::Domain;
@@ -28,8 +32,8 @@ const SURE_DEG: f64 = 30.0;
 const MORE: f64 = 1.9;
 
 impl Plan {
-    /// Refines a domain whose curves turn at most τ: to the angle asked for, or to the largest of which the run ends. Then the reason to stop is
-    /// [`StopReason::NoProgress`], and the angle stands beside it.
+    /// Refines a domain whose curves turn at most τ: to the angle asked for, or to the largest of which the run ends.
+    /// Then the reason to stop is [`StopReason::NoProgress`], and the angle stands beside it.
     ///
     /// # Errors
     /// Where coordinates cannot tell features apart, or the watch says stop before there is a mesh.
@@ -86,7 +90,8 @@ impl Plan {
         Ok(refined)
     }
 
-    /// What ended where coordinates cannot hold a finer mesh, at an angle that may be the reason: the mesh of one that ends, where there is one.
+    /// What ended where coordinates cannot hold a finer mesh, at an angle that may be the reason: the mesh of one that
+    /// ends, where there is one.
     ///
     /// # Errors
     /// As [`Plan::refine`].

@@ -7,7 +7,8 @@ use crate::run::healing::Healing;
 use crate::run::report::FailureReport;
 use crate::watch::Watch;
 
-/// Tolerances that are tried where slivers are too dear, as multiples of the width that is told for them, which is at most the true one.
+/// Tolerances that are tried where slivers are too dear, as multiples of the width that is told for them, which is at
+/// most the true one.
 const WELDS: [f64; 4] = [2.0, 4.0, 8.0, 16.0];
 
 impl Plan {

@@ -1,4 +1,5 @@
-//! What was asked of a run, as its report tells it: every option of the request under its name there, in the order of the groups.
+//! What was asked of a run, as its report tells it: every option of the request under its name there, in the order of
+//! the groups.
 //!
 //! What a run did not come to, and what is for another engine, is `null`.
 
@@ -11,7 +12,8 @@ use serde::Serialize;
 use serde_json::{Map, Value, json};
 use std::borrow::Cow;
 
-/// What is told first: the unit of all lengths (`null`: the file's own, which is not known), the engine, and the two angles of its theory.
+/// What is told first: the unit of all lengths (`null`: the file's own, which is not known), the engine, and the two
+/// angles of its theory.
 const FIRST: [&str; 4] = ["length_unit", "engine", "angle_min_deg", "tau_rad"];
 
 /// Every option as used. Lengths in `length_unit`, areas in its square.
@@ -24,7 +26,7 @@ impl RequestReport {
     pub fn new(request: &Request) -> Self {
         let asked = serde_json::to_value(request).expect("options are words, numbers and lists of them");
         let mut told: Map<String, Value> = FIRST.map(|name| (name.to_owned(), Value::Null)).into_iter().collect();
-        for option in in_groups() {
+        for option in Request::options_in_groups() {
             told.insert(option.report.clone(), tell(option, request, &asked[&option.key]));
         }
         Self(told)
@@ -46,12 +48,6 @@ impl RequestReport {
     pub fn get(&self, name: &str) -> &Value {
         self.0.get(name).unwrap_or(&Value::Null)
     }
-}
-
-fn in_groups() -> Vec<&'static Described> {
-    let mut options: Vec<&Described> = Request::options().iter().collect();
-    options.sort_by_key(|option| option.group);
-    options
 }
 
 /// An option as it is told; `asked` is what the request's file says of it, `null` where it says nothing.
@@ -112,7 +108,8 @@ impl JsonSchema for RequestReport {
             (name.to_owned(), json!({ "type": [kind, "null"], "description": what }))
         };
         let mut properties: Map<String, Value> = FIRST.into_iter().map(first).collect();
-        properties.extend(in_groups().into_iter().map(|option| (option.report.clone(), schema(option))));
+        properties
+            .extend(Request::options_in_groups().into_iter().map(|option| (option.report.clone(), schema(option))));
         let required: Vec<&String> = properties.keys().collect();
         json_schema!({
             "description": "Every option as used. Lengths in `length_unit`, areas in its square",
