@@ -43,7 +43,7 @@ ids! {
     /// A curve of a domain.
     CurveId,
     /// A piece of a curve (or of a corner arc) in C′, the subcurves of a refinement.
-    PieceId,
+    SubcurveId,
     /// A kept region of a domain.
     RegionId,
     /// A name: of boundaries, of regions, of layers.

@@ -22,7 +22,7 @@
 //! let verdict = verify(Some(&domain), &mesh, &options.promise(false));
 //! assert!(verdict.kept());
 //! assert!(mesh.edges_of("bore").count() > 0);
-//! assert_eq!(verdict.excused.len(), 1); // the corner where the circles touch excuses the sharp triangles there
+//! assert_eq!(verdict.exempt.len(), 1); // the corner where the circles touch excuses the sharp triangles there
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!

@@ -318,7 +318,7 @@ fn the_railway_loop_is_meshed_with_every_promise_kept() {
         let outcome = run(&source, &request, Extent::Whole(&mut |_| true), &no_clock);
         assert_eq!(outcome.exit, Exit::Done, "{engine:?} {order:?}: {:#?}", outcome.report);
         let verdict = outcome.verdict.unwrap();
-        assert!(verdict.kept() && verdict.excused.is_empty(), "{engine:?} {order:?}");
+        assert!(verdict.kept() && verdict.exempt.is_empty(), "{engine:?} {order:?}");
         let domain = outcome.domain.unwrap();
         assert_eq!(domain.flaws(), Vec::<String>::new());
         assert!(domain.curves().iter().any(|c| c.curve.kind() == "clothoid"));

@@ -46,7 +46,7 @@ fn kept(drawing: &Drawing, options: &Options, strategy: &mut dyn SteinerStrategy
     let domain = domain_of(drawing, TAU_RAD);
     let refined = gcdr::refine(&domain, options, strategy, Until::End, &mut |_| true).expect("coordinates can hold it");
     assert_eq!(refined.stop.reason, StopReason::Done);
-    assert_eq!(refined.stop.owed, 0);
+    assert_eq!(refined.stop.unresolved, 0);
     let mesh = refined.mesh.expect("a run that is done has a mesh");
     let verdict = verify(Some(&domain), &mesh, &options.promise(strategy.is_free(), false));
     assert_kept(&verdict);
@@ -54,7 +54,7 @@ fn kept(drawing: &Drawing, options: &Options, strategy: &mut dyn SteinerStrategy
 }
 
 fn excused(verdict: &Verdict) -> usize {
-    verdict.excused.iter().map(|e| e.cells.len()).sum()
+    verdict.exempt.iter().map(|e| e.cells.len()).sum()
 }
 
 #[test]
@@ -323,7 +323,7 @@ fn random_complexes_end_and_verify() {
         let options = options(20.7, Regions::CENTERS);
         let refined = gcdr::refine(&domain, &options, &mut Center, Until::End, &mut |_| true)
             .unwrap_or_else(|e| panic!("seed {seed}: {e}"));
-        assert_eq!((refined.stop.reason, refined.stop.owed), (StopReason::Done, 0), "seed {seed}");
+        assert_eq!((refined.stop.reason, refined.stop.unresolved), (StopReason::Done, 0), "seed {seed}");
         let verdict = verify(Some(&domain), &refined.mesh.unwrap(), &options.promise(false, false));
         let broken: Vec<_> = verdict.checks.iter().filter(|c| c.status == Status::Broken).collect();
         assert!(broken.is_empty(), "seed {seed}: {broken:#?}");
@@ -344,7 +344,7 @@ fn a_budget_and_a_watch_end_a_run_with_a_valid_mesh() {
     let few = Options { max_vertices: 300, ..options(30.0, Regions::CENTERS) };
     let refined = gcdr::refine(&domain, &few, &mut Center, Until::End, &mut |_| true).unwrap();
     assert_eq!(refined.stop.reason, StopReason::VertexBudget);
-    assert!(refined.stop.owed > 0 && refined.mesh.is_some());
+    assert!(refined.stop.unresolved > 0 && refined.mesh.is_some());
     let all = options(30.0, Regions::CENTERS);
     let refined = gcdr::refine(&domain, &all, &mut Center, Until::End, &mut |p| p.vertices < 200).unwrap();
     assert_eq!(refined.stop.reason, StopReason::Cancelled);

@@ -320,13 +320,13 @@ fn an_angle_is_proven_only_below_the_guarantee_of_the_turning() {
 }
 
 #[test]
-fn a_small_angle_at_an_acute_corner_is_excused_and_told_by_corner() {
+fn a_small_angle_at_an_acute_corner_is_exempt_and_told_by_corner() {
     for arcs in [true, false] {
         let mut scene = wedge(HERE);
         scene.lopping().arc_turning_rad = arcs.then_some(FRAC_PI_3);
         let verdict = scene.judged();
         assert_eq!(told(&verdict), [""; 0]);
-        let [excuse] = verdict.excused.as_slice() else { panic!("{:?}", verdict.excused) };
+        let [excuse] = verdict.exempt.as_slice() else { panic!("{:?}", verdict.exempt) };
         assert_eq!((excuse.at, excuse.why), ([0.0, 0.0], "local_feature_size"));
         assert_eq!(excuse.cells, [triangle_at(&scene, 1.0, 0.1).0]);
         let asked = if arcs { Status::Reached } else { Status::NotAsked };
@@ -595,7 +595,7 @@ fn small_triangles_that_the_user_wants_left_alone_are_told_apart() {
     scene.promise.sizing.min_edge = Some(1.0);
     let verdict = scene.judged();
     assert_eq!(told(&verdict), [""; 0]);
-    assert_eq!(verdict.excused[0].why, "min_edge");
+    assert_eq!(verdict.exempt[0].why, "min_edge");
     scene.promise.sizing.min_edge = Some(0.5);
     assert_eq!(broken(&scene.judged()), ["min_angle"]);
 }

@@ -2,9 +2,9 @@
 
 use proptest::prelude::*;
 use squinch::geometry::Point;
-use squinch::ids::{Id, PieceId, RegionId, TriangleId, VertexId};
+use squinch::ids::{Id, RegionId, SubcurveId, TriangleId, VertexId};
 use squinch::plane::insert::{Cavity, Degenerate, Kernel, Location};
-use squinch::plane::triangulation::{GHOST, Side, Triangulation};
+use squinch::plane::triangulation::{GHOST, HalfEdge, Triangulation};
 use std::collections::BTreeSet;
 
 type Whole = (i64, i64);
@@ -297,7 +297,7 @@ fn locate_tells_vertices_sides_triangles_and_the_outside_apart() {
             assert_eq!(d.locate(PLAIN.place(p), near), Location::Vertex(VertexId(i as u32)));
             let between = Point::new(p.0 as f64 + 0.5, p.1 as f64);
             match d.locate(between, near) {
-                Location::Side(s) => {
+                Location::HalfEdge(s) => {
                     let mut ends = [topology.origin(s), topology.target(s)].map(|v| d.point(v));
                     ends.sort_by(|a, b| a.x.total_cmp(&b.x));
                     assert_eq!(ends, [PLAIN.place(p), PLAIN.place((p.0 + 1, p.1))]);
@@ -349,7 +349,7 @@ fn looking_changes_nothing_and_finds_just_the_triangles_in_conflict() {
 /// Labels of a side by its ends, so that they can be followed through changes of ids.
 fn pieces(t: &Triangulation) -> BTreeSet<(u32, u32, u32)> {
     let sides = t.triangles().flat_map(|t| (0..3).map(move |i| t.side_of(i)));
-    sides.filter_map(|s| t.piece(s).map(|piece| (t.origin(s).0, t.target(s).0, piece.0))).collect()
+    sides.filter_map(|s| t.subcurve(s).map(|subcurve| (t.origin(s).0, t.target(s).0, subcurve.0))).collect()
 }
 
 #[test]
@@ -365,8 +365,8 @@ fn filling_carries_pieces_and_regions() {
         for s in (0..3).map(|i| t.side_of(i)) {
             let (a, b) = (d.topology().origin(s), d.topology().target(s));
             if on_line(&d, a) && on_line(&d, b) {
-                let piece = PieceId(d.point(a).y.min(d.point(b).y) as u32);
-                d.topology_mut().set_piece(s, Some(piece));
+                let subcurve = SubcurveId(d.point(a).y.min(d.point(b).y) as u32);
+                d.topology_mut().set_piece(s, Some(subcurve));
             }
         }
     }
@@ -383,7 +383,7 @@ fn filling_carries_pieces_and_regions() {
         let right = d.topology().corners(t).iter().any(|&v| d.point(v).x > 4.0);
         assert_eq!(d.topology().region(t), Some(RegionId(u32::from(right))));
     }
-    let ghosts = d.topology().sides_from(GHOST).map(Side::triangle);
+    let ghosts = d.topology().sides_from(GHOST).map(HalfEdge::triangle);
     assert!(ghosts.into_iter().all(|t| d.topology().region(t).is_none()));
     // Removal keeps the pieces of other sides too.
     let last = d.points().len() as u32 - 1;
@@ -392,10 +392,10 @@ fn filling_carries_pieces_and_regions() {
         assert_eq!(pieces(d.topology()), before);
         assert_eq!(d.flaws(), Vec::<String>::new());
     }
-    let s = d.topology().triangles().map(|t| t.side_of(0)).find(|&s| d.topology().piece(s).is_some());
+    let s = d.topology().triangles().map(|t| t.side_of(0)).find(|&s| d.topology().subcurve(s).is_some());
     if let Some(s) = s {
         d.topology_mut().set_piece(s, None);
-        assert_eq!(pieces(d.topology()).len(), before.len() - 2, "a piece goes from both twins");
+        assert_eq!(pieces(d.topology()).len(), before.len() - 2, "a subcurve goes from both twins");
     }
 }
 
@@ -435,7 +435,7 @@ fn a_walk_through_a_triangulation_spoilt_by_flips_still_ends() {
     let n = d.topology().triangle_capacity() as i64;
     let mut flips = 0;
     while flips < 300 {
-        let s = Side(rng.below(3 * n) as u32);
+        let s = HalfEdge(rng.below(3 * n) as u32);
         let topology = d.topology();
         let corners = [topology.origin(s), topology.target(s), topology.apex(s), topology.apex(topology.twin(s))];
         if corners.contains(&GHOST) {

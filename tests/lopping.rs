@@ -117,7 +117,7 @@ fn a_zero_angle_costs_vertices_but_ends() {
     for corner_arcs in [None, Some(FRAC_PI_3)] {
         let (mesh, verdict) = kept(&drawing, 0.5, &Options { corner_arcs, ..Options::default() });
         assert!((50..400).contains(&mesh.nodes.len()), "{} nodes", mesh.nodes.len());
-        assert!(!verdict.excused.is_empty());
+        assert!(!verdict.exempt.is_empty());
     }
 }
 
@@ -194,7 +194,7 @@ fn a_budget_ends_with_a_valid_mesh_and_says_what_is_owed() {
     let domain = domain_of(&wedge(10.0, [1.0, 1.0]), 0.5);
     let refined = refine(&domain, &options);
     assert_eq!(refined.stop.reason, StopReason::VertexBudget);
-    assert!(refined.stop.owed > 0 && !refined.stop.places.is_empty());
+    assert!(refined.stop.unresolved > 0 && !refined.stop.places.is_empty());
     let verdict = verify(Some(&domain), &refined.mesh.expect("it was valid before"), &options.promise(false));
     let broken: Vec<_> = verdict.checks.iter().filter(|c| c.status == Status::Broken).map(|c| c.name).collect();
     assert!(broken.iter().all(|name| ["size", "min_angle", "max_angle"].contains(name)), "{broken:?}");
@@ -207,7 +207,7 @@ fn a_budget_too_small_for_the_curves_has_places_but_no_mesh() {
     curves.extend([(-1.0, 0.0, 1.0, 0.0, 0.0), (-0.9, 1e-3, 0.9, 1e-3, 0.0)]);
     let refined = refine(&domain_of(&drawing_of(&curves), 0.5), &options);
     assert_eq!(refined.stop.reason, StopReason::VertexBudget);
-    assert!(refined.mesh.is_none() && refined.stop.owed > 0 && !refined.stop.places.is_empty());
+    assert!(refined.mesh.is_none() && refined.stop.unresolved > 0 && !refined.stop.places.is_empty());
 }
 
 #[test]
@@ -221,7 +221,7 @@ fn a_watcher_can_stop_the_run() {
     let refined = lopping::refine(&domain_of(&wedge(10.0, [1.0, 1.0]), 0.5), &options, Until::End, &mut watch)
         .expect("no arithmetic limit");
     assert_eq!(refined.stop.reason, StopReason::Cancelled);
-    assert!(told == 1 && refined.mesh.is_some() && refined.stop.owed > 0);
+    assert!(told == 1 && refined.mesh.is_some() && refined.stop.unresolved > 0);
 }
 
 #[test]
@@ -409,7 +409,7 @@ fn an_angle_beyond_reach_ends_with_the_mesh_of_one_that_ends() {
             assert_eq!(hopeless.exit, Exit::Missed);
             let stop = hopeless.report.stop.expect("it ended");
             assert_eq!((stop.reason, stop.angle_deg), (StopReason::NoProgress, Some(34.0)));
-            assert!(stop.owed > 0 && !stop.places.is_empty());
+            assert!(stop.unresolved > 0 && !stop.places.is_empty());
             assert!(hopeless.report.quality.expect("of a mesh").min_unexcused_angle_deg >= 34.0);
             assert_eq!(hopeless.mesh, usual.mesh, "{engine:?} {steiner:?} {angle}");
         }
@@ -431,7 +431,11 @@ fn a_run_that_gets_nowhere_ends_by_itself() {
     curves.extend([(-0.3, 0.1, 0.7, 0.2, 0.0), (-0.5, -0.5, 0.4, -0.6, 0.3)]);
     let refined = refine(&domain_of(&drawing_of(&curves), 0.5), &options);
     assert_eq!(refined.stop.reason, StopReason::NoProgress);
-    assert!(refined.vertices < 200_000 && refined.mesh.is_some() && refined.stop.owed > 0, "{}", refined.vertices);
+    assert!(
+        refined.vertices < 200_000 && refined.mesh.is_some() && refined.stop.unresolved > 0,
+        "{}",
+        refined.vertices
+    );
 }
 
 #[test]

@@ -122,13 +122,13 @@ fn areas_of_every_kind_of_curve_are_those_of_closed_forms() {
             }
             let domain = drawing.arrange(&ArrangeOptions::default()).unwrap_or_else(|e| panic!("{name}: {e}"));
             let bounds = domain.bounds();
-            let error = (domain.measure() - area * scale * scale).abs() / (bounds.width() * bounds.height());
+            let error = (domain.area() - area * scale * scale).abs() / (bounds.width() * bounds.height());
             // Ends welded at the offset are rounded to its last place: 1e3·ε of the size.
             let allowed = 1e-12 + 16.0 * f64::EPSILON * offset / scale;
             assert!(error <= allowed, "{name} at scale {scale}, offset {offset}: off by {error:e} of the box");
-            let cut = domain.split_to_turning(0.1).measure();
+            let cut = domain.split_to_turning(0.1).area();
             assert!(
-                (cut - domain.measure()).abs() <= allowed * bounds.width() * bounds.height(),
+                (cut - domain.area()).abs() <= allowed * bounds.width() * bounds.height(),
                 "{name}, cut to τ = 0.1"
             );
         }
@@ -165,7 +165,7 @@ fn a_circle_is_a_circle_at_every_pace_of_its_parameter() {
     for exponent in [-12, -6, -3, -1, 1, 3, 6, 12] {
         let c = 10f64.powi(exponent);
         let domain = measured(paced_quarter(c));
-        assert!((domain.measure() - PI / 4.0).abs() < 4e-15, "pace {c:e}: {}", domain.measure());
+        assert!((domain.area() - PI / 4.0).abs() < 4e-15, "pace {c:e}: {}", domain.area());
         let arc = paced_quarter(c).swap_remove(0).expect("an arc");
         assert!((arc.length() - PI / 2.0).abs() < 4e-15, "pace {c:e}: {}", arc.length());
         assert!((arc.turning(0.0, 1.0) - PI / 2.0).abs() < 1e-14, "pace {c:e}: {}", arc.turning(0.0, 1.0));

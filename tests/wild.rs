@@ -16,14 +16,9 @@ fn arranged(drawing: &Drawing) -> Domain {
 /// The area within its slack, or within what the itemised repairs may change: the tolerance along the border.
 fn is_right(known: &Known, what: &str) {
     let domain = arranged(&known.drawing);
-    let error = (domain.measure() - known.area).abs();
+    let error = (domain.area() - known.area).abs();
     let healed = if domain.repairs().is_empty() { 0.0 } else { 2.0 * domain.tolerance() * known.perimeter };
-    assert!(
-        error <= (known.slack() * known.area).max(healed),
-        "{what}: {} instead of {}",
-        domain.measure(),
-        known.area
-    );
+    assert!(error <= (known.slack() * known.area).max(healed), "{what}: {} instead of {}", domain.area(), known.area);
 }
 
 /// One of each family, small.

@@ -263,7 +263,7 @@ fn layers(drawing: &Drawing, watch: &mut Watch) -> Vec<LayerFindings> {
             entities: layer.line_types.values().sum(),
             line_types: layer.line_types.clone(),
             closed_loops: domain.as_ref().map_or(0, closed_loops),
-            area: domain.map(|domain| domain.measure()),
+            area: domain.map(|domain| domain.area()),
         }
     };
     drawing.layers.enumerate().map(|(id, layer)| finding(id, layer)).collect()
@@ -330,7 +330,7 @@ impl DomainFindings {
             points: domain.points().len(),
             curves: domain.curves().len(),
             tolerance: domain.tolerance(),
-            area: domain.measure(),
+            area: domain.area(),
             regions: domain
                 .regions()
                 .iter()

@@ -9,7 +9,7 @@ use squinch::domain::{Repair, RepairKind};
 use squinch::refine::StopReason;
 use squinch::run::report::{FailureReport, InputReport, Report};
 use squinch::run::{Exit, Outcome};
-use squinch::verify::{Check, Excuse, Status, Verdict};
+use squinch::verify::{Check, Exemption, Status, Verdict};
 use squinch::watch::Progress;
 use std::collections::BTreeMap;
 use std::io::{self, IsTerminal, Write};
@@ -378,7 +378,7 @@ fn excused(report: &Report) -> String {
     let (Some(quality), Some(promise)) = (&report.quality, &report.promise) else { return String::new() };
     let triangles = |n: usize| plural(n, "triangle", "triangles");
     let (by_size, corners): (Vec<_>, Vec<_>) = promise.excused.by_corner.iter().partition(|e| e.why == "min_edge");
-    let cells = |excuses: &[&Excuse]| excuses.iter().map(|e| e.cells.len()).sum::<usize>();
+    let cells = |excuses: &[&Exemption]| excuses.iter().map(|e| e.cells.len()).sum::<usize>();
     let mut parts = Vec::new();
     if !corners.is_empty() {
         let places = plural(corners.len(), "sharp corner", "sharp corners");
@@ -439,7 +439,7 @@ fn stop_row(report: &Report, row: &dyn Fn(&str, &str)) {
         StopReason::NoProgress => "the angles got no larger",
     };
     let place = stop.places.first().map_or_else(String::new, |at| format!(", one at {}", place(*at)));
-    row("stopped", &format!("{reason}; {} still owed{place}", plural(stop.owed, "cell", "cells")));
+    row("stopped", &format!("{reason}; {} unresolved{place}", plural(stop.unresolved, "cell", "cells")));
     let held = report.quality.as_ref().map(|quality| quality.min_unexcused_angle_deg);
     if let (Some(angle), Some(held)) = (stop.angle_deg, held) {
         let held = format!("the mesh holds {:.2}° outside of excused places", (held * 100.0).floor() / 100.0);

@@ -32,7 +32,7 @@ use super::Curve;
 use crate::geometry::boxes::distance_to_box;
 use crate::geometry::{Point, Vec2};
 use contact::{Contacts, Track, foot};
-use hull::{Hulls, Piece, length};
+use hull::{HullNode, Hulls, length};
 
 /// How two curves meet.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -232,8 +232,8 @@ impl<'c> Search<'c> {
     }
 
     /// Whether two pieces of one curve follow each other and turn too little to meet anywhere else.
-    fn are_joined(&self, p: &Piece, q: &Piece) -> bool {
-        let closed = |p: &Piece, q: &Piece| p.t[0] == 0.0 && q.t[1] == 1.0 && p.hull.first() == q.hull.last();
+    fn are_joined(&self, p: &HullNode, q: &HullNode) -> bool {
+        let closed = |p: &HullNode, q: &HullNode| p.t[0] == 0.0 && q.t[1] == 1.0 && p.hull.first() == q.hull.last();
         if p.t[1] != q.t[0] && !closed(p, q) {
             return false;
         }
@@ -247,7 +247,7 @@ impl<'c> Search<'c> {
     }
 
     /// Ends of either piece that lie within the tolerance of the other curve: `all` of them, or only the ends of spans.
-    fn guess_at_ends(&self, p: &Piece, q: &Piece, all: bool, guesses: &mut Vec<Guess>) {
+    fn guess_at_ends(&self, p: &HullNode, q: &HullNode, all: bool, guesses: &mut Vec<Guess>) {
         let tolerance = self.contacts.tolerance;
         for (piece, other, curve, of_a) in [(p, q, self.contacts.b.curve, true), (q, p, self.contacts.a.curve, false)] {
             for (end, place) in [(0, piece.first()), (1, piece.last())] {
@@ -264,7 +264,7 @@ impl<'c> Search<'c> {
     }
 
     /// Where the chords of two straight pieces cross, if the curves are within the tolerance there.
-    fn guess_between_chords(&self, p: &Piece, q: &Piece, guesses: &mut Vec<Guess>) {
+    fn guess_between_chords(&self, p: &HullNode, q: &HullNode, guesses: &mut Vec<Guess>) {
         let (pp, qq) = (p.last() - p.first(), q.last() - q.first());
         let (between, area) = (q.first() - p.first(), pp.cross(qq));
         let [along_p, along_q] = [between.cross(qq) / area, between.cross(pp) / area];
@@ -281,13 +281,13 @@ impl<'c> Search<'c> {
     }
 
     /// The crossing of two slender pieces without a common direction, where there is one; whether that is certain.
-    fn guess_crossing(&self, p: &Piece, q: &Piece, guesses: &mut Vec<Guess>) -> bool {
+    fn guess_crossing(&self, p: &HullNode, q: &HullNode, guesses: &mut Vec<Guess>) -> bool {
         let (pp, qq) = (p.last() - p.first(), q.last() - q.first());
         let between = q.first() - p.first();
         let area = pp.cross(qq);
-        let at = |piece: &Piece, fraction: f64| piece.t[0] + fraction.clamp(0.0, 1.0) * (piece.t[1] - piece.t[0]);
+        let at = |piece: &HullNode, fraction: f64| piece.t[0] + fraction.clamp(0.0, 1.0) * (piece.t[1] - piece.t[0]);
         let (t, u) = (at(p, between.cross(qq) / area), at(q, between.cross(pp) / area));
-        let room = |piece: &Piece| {
+        let room = |piece: &HullNode| {
             let width = piece.t[1] - piece.t[0];
             [(piece.t[0] - width).max(0.0), (piece.t[1] + width).min(1.0)]
         };
@@ -303,12 +303,12 @@ impl<'c> Search<'c> {
         // The curves are within the tolerance of each other for tolerance/sin θ; twice that for their bending.
         let reach = 2.0 * tolerance / sine;
         // A crossing at a joint may be rounded to either side of it: both sides may find it.
-        let inside = |piece: &Piece, t: f64| {
+        let inside = |piece: &HullNode, t: f64| {
             let slack = (piece.t[1] - piece.t[0]) * (reach / piece.size).min(1.0);
             piece.t[0] - slack <= t && t <= piece.t[1] + slack
         };
         if inside(p, t) && inside(q, u) {
-            let is_in = |piece: &Piece, t: f64| {
+            let is_in = |piece: &HullNode, t: f64| {
                 let far = [piece.first(), piece.last()].iter().all(|&end| length(end - place) > reach);
                 far && piece.t[0] <= t && t <= piece.t[1]
             };
@@ -372,7 +372,7 @@ impl Guess {
 }
 
 /// Whether two pieces are further apart than `gap`, as their boxes or the strips along their chords show.
-fn are_apart(p: &Piece, q: &Piece, gap: f64) -> bool {
+fn are_apart(p: &HullNode, q: &HullNode, gap: f64) -> bool {
     let (r, s) = (p.bounds, q.bounds);
     r.x0 > s.x1 + gap
         || s.x0 > r.x1 + gap
@@ -383,7 +383,7 @@ fn are_apart(p: &Piece, q: &Piece, gap: f64) -> bool {
 }
 
 /// Whether the strip along the chord of `p` stays further than `gap` from `q`.
-fn strip_is_clear(p: &Piece, q: &Piece, gap: f64) -> bool {
+fn strip_is_clear(p: &HullNode, q: &HullNode, gap: f64) -> bool {
     if p.normal == Vec2::ZERO || q.is_group() {
         return false;
     }
@@ -393,20 +393,20 @@ fn strip_is_clear(p: &Piece, q: &Piece, gap: f64) -> bool {
     low > p.spread[1] + gap || high < p.spread[0] - gap
 }
 
-fn is_beside(x: Point, piece: &Piece, gap: f64) -> bool {
+fn is_beside(x: Point, piece: &HullNode, gap: f64) -> bool {
     let d = if piece.normal == Vec2::ZERO { 0.0 } else { piece.normal.dot(x - piece.first()) };
     distance_to_box(x, piece.bounds) <= gap && piece.spread[0] - gap <= d && d <= piece.spread[1] + gap
 }
 
 /// The parameter at which the piece, were it straight, would be nearest to x.
-fn beside_chord(piece: &Piece, x: Point) -> f64 {
+fn beside_chord(piece: &HullNode, x: Point) -> f64 {
     let chord = piece.last() - piece.first();
     let fraction = if chord == Vec2::ZERO { 0.5 } else { (x - piece.first()).dot(chord) / chord.hypot2() };
     piece.t[0] + fraction.clamp(0.0, 1.0) * (piece.t[1] - piece.t[0])
 }
 
 /// Whether no direction, either way, is in the cones of tangents of both pieces.
-fn no_common_direction(p: &Piece, q: &Piece) -> bool {
+fn no_common_direction(p: &HullNode, q: &HullNode) -> bool {
     let (Some(c), Some(d)) = (p.cone, q.cone) else { return false };
     let signs = [c.right, c.left].map(|u| [d.right, d.left].map(|v| u.cross(v)));
     let signs = signs.as_flattened();
@@ -414,7 +414,7 @@ fn no_common_direction(p: &Piece, q: &Piece) -> bool {
 }
 
 /// Which of two pieces is to be halved: the longer one of those that are not straight yet.
-fn longer(p: &Piece, q: &Piece, straight: [bool; 2]) -> usize {
+fn longer(p: &HullNode, q: &HullNode, straight: [bool; 2]) -> usize {
     match straight {
         [true, false] => 1,
         [false, true] => 0,

@@ -41,7 +41,7 @@ struct Stretch {
 }
 
 /// Part of a hodograph in its own parameter.
-struct Piece {
+struct HodographPart {
     lo: f64,
     hi: f64,
     hodograph: Vec<Vec2>,
@@ -195,7 +195,7 @@ fn end_directions(hodograph: &[Vec2], noise: f64) -> Option<(Vec2, Vec2)> {
 }
 
 /// Pieces within half planes, cut further at inflections.
-fn one_way_pieces(hodograph: Vec<Vec2>, noise: f64) -> Vec<Piece> {
+fn one_way_pieces(hodograph: Vec<Vec2>, noise: f64) -> Vec<HodographPart> {
     let mut pieces = Vec::new();
     for piece in half_plane_pieces(hodograph, noise) {
         let h = &piece.hodograph;
@@ -220,7 +220,7 @@ fn one_way_pieces(hodograph: Vec<Vec2>, noise: f64) -> Vec<Piece> {
         for (k, from) in starts.iter().enumerate() {
             let to = cuts.get(k).copied().unwrap_or(1.0);
             let hi = if to == 1.0 { piece.hi } else { at(to) };
-            pieces.push(Piece { lo: at(*from), hi, hodograph: bernstein::restricted(h, *from, to) });
+            pieces.push(HodographPart { lo: at(*from), hi, hodograph: bernstein::restricted(h, *from, to) });
         }
     }
     pieces
@@ -228,7 +228,7 @@ fn one_way_pieces(hodograph: Vec<Vec2>, noise: f64) -> Vec<Piece> {
 
 /// Pieces each within an open half plane, cut where the hodograph vanishes; there the end coefficients are exactly
 /// zero.
-fn half_plane_pieces(hodograph: Vec<Vec2>, noise: f64) -> Vec<Piece> {
+fn half_plane_pieces(hodograph: Vec<Vec2>, noise: f64) -> Vec<HodographPart> {
     let (pieces, mut zeros) = try_half_planes(&hodograph, 0.0, 1.0, noise);
     zeros.extend(
         pieces.windows(2).filter(|pair| pair[0].hi == pair[1].lo && vanish_between(pair, noise)).map(|p| p[0].hi),
@@ -259,24 +259,24 @@ fn half_plane_pieces(hodograph: Vec<Vec2>, noise: f64) -> Vec<Piece> {
 }
 
 /// Whether the hodograph vanishes where two pieces meet.
-fn vanish_between(pair: &[Piece], noise: f64) -> bool {
+fn vanish_between(pair: &[HodographPart], noise: f64) -> bool {
     let vanishes = |d: Option<&Vec2>| d.is_some_and(|d| length(*d) <= noise);
     vanishes(pair[0].hodograph.last()) && vanishes(pair[1].hodograph.first())
 }
 
 /// Halves until each piece lies in a half plane or is lost in rounding; returns the pieces, and the middles of the gaps
 /// inside.
-fn try_half_planes(hodograph: &[Vec2], lo: f64, hi: f64, noise: f64) -> (Vec<Piece>, Vec<f64>) {
+fn try_half_planes(hodograph: &[Vec2], lo: f64, hi: f64, noise: f64) -> (Vec<HodographPart>, Vec<f64>) {
     /// The hodograph is that small after as many halvings only where it vanishes to rounding.
     const DEPTH: u32 = 48;
-    let mut pieces: Vec<Piece> = Vec::new();
+    let mut pieces: Vec<HodographPart> = Vec::new();
     let mut gaps: Vec<(f64, f64)> = Vec::new();
     let mut stack = vec![(lo, hi, 0, hodograph.to_vec())];
     for _ in 0..PIECE_BUDGET {
         let Some((a, b, depth, part)) = stack.pop() else { break };
         let moves = part.iter().any(|d| length(*d) > noise);
         if moves && in_half_plane(&part, noise) {
-            pieces.push(Piece { lo: a, hi: b, hodograph: part });
+            pieces.push(HodographPart { lo: a, hi: b, hodograph: part });
         } else if moves && depth < DEPTH {
             let mid = 0.5 * (a + b);
             let (left, right) = bernstein::split(&part, 0.5);

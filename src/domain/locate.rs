@@ -35,7 +35,7 @@ impl Side {
 
 /// A curve side that is seen from a point without anything between.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub(super) struct Sight {
+pub(super) struct VisibleSide {
     pub curve: CurveId,
     pub side: Side,
     pub distance: f64,
@@ -76,11 +76,11 @@ impl<'a> Locator<'a> {
     }
 
     /// The nearest curve and the side of it that faces `p`.
-    pub(super) fn sight(&self, p: Point) -> Option<Sight> {
+    pub(super) fn sight(&self, p: Point) -> Option<VisibleSide> {
         let distance = |i: usize, _| self.curve(i).nearest(p, 0.0, 1.0).1;
         let (item, distance) = self.boxes.nearest(p, f64::INFINITY, distance)?;
         let (curve, side) = self.facing(CurveId::from_index(item), p, distance);
-        Some(Sight { curve, side, distance })
+        Some(VisibleSide { curve, side, distance })
     }
 
     fn curve(&self, i: usize) -> &'a Curve {

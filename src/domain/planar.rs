@@ -283,7 +283,7 @@ impl Domain {
     }
 
     /// The exact area of all kept regions.
-    pub fn measure(&self) -> f64 {
+    pub fn area(&self) -> f64 {
         self.regions.iter().map(|r| r.area).sum()
     }
 

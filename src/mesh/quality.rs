@@ -66,7 +66,7 @@ impl Quality {
             min_unexcused_angle_deg: 180.0,
             angle_histogram: [0; 180],
             measure: 0.0,
-            exact_measure: domain.map(Domain::measure),
+            exact_measure: domain.map(Domain::area),
             max_chord_error: domain.and_then(|d| max_chord_error(d, mesh)),
         };
         for t in mesh.triangles.ids() {

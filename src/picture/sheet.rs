@@ -245,15 +245,15 @@ impl Sheet {
     }
 
     /// A label beside a place, at the first of four sides where it hides no other label and stays in the picture; if
-    /// there is none, it is left away, unless it is `owed`.
-    pub fn label(&mut self, p: Point, text: &str, colour: Colour, owed: bool) {
+    /// there is none, it is left away, unless it is `always`.
+    pub fn label(&mut self, p: Point, text: &str, colour: Colour, always: bool) {
         let at = self.pixel(p);
         if text.is_empty() || !self.canvas.frame().sees(&[at]) {
             return;
         }
         let size = self.type_px * 0.85;
         // A cross, with its rim, reaches farther than a dot.
-        let [beside, above] = if owed { [12.0, 11.0] } else { [9.0, 7.0] };
+        let [beside, above] = if always { [12.0, 11.0] } else { [9.0, 7.0] };
         let (dx, up, down, width) =
             (self.pen(beside), self.pen(above), self.pen(above) + 0.7 * size, text_width(text, size));
         let sheet = Rect::new(0.0, 0.0, self.width, self.legend_top());
@@ -263,7 +263,7 @@ impl Sheet {
             |b: &&Rect| b.union(sheet) == sheet && self.labels.iter().all(|other| other.intersect(**b).area() == 0.0);
         let beyond = |b: Rect| Vec2::new((b.x1 - sheet.x1).max(0.0).min(b.x0), (b.y0 - sheet.y0).min(0.0));
         let moved_in = |b: Rect| b - beyond(b);
-        let Some(room) = boxes.iter().find(free).copied().or(owed.then(|| moved_in(boxes[0]))) else { return };
+        let Some(room) = boxes.iter().find(free).copied().or(always.then(|| moved_in(boxes[0]))) else { return };
         self.labels.push(room);
         self.canvas.text(Label::new(px(room.x0, room.y1 - 0.25 * size), text, size).colour(colour).rim());
     }

@@ -1,25 +1,25 @@
-//! The constrained Delaunay triangulation: sides that carry a piece stand whatever lies around them, and nobody sees
+//! The constrained Delaunay triangulation: sides that carry a subcurve stand whatever lies around them, and nobody sees
 //! across.
 //!
 //! A triangulation is constrained Delaunay if no vertex lies inside the circle of a triangle and is visible from its
-//! inside (Chew 1989; Lee & Lin 1986), which is so exactly when every side without a piece is locally Delaunay. Storage
+//! inside (Chew 1989; Lee & Lin 1986), which is so exactly when every side without a subcurve is locally Delaunay. Storage
 //! and exact signs are those of [`Kernel`]; cavities end at pieces, flips leave them alone. Every operation notes the
 //! triangles it makes, for whoever judges them.
 
 use super::insert::{Cavity, Degenerate, Kernel, Location, hull_side};
-use super::triangulation::{GHOST, Side, Triangulation};
+use super::triangulation::{GHOST, HalfEdge, Triangulation};
 use crate::geometry::Point;
 use crate::geometry::exact::{CircleSide, Orientation, in_circle, in_diametral, orient};
-use crate::ids::{Id, PieceId, TriangleId, VertexId};
+use crate::ids::{Id, SubcurveId, TriangleId, VertexId};
 use std::collections::VecDeque;
 
 /// What a look along a line meets first.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Look {
-    /// The place looked for, which may be on a piece.
+    /// The place looked for, which may be on a subcurve.
     Seen(Location),
-    /// A side with a piece, from the side of the one who looks.
-    Blocked(Side),
+    /// A side with a subcurve, from the side of the one who looks.
+    Blocked(HalfEdge),
 }
 
 /// What keeps two vertices from being joined.
@@ -27,8 +27,8 @@ pub enum Look {
 pub enum Obstacle {
     /// A vertex on the segment between them.
     Vertex(VertexId),
-    /// A piece that crosses the segment between them.
-    Piece(PieceId),
+    /// A subcurve that crosses the segment between them.
+    Subcurve(SubcurveId),
 }
 
 /// The constrained Delaunay triangulation of points and of the sides that carry pieces.
@@ -46,7 +46,7 @@ struct Search {
     /// The round in which each triangle was added last.
     rounds: Vec<u32>,
     round: u32,
-    open: Vec<Side>,
+    open: Vec<HalfEdge>,
 }
 
 impl Search {
@@ -99,8 +99,8 @@ impl Constrained {
         list.append(&mut self.touched);
     }
 
-    fn is_piece(&self, s: Side) -> bool {
-        self.topology().piece(s).is_some()
+    fn is_piece(&self, s: HalfEdge) -> bool {
+        self.topology().subcurve(s).is_some()
     }
 
     // ---- insertion ----
@@ -110,14 +110,14 @@ impl Constrained {
         self.delaunay.cavity_within(|s| self.is_piece(s), p, at, cavity);
     }
 
-    /// Acts: replaces the cavity of `p`, which must not lie on a piece, by the triangles that join `p` to its border.
+    /// Acts: replaces the cavity of `p`, which must not lie on a subcurve, by the triangles that join `p` to its border.
     pub fn fill(&mut self, p: Point, cavity: &Cavity) -> VertexId {
         let v = self.star(p, &cavity.triangles, &cavity.border);
         self.check_slowly();
         v
     }
 
-    fn star(&mut self, p: Point, triangles: &[TriangleId], border: &[Side]) -> VertexId {
+    fn star(&mut self, p: Point, triangles: &[TriangleId], border: &[HalfEdge]) -> VertexId {
         let v = self.delaunay.points.push(p);
         let last = self.delaunay.topology.star(v, triangles, border);
         self.touched.extend(triangles.iter().chain(&last));
@@ -126,13 +126,13 @@ impl Constrained {
 
     // ---- pieces ----
 
-    /// Makes the segment between two vertices a side and lays a piece on it.
+    /// Makes the segment between two vertices a side and lays a subcurve on it.
     ///
     /// Sides that cross it are flipped away (Sloan 1993), and what that spoils is flipped back to constrained Delaunay.
     ///
     /// # Errors
-    /// The first vertex on the segment, or the first piece that crosses it; then nothing has changed.
-    pub fn join(&mut self, a: VertexId, b: VertexId, piece: PieceId) -> Result<Side, Obstacle> {
+    /// The first vertex on the segment, or the first subcurve that crosses it; then nothing has changed.
+    pub fn join(&mut self, a: VertexId, b: VertexId, subcurve: SubcurveId) -> Result<HalfEdge, Obstacle> {
         let mut crossing: VecDeque<[VertexId; 2]> = self.crossings(a, b)?.into();
         let mut diagonals = Vec::new();
         while let Some([p, q]) = crossing.pop_front() {
@@ -150,18 +150,18 @@ impl Constrained {
             }
         }
         let side = self.topology().side_between(a, b).expect("nothing crosses it any more");
-        self.delaunay.topology.set_piece(side, Some(piece));
+        self.delaunay.topology.set_piece(side, Some(subcurve));
         let mut stack = diagonals.into_iter().filter_map(|[c, d]| self.topology().side_between(c, d)).collect();
         self.restore(&mut stack);
         self.check_slowly();
-        Ok(self.topology().side_between(a, b).expect("a piece is never flipped"))
+        Ok(self.topology().side_between(a, b).expect("a subcurve is never flipped"))
     }
 
     /// Whether a point beside or on a side may part the two triangles at it in four: it sees their other sides from
     /// within, and if one is a ghost, the hull stays convex.
-    pub fn can_part(&self, s: Side, p: Point) -> bool {
+    pub fn can_part(&self, s: HalfEdge, p: Point) -> bool {
         let topology = self.topology();
-        let keeps_hull = |side: Side| {
+        let keeps_hull = |side: HalfEdge| {
             let turn = |t: TriangleId| {
                 let [a, b] = hull_side(topology.corners(t)).map(|v| self.point(v));
                 orient(a, b, p)
@@ -178,14 +178,14 @@ impl Constrained {
     /// Inserts a point that [may](Constrained::can_part) part the two triangles at a side, and lays two pieces for the
     /// one that was there: the first at the end where the side begins. Comes to what [`Constrained::release`] and
     /// [`Constrained::join`] come to, which insert any point.
-    pub fn part(&mut self, s: Side, p: Point, pieces: [PieceId; 2]) -> VertexId {
+    pub fn part(&mut self, s: HalfEdge, p: Point, pieces: [SubcurveId; 2]) -> VertexId {
         let topology = self.topology();
         let (n, rim) = (topology.twin(s), self.rim(s));
         let ends = [topology.origin(s), topology.target(s)];
         let v = self.star(p, &[s.triangle(), n.triangle()], &rim);
-        for (end, piece) in ends.into_iter().zip(pieces) {
+        for (end, subcurve) in ends.into_iter().zip(pieces) {
             let side = self.topology().side_between(v, end).expect("both ends are on the rim");
-            self.delaunay.topology.set_piece(side, Some(piece));
+            self.delaunay.topology.set_piece(side, Some(subcurve));
         }
         let mut stack = self.topology().sides_from(v).flat_map(|spoke| [spoke, spoke.next()]).collect();
         self.restore(&mut stack);
@@ -194,13 +194,13 @@ impl Constrained {
     }
 
     /// The other sides of the two triangles at a side, counter-clockwise.
-    fn rim(&self, s: Side) -> [Side; 4] {
+    fn rim(&self, s: HalfEdge) -> [HalfEdge; 4] {
         let n = self.topology().twin(s);
         [s.next(), s.prev(), n.next(), n.prev()]
     }
 
-    /// Takes the piece from a side; the triangulation is again constrained Delaunay.
-    pub fn release(&mut self, s: Side) {
+    /// Takes the subcurve from a side; the triangulation is again constrained Delaunay.
+    pub fn release(&mut self, s: HalfEdge) {
         self.touched.extend([s.triangle(), self.topology().twin(s).triangle()]);
         self.delaunay.topology.set_piece(s, None);
         self.restore(&mut vec![s]);
@@ -235,8 +235,8 @@ impl Constrained {
         let mut s = entry.expect("the segment enters a triangle at its start");
         let mut crossed = Vec::new();
         loop {
-            if let Some(piece) = topology.piece(s) {
-                return Err(Obstacle::Piece(piece));
+            if let Some(subcurve) = topology.subcurve(s) {
+                return Err(Obstacle::Subcurve(subcurve));
             }
             crossed.push([topology.origin(s), topology.target(s)]);
             let beyond = topology.twin(s);
@@ -253,7 +253,7 @@ impl Constrained {
     }
 
     /// Whether the two triangles at a side make a strictly convex quadrilateral.
-    fn is_flippable(&self, s: Side) -> bool {
+    fn is_flippable(&self, s: HalfEdge) -> bool {
         let topology = self.topology();
         let n = topology.twin(s);
         let [a, b, c, d] =
@@ -270,13 +270,13 @@ impl Constrained {
         orient(a, b, c) != orient(a, b, d)
     }
 
-    fn flip(&mut self, s: Side) {
+    fn flip(&mut self, s: HalfEdge) {
         self.touched.extend([s.triangle(), self.topology().twin(s).triangle()]);
         self.delaunay.topology.flip(s);
     }
 
-    /// Flips sides without a piece that are not locally Delaunay, from those on the stack on (Lawson 1977).
-    fn restore(&mut self, stack: &mut Vec<Side>) {
+    /// Flips sides without a subcurve that are not locally Delaunay, from those on the stack on (Lawson 1977).
+    fn restore(&mut self, stack: &mut Vec<HalfEdge>) {
         while let Some(s) = stack.pop() {
             if self.is_piece(s) || self.delaunay.is_locally_delaunay(s) {
                 continue;
@@ -289,12 +289,12 @@ impl Constrained {
 
     // ---- removal ----
 
-    /// Deletes a vertex inside the hull that no piece ends at, of any degree.
+    /// Deletes a vertex inside the hull that no subcurve ends at, of any degree.
     pub fn remove(&mut self, v: VertexId) {
-        let star: Vec<Side> = self.topology().sides_from(v).collect();
+        let star: Vec<HalfEdge> = self.topology().sides_from(v).collect();
         let bound = star.iter().any(|&s| self.topology().target(s) == GHOST || self.is_piece(s));
         assert!(!star.is_empty() && !bound, "only free vertices go");
-        self.touched.extend(star.into_iter().map(Side::triangle));
+        self.touched.extend(star.into_iter().map(HalfEdge::triangle));
         let mut diagonals = self.delaunay.clip_ears(v);
         self.delaunay.topology.merge_star(v);
         self.restore(&mut diagonals);
@@ -303,7 +303,7 @@ impl Constrained {
 
     // ---- visibility ----
 
-    /// Follows the straight line from within a triangle to `p`, up to the first piece: from its middle, or where the
+    /// Follows the straight line from within a triangle to `p`, up to the first subcurve: from its middle, or where the
     /// triangle is so thin that the middle is rounded out of it, from its border. `None` where no line starts that
     /// rounding leaves inside.
     pub fn look_from(&self, t: TriangleId, p: Point) -> Option<Look> {
@@ -314,7 +314,7 @@ impl Constrained {
         }
         let [a, b, c] = topology.corners(t).map(|v| self.point(v));
         let middle = a + ((b - a) + (c - a)) / 3.0;
-        let leaves = |from: Point, s: Side| {
+        let leaves = |from: Point, s: HalfEdge| {
             self.to_left(s, p) == Orientation::Clockwise
                 && orient(from, p, self.point(topology.origin(s))) != Orientation::CounterClockwise
                 && orient(from, p, self.point(topology.target(s))) == Orientation::CounterClockwise
@@ -343,7 +343,7 @@ impl Constrained {
         }
     }
 
-    fn to_left(&self, s: Side, p: Point) -> Orientation {
+    fn to_left(&self, s: HalfEdge, p: Point) -> Orientation {
         orient(self.point(self.topology().origin(s)), self.point(self.topology().target(s)), p)
     }
 
@@ -353,32 +353,32 @@ impl Constrained {
             return Location::Vertex(v);
         }
         let on = [0, 1, 2].map(|i| t.side_of(i)).into_iter().find(|&s| self.to_left(s, p) == Orientation::Collinear);
-        on.map_or(Location::Triangle(t), Location::Side)
+        on.map_or(Location::Triangle(t), Location::HalfEdge)
     }
 
-    /// Whether neither a piece nor a vertex lies between two vertices.
+    /// Whether neither a subcurve nor a vertex lies between two vertices.
     pub fn see_each_other(&self, a: VertexId, b: VertexId) -> bool {
         self.crossings(a, b).is_ok()
     }
 
     /// Whether a vertex to the left of a side sees any place between its ends.
-    pub fn sees(&self, v: VertexId, side: Side) -> bool {
+    pub fn sees(&self, v: VertexId, side: HalfEdge) -> bool {
         let [x, y] = [self.topology().origin(side), self.topology().target(side)].map(|v| self.point(v));
         let below = x + (y - x) * share_along(self.point(v), [x, y]).clamp(0.01, 0.99);
         self.glimpses(v, below, side) || self.makes_out(v, side)
     }
 
-    /// Whether the ray from a vertex towards a place leaves through a side before any piece, and meets no vertex on the
+    /// Whether the ray from a vertex towards a place leaves through a side before any subcurve, and meets no vertex on the
     /// way: then the vertex sees the side. One line, where [`Constrained::makes_out`] looks through all that lies
     /// between.
-    fn glimpses(&self, v: VertexId, toward: Point, side: Side) -> bool {
+    fn glimpses(&self, v: VertexId, toward: Point, side: HalfEdge) -> bool {
         let topology = self.topology();
         let from = self.point(v);
         let is = |w: VertexId, wanted: Orientation| w != GHOST && orient(from, toward, self.point(w)) == wanted;
-        let leaves = |s: &Side| {
+        let leaves = |s: &HalfEdge| {
             is(topology.origin(*s), Orientation::Clockwise) && is(topology.target(*s), Orientation::CounterClockwise)
         };
-        let mut exit = topology.sides_from(v).map(Side::next).find(leaves);
+        let mut exit = topology.sides_from(v).map(HalfEdge::next).find(leaves);
         while let Some(s) = exit.filter(|&s| s != side && !self.is_piece(s)) {
             let beyond = topology.twin(s);
             exit = [beyond.next(), beyond.prev()].into_iter().find(leaves);
@@ -390,12 +390,12 @@ impl Constrained {
     ///
     /// Triangular expansion: the cone of what the vertex sees is followed from triangle to triangle, narrowed by every
     /// side it passes and ended by pieces.
-    fn makes_out(&self, v: VertexId, side: Side) -> bool {
+    fn makes_out(&self, v: VertexId, side: HalfEdge) -> bool {
         let topology = self.topology();
         let from = self.point(v);
         let turns_left = |a: VertexId, b: VertexId| orient(from, self.point(a), self.point(b));
         let (x, y) = (topology.origin(side), topology.target(side));
-        let mut cones: Vec<(Side, VertexId, VertexId)> = Vec::new();
+        let mut cones: Vec<(HalfEdge, VertexId, VertexId)> = Vec::new();
         for spoke in topology.sides_from(v) {
             let (a, b) = (topology.target(spoke), topology.apex(spoke));
             if a == GHOST || b == GHOST {
@@ -437,7 +437,7 @@ impl Constrained {
 
     /// Whether the apex of a side's triangle lies inside the side's diametral circle. If not, nothing that sees the
     /// side from its left does.
-    pub fn has_apex_in_half_circle(&self, side: Side) -> bool {
+    pub fn has_apex_in_half_circle(&self, side: HalfEdge) -> bool {
         let topology = self.topology();
         let [x, y] = [topology.origin(side), topology.target(side)].map(|v| self.point(v));
         let apex = topology.apex(side);
@@ -448,7 +448,7 @@ impl Constrained {
     /// ascending.
     ///
     /// Triangles are searched that hang together within the half circle.
-    pub fn in_half_circle(&mut self, side: Side) -> Vec<VertexId> {
+    pub fn in_half_circle(&mut self, side: HalfEdge) -> Vec<VertexId> {
         if !self.has_apex_in_half_circle(side) {
             return Vec::new();
         }
@@ -460,7 +460,7 @@ impl Constrained {
     }
 
     /// [`Constrained::in_half_circle`], from an apex that lies in it on.
-    fn search_half_circle(&self, side: Side, search: &mut Search) -> Vec<VertexId> {
+    fn search_half_circle(&self, side: HalfEdge, search: &mut Search) -> Vec<VertexId> {
         let topology = self.topology();
         let [x, y] = [topology.origin(side), topology.target(side)].map(|v| self.point(v));
         let inside = |v: VertexId| in_diametral(x, y, self.point(v)) == CircleSide::Inside;
@@ -498,7 +498,7 @@ impl Constrained {
         }
     }
 
-    /// What is wrong, with culprits: structure, orientation, and sides without a piece that are not locally Delaunay.
+    /// What is wrong, with culprits: structure, orientation, and sides without a subcurve that are not locally Delaunay.
     /// All signs exact. Empty when all is well. Takes linear time.
     pub fn flaws(&self) -> Vec<String> {
         let topology = self.topology();

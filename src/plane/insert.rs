@@ -11,7 +11,7 @@
 //! `&self` and the caller's own [`Cavity`], so that cavities of many points can be looked at in parallel and those that
 //! do not touch filled in the serial order later.
 
-use super::triangulation::{GHOST, Net, Record, Side, Triangulation, after, before};
+use super::triangulation::{GHOST, HalfEdge, Net, Record, Triangulation, after, before};
 use crate::geometry::exact::{self, CircleSide, Orientation};
 use crate::geometry::{Point, order};
 use crate::ids::{Id, IdVec, TriangleId, VertexId};
@@ -48,7 +48,7 @@ pub enum Location {
     /// At the coordinates of a vertex.
     Vertex(VertexId),
     /// Between the ends of a side; which of the two twins is not promised.
-    Side(Side),
+    HalfEdge(HalfEdge),
     /// Inside a finite triangle, or outside the hull, in the open half-plane of a ghost triangle.
     Triangle(TriangleId),
 }
@@ -59,9 +59,9 @@ pub struct Cavity {
     /// The triangles, each after one it shares a side with.
     pub triangles: Vec<TriangleId>,
     /// Sides of those triangles whose twins lie outside, counter-clockwise around the cavity.
-    pub border: Vec<Side>,
+    pub border: Vec<HalfEdge>,
     /// Sides of triangles still to be looked at, the twins of the cavity's own.
-    open: Vec<Side>,
+    open: Vec<HalfEdge>,
 }
 
 /// How much work was done.
@@ -106,13 +106,13 @@ impl Ledger {
 }
 
 /// Signs at the vertices of a net, counted.
-pub(super) struct Sight<'a> {
+pub(super) struct Walk<'a> {
     net: &'a Net,
     points: &'a [Point],
     work: Counters,
 }
 
-impl<'a> Sight<'a> {
+impl<'a> Walk<'a> {
     fn new(net: &'a Net, points: &'a [Point]) -> Self {
         Self { net, points, work: Counters::default() }
     }
@@ -189,8 +189,8 @@ impl<'a> Sight<'a> {
             }
             return match (bc == Orientation::Collinear, ca == Orientation::Collinear) {
                 (true, true) => Location::Vertex(apex),
-                (true, false) => Location::Side(t.side_of(after(i))),
-                (false, true) => Location::Side(t.side_of(before(i))),
+                (true, false) => Location::HalfEdge(t.side_of(after(i))),
+                (false, true) => Location::HalfEdge(t.side_of(before(i))),
                 (false, false) => Location::Triangle(t),
             };
         }
@@ -198,7 +198,7 @@ impl<'a> Sight<'a> {
     }
 
     /// Where `p` lies in a finite triangle, or the far side of one that separates it from `p`.
-    fn look_from(&mut self, p: Point, t: TriangleId) -> Result<Location, Side> {
+    fn look_from(&mut self, p: Point, t: TriangleId) -> Result<Location, HalfEdge> {
         self.work.walk_steps += 1;
         let record = *self.net.record(t);
         let corners = record.corners.map(|v| self.point(v));
@@ -213,7 +213,7 @@ impl<'a> Sight<'a> {
         // On two sides: at the corner that the second of them starts from.
         Ok(match (0..3).find(|&i| on[i] && on[before(i)]) {
             Some(i) => Location::Vertex(record.corners[i]),
-            None => on.iter().position(|&on| on).map_or(Location::Triangle(t), |i| Location::Side(t.side_of(i))),
+            None => on.iter().position(|&on| on).map_or(Location::Triangle(t), |i| Location::HalfEdge(t.side_of(i))),
         })
     }
 
@@ -255,7 +255,13 @@ impl<'a> Sight<'a> {
 
     /// Collects the triangles that make room for `p`, from one of them, depth first around the tree that they form,
     /// never across a side that is `closed`.
-    pub(super) fn collect(&mut self, p: Point, start: TriangleId, closed: impl Fn(Side) -> bool, cavity: &mut Cavity) {
+    pub(super) fn collect(
+        &mut self,
+        p: Point,
+        start: TriangleId,
+        closed: impl Fn(HalfEdge) -> bool,
+        cavity: &mut Cavity,
+    ) {
         let Cavity { triangles, border, open } = cavity;
         triangles.clear();
         border.clear();
@@ -358,8 +364,8 @@ impl Kernel {
         &mut self.topology
     }
 
-    pub(super) fn in_sight<T>(&self, look: impl FnOnce(&mut Sight) -> T) -> T {
-        let mut sight = Sight::new(self.topology.net(), self.points.as_slice());
+    pub(super) fn in_sight<T>(&self, look: impl FnOnce(&mut Walk) -> T) -> T {
+        let mut sight = Walk::new(self.topology.net(), self.points.as_slice());
         let seen = look(&mut sight);
         self.ledger.add(&sight.work);
         seen
@@ -380,7 +386,13 @@ impl Kernel {
     }
 
     /// [`Kernel::cavity`], which ends at walls.
-    pub(super) fn cavity_within(&self, is_wall: impl Fn(Side) -> bool, p: Point, at: Location, cavity: &mut Cavity) {
+    pub(super) fn cavity_within(
+        &self,
+        is_wall: impl Fn(HalfEdge) -> bool,
+        p: Point,
+        at: Location,
+        cavity: &mut Cavity,
+    ) {
         // Beyond that range signs contradict each other, and the walk around the cavity need not end.
         assert!(in_range(p), "{p:?} is beyond exact signs");
         let start = match at {
@@ -389,7 +401,7 @@ impl Kernel {
                 cavity.border.clear();
                 return;
             }
-            Location::Side(s) => s.triangle(),
+            Location::HalfEdge(s) => s.triangle(),
             Location::Triangle(t) => t,
         };
         self.in_sight(|sight| sight.collect(p, start, is_wall, cavity));
@@ -490,10 +502,10 @@ fn triangulate(points: &[Point]) -> Result<(Net, Counters), Degenerate> {
     let (mut near, mut cavity) = (TriangleId(0), Cavity::default());
     for &v in &order[3..] {
         let p = at(v);
-        let mut sight = Sight { net: &net, points, work };
+        let mut sight = Walk { net: &net, points, work };
         let start = match sight.locate(p, near) {
             Location::Vertex(w) => return Err(Degenerate::Duplicate { first: w.index(), second: v as usize }),
-            Location::Side(s) => s.triangle(),
+            Location::HalfEdge(s) => s.triangle(),
             Location::Triangle(t) => t,
         };
         sight.collect(p, start, |_| false, &mut cavity);

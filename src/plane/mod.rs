@@ -1,16 +1,16 @@
 //! The planar kernel and its engines.
 
-mod carve;
 pub mod constrained;
+mod extraction;
 pub mod gcdr;
-mod harvest;
 pub mod insert;
+mod labelling;
 pub mod lopping;
+mod queue;
 mod refined;
 mod refinement;
 mod remove;
 mod subcurves;
-mod suspects;
 pub mod triangulation;
 
 pub use subcurves::Midpoint;

@@ -1,15 +1,15 @@
 //! What both engines hold while they refine: the domain in the unit frame, its subcurves, the triangles that miss a
 //! bound, and how it ends.
 
-use super::carve::Carver;
 use super::insert::{self, Cavity};
+use super::labelling::RegionLabeller;
+use super::queue::RefinementQueue;
 use super::refined::RefineError;
 use super::subcurves::Subcurves;
-use super::suspects::Suspects;
 use crate::domain::Domain;
 use crate::geometry::triangle::sin2_smallest;
 use crate::geometry::{self, Point};
-use crate::ids::{PieceId, RegionId};
+use crate::ids::{RegionId, SubcurveId};
 use crate::mesh::RIM_ROUNDING;
 use crate::refine::{Counters, Patience, Stop, StopReason};
 use crate::size::{SizeField, Sizing};
@@ -23,10 +23,10 @@ pub(super) struct Refinement {
     pub resolution: f64,
     pub subcurves: Subcurves,
     /// Pieces to be looked at, the latest first: its place is still in the cache.
-    pub suspects: Vec<PieceId>,
+    pub queue: Vec<SubcurveId>,
     /// Triangles with an angle below κ, and triangles too large.
-    pub bad: Suspects,
-    pub carver: Carver,
+    pub bad: RefinementQueue,
+    pub labeller: RegionLabeller,
     pub cavity: Cavity,
     pub counters: Counters,
     pub reason: StopReason,
@@ -57,9 +57,9 @@ impl Refinement {
             scale,
             resolution: RIM_ROUNDING * magnitude * scale,
             subcurves: Subcurves::default(),
-            suspects: Vec::new(),
-            bad: Suspects::new(angle_min_rad, patience),
-            carver: Carver::default(),
+            queue: Vec::new(),
+            bad: RefinementQueue::new(angle_min_rad, patience),
+            labeller: RegionLabeller::default(),
             cavity: Cavity::default(),
             counters: Counters::default(),
             reason: StopReason::Done,
@@ -68,12 +68,12 @@ impl Refinement {
         }
     }
 
-    /// Queues a piece, once.
-    pub fn suspect(&mut self, piece: PieceId) {
-        let entry = self.subcurves.get_mut(piece);
+    /// Queues a subcurve, once.
+    pub fn enqueue(&mut self, subcurve: SubcurveId) {
+        let entry = self.subcurves.get_mut(subcurve);
         if !entry.queued {
             entry.queued = true;
-            self.suspects.push(piece);
+            self.queue.push(subcurve);
         }
     }
 
@@ -93,11 +93,11 @@ impl Refinement {
         }
     }
 
-    /// How it ended, with so much owed at `places`, and where coordinates could not tell points apart, in the domain's
+    /// How it ended, with so much unresolved at `places`, and where coordinates could not tell points apart, in the domain's
     /// own scale.
-    pub fn stop(&self, reason: StopReason, owed: usize, places: Vec<Point>) -> Stop {
+    pub fn stop(&self, reason: StopReason, unresolved: usize, places: Vec<Point>) -> Stop {
         let places = places.iter().chain(&self.too_near).map(|&p| geometry::scaled(p, 1.0 / self.scale)).collect();
-        Stop { reason, owed: owed + self.too_near.len(), places, angle_deg: None }
+        Stop { reason, unresolved: unresolved + self.too_near.len(), places, angle_deg: None }
     }
 
     pub fn too_near_error(&self) -> RefineError {

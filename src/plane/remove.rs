@@ -5,7 +5,7 @@
 //! a plane triangulation, whatever points are cocircular.
 
 use super::insert::Kernel;
-use super::triangulation::{GHOST, Side};
+use super::triangulation::{GHOST, HalfEdge};
 use crate::geometry::exact::{CircleSide, Orientation};
 use crate::ids::{TriangleId, VertexId};
 
@@ -14,7 +14,7 @@ impl Kernel {
     /// is dead.
     ///
     /// Pieces on the vertex's own sides are lost. A new triangle has the region of a lost one next to it: where a lost
-    /// piece parted two regions, the caller mends them. Returns `false`, and changes nothing, where the vertex is dead
+    /// subcurve parted two regions, the caller mends them. Returns `false`, and changes nothing, where the vertex is dead
     /// already or the other points lie on one line.
     pub fn remove(&mut self, v: VertexId) -> bool {
         if v == GHOST || self.carries_the_plane(v) {
@@ -49,7 +49,7 @@ impl Kernel {
     /// The link is star-shaped around `v`: a neighbour w between neighbours u and x is an ear where u w x turns left
     /// and v is not strictly inside u w x. Inside the hull a link of four or more has one: of the two ears that any
     /// triangulation of it has, v, which lies inside or on one side of it, spoils at most one.
-    pub(super) fn clip_ears(&mut self, v: VertexId) -> Vec<Side> {
+    pub(super) fn clip_ears(&mut self, v: VertexId) -> Vec<HalfEdge> {
         let mut diagonals = Vec::new();
         let mut left = self.topology.sides_from(v).count();
         let inside = self.topology.sides_from(v).all(|s| self.topology.target(s) != GHOST);
@@ -73,7 +73,7 @@ impl Kernel {
     }
 
     /// Whether the neighbour that side `s` of `v` leads to may be cut off.
-    fn is_ear(&self, v: VertexId, s: Side, inside: bool) -> bool {
+    fn is_ear(&self, v: VertexId, s: HalfEdge, inside: bool) -> bool {
         let topology = &self.topology;
         let (before, here, after) = (topology.apex(topology.twin(s)), topology.target(s), topology.apex(s));
         if [before, here, after].contains(&GHOST) {
@@ -88,7 +88,7 @@ impl Kernel {
 
     /// Flips sides that are not locally Delaunay, from those on the stack on. With exact signs each flip lowers the
     /// lifted surface, so that no side comes twice (Lawson 1977).
-    fn make_delaunay(&mut self, stack: &mut Vec<Side>) {
+    fn make_delaunay(&mut self, stack: &mut Vec<HalfEdge>) {
         while let Some(s) = stack.pop() {
             if !self.is_locally_delaunay(s) {
                 let (t, u) = (s.triangle(), self.topology.twin(s).triangle());
@@ -99,7 +99,7 @@ impl Kernel {
         }
     }
 
-    pub(super) fn is_locally_delaunay(&self, s: Side) -> bool {
+    pub(super) fn is_locally_delaunay(&self, s: HalfEdge) -> bool {
         let topology = &self.topology;
         let (corners, across) = (topology.corners(s.triangle()), topology.apex(topology.twin(s)));
         if corners.contains(&GHOST) || across == GHOST {

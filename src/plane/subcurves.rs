@@ -1,17 +1,17 @@
 //! C′: the subcurves. Each knows its carrier (a curve of the domain, or a corner arc), its parameters and its two
 //! vertices.
 //!
-//! Pieces are never moved or reused: a split retires one and adds two. A *spoke* is the piece of a curve inside the
+//! Pieces are never moved or reused: a split retires one and adds two. A *spoke* is the subcurve of a curve inside the
 //! ball of its end point; it is never tested, split or attacked while the ball stands (Lemma 3: only curves that do not
 //! meet p come near it).
 
 use crate::curve::Curve;
 use crate::geometry::Point;
-use crate::ids::{BallId, CurveId, FanId, IdVec, PieceId, VertexId};
+use crate::ids::{BallId, CurveId, FanId, IdVec, SubcurveId, VertexId};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// What a piece is a part of.
+/// What a subcurve is a part of.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Carrier {
     /// A curve of the domain.
@@ -20,7 +20,7 @@ pub enum Carrier {
     Arc(BallId, u32),
 }
 
-/// What has become of a piece.
+/// What has become of a subcurve.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Standing {
     /// In C′ and to be tested.
@@ -35,7 +35,7 @@ pub enum Standing {
 
 /// A subcurve.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub struct Piece {
+pub struct Subcurve {
     pub carrier: Carrier,
     pub t: [f64; 2],
     pub ends: [VertexId; 2],
@@ -44,7 +44,7 @@ pub struct Piece {
     pub queued: bool,
 }
 
-impl Piece {
+impl Subcurve {
     pub fn is_gone(&self) -> bool {
         self.standing == Standing::Gone
     }
@@ -70,27 +70,27 @@ pub enum Midpoint {
 /// The pieces, dead and alive.
 #[derive(Default)]
 pub struct Subcurves {
-    pieces: IdVec<PieceId, Piece>,
+    pieces: IdVec<SubcurveId, Subcurve>,
 }
 
 impl Subcurves {
-    pub fn add(&mut self, carrier: Carrier, t: [f64; 2], ends: [VertexId; 2], standing: Standing) -> PieceId {
-        self.pieces.push(Piece { carrier, t, ends, standing, queued: false })
+    pub fn add(&mut self, carrier: Carrier, t: [f64; 2], ends: [VertexId; 2], standing: Standing) -> SubcurveId {
+        self.pieces.push(Subcurve { carrier, t, ends, standing, queued: false })
     }
 
-    pub fn get(&self, id: PieceId) -> &Piece {
+    pub fn get(&self, id: SubcurveId) -> &Subcurve {
         &self.pieces[id]
     }
 
-    pub fn get_mut(&mut self, id: PieceId) -> &mut Piece {
+    pub fn get_mut(&mut self, id: SubcurveId) -> &mut Subcurve {
         &mut self.pieces[id]
     }
 
-    pub fn ids(&self) -> impl DoubleEndedIterator<Item = PieceId> + use<> {
+    pub fn ids(&self) -> impl DoubleEndedIterator<Item = SubcurveId> + use<> {
         self.pieces.ids()
     }
 
-    pub fn retire(&mut self, id: PieceId) {
+    pub fn retire(&mut self, id: SubcurveId) {
         self.pieces[id].standing = Standing::Gone;
     }
 }

@@ -202,14 +202,14 @@ pub enum StopReason {
     NoProgress,
 }
 
-/// The end of a refinement: why, what is owed, and where.
+/// The end of a refinement: why, what is unresolved, and where.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Stop {
     /// Why it ended.
     pub reason: StopReason,
     /// Cells that still miss a bound.
-    pub owed: usize,
-    /// Some of the places where refinement is owed.
+    pub unresolved: usize,
+    /// Some of the places where refinement is unresolved.
     pub places: Vec<Point>,
     /// The smallest angle that the mesh was refined to, in degrees, where it is another than was asked for.
     pub angle_deg: Option<f64>,

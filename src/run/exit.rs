@@ -62,14 +62,14 @@ const REQUESTED: &[&str] = &[
     "density_b",
     "density_c",
 ];
-/// What refinement brings about last: owed where a budget ended it.
+/// What refinement brings about last: unresolved where a budget ended it.
 const REFINED: &[&str] = &["empty_diametral", "ball_radius", "lfs_ratio"];
 
 pub(super) fn exit_of(verdict: &Verdict, reason: StopReason) -> Exit {
     let done = reason == StopReason::Done;
-    let excusable = |name: &str| REQUESTED.contains(&name) || !done && REFINED.contains(&name);
+    let exemptible = |name: &str| REQUESTED.contains(&name) || !done && REFINED.contains(&name);
     let broken = broken(verdict);
-    if broken.iter().any(|name| !excusable(name)) {
+    if broken.iter().any(|name| !exemptible(name)) {
         Exit::Bug
     } else if broken.is_empty() && done {
         Exit::Done
@@ -143,7 +143,7 @@ impl From<Unarranged> for FailureReport {
 
 impl From<Stopped> for FailureReport {
     fn from(Stopped: Stopped) -> Self {
-        let stop = Stop { reason: StopReason::Cancelled, owed: 0, places: Vec::new(), angle_deg: None };
+        let stop = Stop { reason: StopReason::Cancelled, unresolved: 0, places: Vec::new(), angle_deg: None };
         no_mesh(&stop, "--timeout")
     }
 }

@@ -134,7 +134,7 @@ impl Outcome {
         let mut verdict = plan.judge(Some(&domain), &mesh);
         verdict.checks.extend(plan.densities(&domain, &mesh, &insertions));
         if stop.angle_deg.is_some() {
-            self.report.stop = Some(StopReport::new(&stop).owing_angles(&verdict));
+            self.report.stop = Some(StopReport::new(&stop).with_unresolved_angles(&verdict));
         }
         self.report.mesh = Some(MeshReport::new(&mesh).with_straightened(&mesh, &straightened));
         self.report.quality = Some(Quality::of(Some(&domain), &mesh, verdict.exempt_cells()));

@@ -195,8 +195,8 @@ fn split_to_turning(
         let turning = |c: &DomainCurve| c.curve.turning(0.0, 1.0);
         let most = domain.curves().iter().max_by(|a, b| turning(a).total_cmp(&turning(b)));
         let places = most.map(|c| c.curve.point(0.5)).into_iter().collect();
-        let owed = needed - max_vertices;
-        let stop = Stop { reason: StopReason::VertexBudget, owed, places, angle_deg: None };
+        let unresolved = needed - max_vertices;
+        let stop = Stop { reason: StopReason::VertexBudget, unresolved, places, angle_deg: None };
         let failure = no_mesh(&stop, "--max-vertices");
         FailureReport {
             what: format!("pieces that turn at most {tau_rad:e} take {needed} vertices or more"),

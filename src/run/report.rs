@@ -12,7 +12,7 @@ use crate::geometry::Point;
 use crate::mesh::Mesh;
 use crate::mesh::quality::{BoundaryMeasure, Quality, RegionMeasure, boundary_measures, region_measures};
 use crate::refine::{Counters, Stop, StopReason};
-use crate::verify::{Check, Excuse, Verdict};
+use crate::verify::{Check, Exemption, Verdict};
 use schemars::generate::SchemaSettings;
 use schemars::transform::RecursiveTransform;
 use schemars::{JsonSchema, Schema};
@@ -183,14 +183,14 @@ pub struct ExcusedReport {
     /// Number of exempt triangles.
     pub count: usize,
     /// Each corner with its exempt triangles.
-    pub by_corner: Vec<Excuse>,
+    pub by_corner: Vec<Exemption>,
 }
 
 impl PromiseReport {
     /// The verifier's verdict, as the report tells it.
     pub fn new(verdict: &Verdict) -> Self {
-        let count = verdict.excused.iter().map(|e| e.cells.len()).sum();
-        let excused = ExcusedReport { count, by_corner: verdict.excused.clone() };
+        let count = verdict.exempt.iter().map(|e| e.cells.len()).sum();
+        let excused = ExcusedReport { count, by_corner: verdict.exempt.clone() };
         Self { kept: verdict.kept(), checks: verdict.checks.clone(), excused }
     }
 }
@@ -201,7 +201,8 @@ pub struct StopReport {
     /// Why it ended.
     pub reason: StopReason,
     /// Number of cells that still miss a bound.
-    pub owed: usize,
+    #[serde(rename = "owed")]
+    pub unresolved: usize,
     /// Some of the places where a bound is missed, x and y each.
     pub places: Vec<[f64; 2]>,
     /// The smallest angle that the mesh was refined to, where it is another than was asked for: `--min-angle` with it
@@ -221,14 +222,14 @@ impl StopReport {
     /// The end of a refinement, as the report tells it.
     pub fn new(stop: &Stop) -> Self {
         let places = stop.places.iter().map(|p| [p.x, p.y]).collect();
-        Self { reason: stop.reason, owed: stop.owed, places, angle_deg: stop.angle_deg }
+        Self { reason: stop.reason, unresolved: stop.unresolved, places, angle_deg: stop.angle_deg }
     }
 
-    /// Of a mesh that was refined to a smaller angle than asked for: what it owes is what the judge finds below the
+    /// Of a mesh that was refined to a smaller angle than asked for: its unresolved cells are those that the verifier finds below the
     /// angle.
-    pub fn owing_angles(mut self, verdict: &Verdict) -> Self {
+    pub fn with_unresolved_angles(mut self, verdict: &Verdict) -> Self {
         if let Some(check) = verdict.checks.iter().find(|check| check.name == "min_angle") {
-            self.owed = check.broken;
+            self.unresolved = check.broken;
             self.places = check.worst.iter().map(|worst| worst.at).collect();
         }
         self

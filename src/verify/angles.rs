@@ -1,9 +1,9 @@
-//! The Delaunay property, the angles of the triangles, and what excuses a small one.
+//! The Delaunay property, the angles of the triangles, and what exempts a small one.
 
 use super::balls::SoundBall;
 use super::evidence::Evidence;
 use super::tally::Tally;
-use super::{Check, Excuse, Status};
+use super::{Check, Exemption, Status};
 use crate::domain::Domain;
 use crate::geometry::boxes::BoxHierarchy;
 use crate::geometry::exact::{CircleSide, in_circle};
@@ -96,9 +96,9 @@ fn facing([x, y]: [Point; 2], a: Point, b: Point) -> f64 {
 /// Engine and judge compute an angle by different formulas, each a few ε off times at most 1/κ; in radians.
 const ANGLE: f64 = 1e-12;
 
-/// Where asked: every triangle has all angles ≥ κ, or a corner excuses it (Lemma 6; with corner arcs: all three of its
-/// nodes lie in one ball). Worst: the smallest angle without excuse, in degrees. Also returns the excuses, by ball.
-pub fn min_angle(ev: &Evidence, balls: &[SoundBall]) -> (Check, Vec<Excuse>) {
+/// Where asked: every triangle has all angles ≥ κ, or a corner exempts it (Lemma 6; with corner arcs: all three of its
+/// nodes lie in one ball). Worst: the smallest angle without exemption, in degrees. Also returns the exempts, by ball.
+pub fn min_angle(ev: &Evidence, balls: &[SoundBall]) -> (Check, Vec<Exemption>) {
     let Some(kappa) = ev.promise.angle_min_rad else { return (Check::not_asked("min_angle"), Vec::new()) };
     let mut tally = Tally::lowest("min_angle");
     let corners = Corners::new(ev, balls);
@@ -110,11 +110,11 @@ pub fn min_angle(ev: &Evidence, balls: &[SoundBall]) -> (Check, Vec<Excuse>) {
         tally.count();
         let (least, _) = angle_range(ev.mesh.corners(t));
         if least < kappa - ANGLE {
-            if let Some(ball) = corners.excuse(t) {
+            if let Some(ball) = corners.exemption(t) {
                 cells[ball].push(t.0);
                 continue;
             }
-            if let Some(corner) = across.as_ref().and_then(|across| across.excuse(t)) {
+            if let Some(corner) = across.as_ref().and_then(|across| across.exemption(t)) {
                 input_angles.entry(corner).or_default().push(t.0);
                 continue;
             }
@@ -127,23 +127,23 @@ pub fn min_angle(ev: &Evidence, balls: &[SoundBall]) -> (Check, Vec<Excuse>) {
         tally.measure(least.to_degrees(), ev.node(ev.mesh.triangles[t][0]));
     }
     let by_ball = balls.iter().zip(cells).filter(|(_, cells)| !cells.is_empty());
-    let mut excused: Vec<Excuse> = by_ball
-        .map(|(b, cells)| Excuse { at: [b.center.x, b.center.y], radius: b.radius, why: b.why, cells })
+    let mut exempt: Vec<Exemption> = by_ball
+        .map(|(b, cells)| Exemption { at: [b.center.x, b.center.y], radius: b.radius, why: b.why, cells })
         .collect();
-    excused.extend(across.iter().flat_map(|across| across.excuses(&input_angles)));
-    excused.extend(excuse_of_min_edge(ev, &too_small));
-    (tally.finish(status_of_angle_bound(ev, kappa)), excused)
+    exempt.extend(across.iter().flat_map(|across| across.exemptions(&input_angles)));
+    exempt.extend(exemption_of_min_edge(ev, &too_small));
+    (tally.finish(status_of_angle_bound(ev, kappa)), exempt)
 }
 
-/// Where asked: the radius-edge ratio of every triangle without excuse is at most that of κ, 1/(2 sin κ). Worst: the
+/// Where asked: the radius-edge ratio of every triangle without exemption is at most that of κ, 1/(2 sin κ). Worst: the
 /// largest.
-pub fn radius_edge(ev: &Evidence, excused: &[Excuse]) -> Check {
+pub fn radius_edge(ev: &Evidence, exempt: &[Exemption]) -> Check {
     let Some(kappa) = ev.promise.angle_min_rad else { return Check::not_asked("radius_edge") };
     let mut tally = Tally::highest("radius_edge");
-    let mut is_excused = vec![false; ev.mesh.triangles.len()];
-    excused.iter().flat_map(|e| &e.cells).for_each(|&t| is_excused[TriangleId(t).index()] = true);
+    let mut is_exempt = vec![false; ev.mesh.triangles.len()];
+    exempt.iter().flat_map(|e| &e.cells).for_each(|&t| is_exempt[TriangleId(t).index()] = true);
     let limit = 0.5 / libm::sin(kappa - ANGLE);
-    for t in ev.mesh.triangles.ids().filter(|t| !is_excused[t.index()]) {
+    for t in ev.mesh.triangles.ids().filter(|t| !is_exempt[t.index()]) {
         tally.count();
         let ratio = 0.5 / libm::sin(angle_range(ev.mesh.corners(t)).0);
         tally.measure(ratio, ev.centroid(t));
@@ -176,7 +176,7 @@ impl<'a> AcrossCorners<'a> {
     }
 
     /// The corner that lies across the shortest edge of a triangle: its smallest angle is the drawing's own.
-    fn excuse(&self, t: TriangleId) -> Option<PointId> {
+    fn exemption(&self, t: TriangleId) -> Option<PointId> {
         let [a, b, c] = self.ev.mesh.triangles[t];
         let length = |e: &[VertexId; 3]| self.ev.node(e[0]).distance(self.ev.node(e[1]));
         let turns = [[a, b, c], [b, c, a], [c, a, b]];
@@ -188,14 +188,14 @@ impl<'a> AcrossCorners<'a> {
         })
     }
 
-    fn excuses(&self, cells: &BTreeMap<PointId, Vec<u32>>) -> Vec<Excuse> {
-        let excuse = |(&corner, cells): (&PointId, &Vec<u32>)| {
+    fn exemptions(&self, cells: &BTreeMap<PointId, Vec<u32>>) -> Vec<Exemption> {
+        let exemption = |(&corner, cells): (&PointId, &Vec<u32>)| {
             let at = self.domain.points()[corner];
             let nodes = cells.iter().flat_map(|&t| self.ev.mesh.corners(TriangleId(t)));
             let radius = nodes.map(|p| p.distance(at)).fold(0.0, f64::max);
-            Excuse { at: [at.x, at.y], radius, why: "input_angle", cells: cells.clone() }
+            Exemption { at: [at.x, at.y], radius, why: "input_angle", cells: cells.clone() }
         };
-        cells.iter().map(excuse).collect()
+        cells.iter().map(exemption).collect()
     }
 }
 
@@ -205,13 +205,13 @@ fn is_below_min_edge(ev: &Evidence, t: TriangleId) -> bool {
     Circle::around(ev.mesh.corners(t)).is_some_and(|c| c.radius <= limit)
 }
 
-fn excuse_of_min_edge(ev: &Evidence, too_small: &[TriangleId]) -> Option<Excuse> {
+fn exemption_of_min_edge(ev: &Evidence, too_small: &[TriangleId]) -> Option<Exemption> {
     let at = ev.centroid(*too_small.first()?);
     let radius = ev.promise.sizing.min_edge?;
-    Some(Excuse { at: [at.x, at.y], radius, why: "min_edge", cells: too_small.iter().map(|t| t.0).collect() })
+    Some(Exemption { at: [at.x, at.y], radius, why: "min_edge", cells: too_small.iter().map(|t| t.0).collect() })
 }
 
-/// With corner arcs: no angle of any triangle, excused or not, is above max(180° − 2κ, 90°) (section 6). Worst in
+/// With corner arcs: no angle of any triangle, exempt or not, is above max(180° − 2κ, 90°) (section 6). Worst in
 /// degrees.
 pub fn max_angle(ev: &Evidence) -> Check {
     let Some(kappa) = ev.promise.angle_min_rad.filter(|_| ev.promise.has_corner_arcs()) else {
@@ -261,8 +261,8 @@ impl<'a> Corners<'a> {
         Self { ev, balls, hierarchy: BoxHierarchy::new(boxes) }
     }
 
-    /// The ball that excuses a triangle.
-    fn excuse(&self, t: TriangleId) -> Option<usize> {
+    /// The ball that exempts a triangle.
+    fn exemption(&self, t: TriangleId) -> Option<usize> {
         let corners = self.ev.mesh.corners(t);
         if self.ev.promise.has_corner_arcs() { self.holding(&corners) } else { self.over(Circle::around(corners)?) }
     }

@@ -1,4 +1,4 @@
-//! The protecting balls: which of them can excuse a triangle.
+//! The protecting balls: which of them can exemption a triangle.
 
 use super::Check;
 use super::Status;

@@ -4,7 +4,7 @@
 //! in the closed diametral circle of the diagonal that faces it. So whoever looks at the nodes in every circle has met
 //! every crossing.
 
-use super::evidence::{Evidence, Piece, place};
+use super::evidence::{CurvePart, Evidence, place};
 use super::tally::Tally;
 use super::{Check, Status};
 use crate::domain::Domain;
@@ -159,7 +159,7 @@ fn part([a, b]: [Point; 2], [x, y]: [Point; 2]) -> bool {
     sides.contains(&Orientation::Clockwise) && sides.contains(&Orientation::CounterClockwise)
 }
 
-fn apexes(ev: &Evidence, piece: &Piece) -> impl Iterator<Item = VertexId> {
+fn apexes(ev: &Evidence, piece: &CurvePart) -> impl Iterator<Item = VertexId> {
     let edge = piece.edge.map(|e| ev.edges.edges()[e]);
     let sides = edge.into_iter().flat_map(|e| [e.left(), e.right()]).flatten();
     sides.map(|s| ev.mesh.triangles[s.triangle][(s.corner + 2) % 3])
@@ -175,7 +175,7 @@ fn ball_at_nodes(ev: &Evidence, domain: &Domain) -> Vec<(VertexId, f64)> {
 }
 
 /// Whether a piece is a spoke, from a corner to the rim of its ball, and a node lies on that rim too, or outside.
-fn is_on_rim(ev: &Evidence, balls: &[(VertexId, f64)], piece: &Piece, v: VertexId) -> bool {
+fn is_on_rim(ev: &Evidence, balls: &[(VertexId, f64)], piece: &CurvePart, v: VertexId) -> bool {
     let [x, y] = piece.nodes;
     [(x, y), (y, x)].into_iter().any(|(corner, end)| {
         let Ok(i) = balls.binary_search_by_key(&corner, |&(v, _)| v) else { return false };
@@ -186,12 +186,12 @@ fn is_on_rim(ev: &Evidence, balls: &[(VertexId, f64)], piece: &Piece, v: VertexI
     })
 }
 
-fn radii_away(ev: &Evidence, piece: &Piece, v: VertexId) -> f64 {
+fn radii_away(ev: &Evidence, piece: &CurvePart, v: VertexId) -> f64 {
     let [x, y] = piece.nodes.map(|v| ev.node(v));
     2.0 * ev.node(v).distance(x.midpoint(y)) / x.distance(y)
 }
 
-fn box_of_circle(ev: &Evidence, piece: &Piece) -> Rect {
+fn box_of_circle(ev: &Evidence, piece: &CurvePart) -> Rect {
     let [x, y] = piece.nodes.map(|v| ev.node(v));
     let (center, radius) = (x.midpoint(y), 0.5 * x.distance(y) + ev.rounding);
     Rect::from_center_size(center, (2.0 * radius, 2.0 * radius))

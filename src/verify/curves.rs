@@ -1,7 +1,7 @@
 //! What the curves of the domain ask of the mesh: nodes on them, chains of edges along them, small errors.
 
 use super::elevation::mids_on_curves;
-use super::evidence::{Evidence, Piece, is_kept, place};
+use super::evidence::{CurvePart, Evidence, is_kept, place};
 use super::tally::Tally;
 use super::topology::ends_a_region;
 use super::{Check, Status};
@@ -100,7 +100,7 @@ pub fn curve_chain(ev: &Evidence, domain: &Domain) -> Check {
 }
 
 /// What keeps `chain` from leading from one end to the other.
-fn gap_in(ev: &Evidence, chain: &[Piece], ends: [Option<VertexId>; 2]) -> Option<String> {
+fn gap_in(ev: &Evidence, chain: &[CurvePart], ends: [Option<VertexId>; 2]) -> Option<String> {
     let (first, last) = (chain.first()?, chain.last()?);
     let at = |v: VertexId| place(ev.node(v));
     if first.t[0] != 0.0 || Some(first.nodes[0]) != ends[0] {

@@ -7,12 +7,12 @@ const NONE: u32 = u32::MAX;
 
 /// A directed side of a triangle: side `i` runs from corner `i` to corner `i + 1`.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Side {
+pub struct TriangleSide {
     pub triangle: TriangleId,
     pub corner: usize,
 }
 
-impl Side {
+impl TriangleSide {
     fn packed(self) -> u32 {
         3 * self.triangle.0 + self.corner as u32
     }
@@ -31,13 +31,13 @@ pub struct Edge {
 
 impl Edge {
     /// The triangle on the left of `nodes[0]` → `nodes[1]`.
-    pub fn left(&self) -> Option<Side> {
-        Side::unpacked(self.sides[0])
+    pub fn left(&self) -> Option<TriangleSide> {
+        TriangleSide::unpacked(self.sides[0])
     }
 
     /// The triangle on the right of `nodes[0]` → `nodes[1]`.
-    pub fn right(&self) -> Option<Side> {
-        Side::unpacked(self.sides[1])
+    pub fn right(&self) -> Option<TriangleSide> {
+        TriangleSide::unpacked(self.sides[1])
     }
 }
 
@@ -47,7 +47,7 @@ pub struct EdgeTable {
     /// `edges[first[v]..first[v + 1]]` have `v` as their smaller node.
     first: Vec<u32>,
     /// Sides that found their place taken: a third triangle, or two that run the same way.
-    pub surplus: Vec<Side>,
+    pub surplus: Vec<TriangleSide>,
     /// Triangles that name a node twice.
     pub collapsed: Vec<TriangleId>,
 }
@@ -71,7 +71,7 @@ impl EdgeTable {
         for (triangle, t) in triangles.enumerate() {
             for (corner, from, to) in sides_of(t) {
                 let slot = &mut free[from.min(to).0 as usize];
-                entries[*slot as usize] = (from.max(to), Side { triangle, corner }.packed());
+                entries[*slot as usize] = (from.max(to), TriangleSide { triangle, corner }.packed());
                 *slot += 1;
             }
         }
@@ -90,7 +90,7 @@ impl EdgeTable {
         for run in bucket.chunk_by(|a, b| a.0 == b.0) {
             let mut edge = Edge { nodes: [low, run[0].0], sides: [NONE; 2] };
             for &(_, packed) in run {
-                let Some(side) = Side::unpacked(packed) else { continue };
+                let Some(side) = TriangleSide::unpacked(packed) else { continue };
                 let forward = triangles[side.triangle][side.corner] == low;
                 let place = &mut edge.sides[usize::from(!forward)];
                 if *place == NONE {
@@ -134,8 +134,8 @@ mod tests {
         assert_eq!(table.edges().len(), 5);
         assert_eq!(table.edges().iter().filter(|e| e.left().is_none() || e.right().is_none()).count(), 4);
         let shared = table.edges()[table.find(VertexId(2), VertexId(0)).unwrap()];
-        assert_eq!(shared.left(), Some(Side { triangle: TriangleId(1), corner: 0 }));
-        assert_eq!(shared.right(), Some(Side { triangle: TriangleId(0), corner: 2 }));
+        assert_eq!(shared.left(), Some(TriangleSide { triangle: TriangleId(1), corner: 0 }));
+        assert_eq!(shared.right(), Some(TriangleSide { triangle: TriangleId(0), corner: 2 }));
         assert_eq!(table.find(VertexId(1), VertexId(3)), None);
         assert!(table.surplus.is_empty() && table.collapsed.is_empty());
     }
@@ -143,7 +143,7 @@ mod tests {
     #[test]
     fn a_third_triangle_a_repeated_one_and_a_collapsed_one_are_told() {
         let third = EdgeTable::new(5, &triangles(&[[0, 1, 2], [1, 0, 3], [0, 1, 4]]));
-        assert_eq!(third.surplus, [Side { triangle: TriangleId(2), corner: 0 }]);
+        assert_eq!(third.surplus, [TriangleSide { triangle: TriangleId(2), corner: 0 }]);
         let twice = EdgeTable::new(3, &triangles(&[[0, 1, 2], [1, 2, 0]]));
         assert_eq!(twice.surplus.len(), 3);
         let collapsed = EdgeTable::new(2, &triangles(&[[0, 0, 1]]));

@@ -21,7 +21,7 @@ pub fn jacobian(ev: &Evidence) -> Check {
     }
     for edge in ev.edges.edges() {
         tally.count();
-        let mid = |side: super::edges::Side| ev.mesh.triangle_mids[side.triangle][side.corner];
+        let mid = |side: super::edges::TriangleSide| ev.mesh.triangle_mids[side.triangle][side.corner];
         let [left, right] = [edge.left(), edge.right()].map(|side| side.map(mid));
         if left.is_some() && right.is_some() && left != right {
             tally.flaw(|| format!("{} has another node within it on either side", ev.tell_edge(edge.nodes)));

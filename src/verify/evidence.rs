@@ -11,7 +11,7 @@ use std::collections::BTreeSet;
 
 /// A stretch of a curve that a mesh edge stands for.
 #[derive(Clone, Copy, Debug)]
-pub struct Piece {
+pub struct CurvePart {
     pub curve: CurveId,
     /// Parameters of the two nodes, within 0..1; ascending in a right mesh.
     pub t: [f64; 2],
@@ -22,7 +22,7 @@ pub struct Piece {
     pub name: Option<NameId>,
 }
 
-impl Piece {
+impl CurvePart {
     /// The parameters, ascending.
     pub fn range(&self) -> (f64, f64) {
         (self.t[0].min(self.t[1]), self.t[0].max(self.t[1]))
@@ -39,7 +39,7 @@ pub struct Evidence<'a> {
     pub signs: IdVec<VertexId, Point>,
     pub edges: EdgeTable,
     /// Stretches of curves in the mesh's order; of a foreign mesh, by curve and parameter as found by the judge.
-    pub pieces: Vec<Piece>,
+    pub pieces: Vec<CurvePart>,
     /// Listed edges whose link is missing or leads off its curve.
     pub unlinked: Vec<usize>,
     pub classes: Classes,
@@ -167,13 +167,13 @@ impl Classes {
 }
 
 /// The mesh's own links, and the listed edges that have none within 0..1.
-fn linked(mesh: &Mesh) -> (Vec<Piece>, Vec<usize>) {
+fn linked(mesh: &Mesh) -> (Vec<CurvePart>, Vec<usize>) {
     let (mut pieces, mut unlinked) = (Vec::with_capacity(mesh.edges.len()), Vec::new());
     for (i, edge) in mesh.edges.iter().enumerate() {
         match edge.link {
             Some(link) if link.t.iter().all(|t| (0.0..=1.0).contains(t)) => {
                 let name = Some(edge.name);
-                pieces.push(Piece { curve: link.curve, t: link.t, nodes: edge.nodes, edge: None, name });
+                pieces.push(CurvePart { curve: link.curve, t: link.t, nodes: edge.nodes, edge: None, name });
             }
             _ => unlinked.push(i),
         }
@@ -185,7 +185,7 @@ fn linked(mesh: &Mesh) -> (Vec<Piece>, Vec<usize>) {
 const SEARCH_PARTS: usize = 16;
 
 /// Stretches of the kept curves between the corners of cells that lie on them within `reach`.
-fn recovered(domain: &Domain, mesh: &Mesh, within: &IdVec<VertexId, bool>, reach: f64) -> Vec<Piece> {
+fn recovered(domain: &Domain, mesh: &Mesh, within: &IdVec<VertexId, bool>, reach: f64) -> Vec<CurvePart> {
     let kept: Vec<CurveId> = domain.curves().enumerate().filter(|(_, c)| is_kept(c.sides)).map(|(id, _)| id).collect();
     let range = |part: usize| {
         let (k, n) = (part % SEARCH_PARTS, SEARCH_PARTS as f64);
@@ -220,7 +220,7 @@ fn recovered(domain: &Domain, mesh: &Mesh, within: &IdVec<VertexId, bool>, reach
     pairs
         .map(|w| {
             let nodes = [w[0].2, w[1].2];
-            Piece { curve: w[0].0, t: [w[0].1, w[1].1], nodes, edge: None, name: listed.name(nodes) }
+            CurvePart { curve: w[0].0, t: [w[0].1, w[1].1], nodes, edge: None, name: listed.name(nodes) }
         })
         .collect()
 }

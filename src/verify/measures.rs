@@ -1,6 +1,6 @@
 //! Sizes, areas and names.
 
-use super::evidence::{Evidence, Piece, is_kept};
+use super::evidence::{CurvePart, Evidence, is_kept};
 use super::tally::Tally;
 use super::{Check, Status};
 use crate::domain::Domain;
@@ -247,7 +247,7 @@ fn kept_boundaries(ev: &Evidence, domain: &Domain) -> bool {
     let asked = in_domain(domain, names_of_boundaries(domain));
     let has = in_use(ev, ev.mesh.edges.iter().map(|e| e.name));
     let are_numbers = has.iter().all(|name| name.parse::<i64>().is_ok());
-    let fits = |p: &Piece| p.name.is_none_or(|name| ev.mesh.names.text(name) == name_asked(domain, p));
+    let fits = |p: &CurvePart| p.name.is_none_or(|name| ev.mesh.names.text(name) == name_asked(domain, p));
     let known = !has.is_disjoint(&asked);
     !ev.promise.foreign || known && (!are_numbers || ev.pieces.iter().all(fits))
 }
@@ -256,7 +256,7 @@ fn in_domain(domain: &Domain, names: impl Iterator<Item = NameId>) -> BTreeSet<&
     distinct(names).into_iter().map(|name| domain.name(name)).collect()
 }
 
-fn name_asked<'a>(domain: &'a Domain, piece: &Piece) -> &'a str {
+fn name_asked<'a>(domain: &'a Domain, piece: &CurvePart) -> &'a str {
     domain.name(domain.curves()[piece.curve].name)
 }
 

@@ -88,9 +88,10 @@ pub struct Worst {
     pub at: [f64; 2],
 }
 
-/// Triangles below the angle that a corner excuses.
+/// Triangles below the angle that a corner exempts.
 #[derive(Clone, Debug, serde::Serialize, schemars::JsonSchema)]
-pub struct Excuse {
+#[schemars(rename = "Excuse")]
+pub struct Exemption {
     /// The corner, [x, y]; where `why` is `min_edge`, the centroid of the first triangle.
     pub at: [f64; 2],
     /// The radius of the corner's ball, or the largest distance from the corner to a node of the triangles; where `why`
@@ -108,7 +109,7 @@ pub struct Verdict {
     /// The checks, each once, in the contract's order.
     pub checks: Vec<Check>,
     /// The triangles that are exempt from the smallest angle, by corner; empty where there are none.
-    pub excused: Vec<Excuse>,
+    pub exempt: Vec<Exemption>,
 }
 
 impl Verdict {
@@ -117,9 +118,9 @@ impl Verdict {
         self.checks.iter().all(|c| c.status != Status::Broken)
     }
 
-    /// The triangles that a corner excuses.
+    /// The triangles that a corner exempts.
     pub fn exempt_cells(&self) -> impl Iterator<Item = TriangleId> {
-        self.excused.iter().flat_map(|excuse| &excuse.cells).map(|&cell| TriangleId(cell))
+        self.exempt.iter().flat_map(|exemption| &exemption.cells).map(|&cell| TriangleId(cell))
     }
 }
 
@@ -163,11 +164,11 @@ pub fn verify(domain: Option<&Domain>, mesh: &Mesh, promise: &Promise) -> Verdic
         Some(domain) => balls::judge(&evidence, domain),
         None => (Check::not_asked("ball_radius"), Check::not_asked("lfs_ratio"), Vec::new()),
     };
-    let ((min_angle, excused), (max_angle, size)) = threads::join(
+    let ((min_angle, exempt), (max_angle, size)) = threads::join(
         || angles::min_angle(&evidence, &balls),
         || (angles::max_angle(&evidence), measures::size(&evidence)),
     );
-    let radius_edge = constrained.then(|| angles::radius_edge(&evidence, &excused));
+    let radius_edge = constrained.then(|| angles::radius_edge(&evidence, &exempt));
     let (delaunay, constrained_delaunay) =
         if constrained { (Check::not_asked("delaunay"), Some(delaunay)) } else { (delaunay, None) };
     let mut checks = vec![
@@ -190,7 +191,7 @@ pub fn verify(domain: Option<&Domain>, mesh: &Mesh, promise: &Promise) -> Verdic
         elevation::jacobian(&evidence),
     ];
     checks.extend(constrained_delaunay.into_iter().chain(radius_edge));
-    Verdict { checks, excused }
+    Verdict { checks, exempt }
 }
 
 /// Names of the checks, in the contract's order.
@@ -222,5 +223,5 @@ fn verdict_of_unreadable(flaws: Vec<String>) -> Verdict {
     }
     let mut checks: Vec<Check> = NAMES.map(Check::not_asked).into();
     checks[1] = manifold.finish(Status::Broken);
-    Verdict { checks, excused: Vec::new() }
+    Verdict { checks, exempt: Vec::new() }
 }

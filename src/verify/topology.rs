@@ -2,7 +2,7 @@
 
 use super::circles::Circles;
 use super::edges::Edge;
-use super::evidence::{Evidence, Piece, is_kept, place};
+use super::evidence::{CurvePart, Evidence, is_kept, place};
 use super::tally::Tally;
 use super::{Check, Status};
 use crate::domain::Domain;
@@ -68,7 +68,7 @@ pub fn conforming(ev: &Evidence, domain: &Domain, circles: &Circles) -> Check {
     tally.finish(Status::Proven)
 }
 
-fn chord(ev: &Evidence, domain: &Domain, piece: &Piece, on_curve: &mut [bool], tally: &mut Tally) {
+fn chord(ev: &Evidence, domain: &Domain, piece: &CurvePart, on_curve: &mut [bool], tally: &mut Tally) {
     tally.count();
     let Some(place) = piece.edge else {
         return tally

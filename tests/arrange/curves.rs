@@ -136,7 +136,7 @@ fn a_cusp_becomes_a_corner() {
 fn nearly_closed_arcs_close_without_losing_their_shape() {
     let arc = Curve::arc(p(0.0, 0.0), 1.0, 0.0, TAU - 1e-8).unwrap();
     let domain = regions(&drawing([arc]));
-    assert!((domain.measure() - PI).abs() < 1e-6);
+    assert!((domain.area() - PI).abs() < 1e-6);
     assert_eq!(repairs(&domain, RepairKind::GapClosed), 1);
     for c in domain.curves().iter() {
         assert!(c.curve.bounds().width() < 2.1, "{c:?}");
@@ -205,7 +205,7 @@ fn a_handle_a_last_digit_from_its_end_makes_a_corner_not_a_hook() {
     ];
     let area: f64 = curves.iter().map(|c| c.signed_area(start)).sum();
     let domain = regions(&drawing(curves));
-    assert!((domain.measure() - area.abs()).abs() < 1e-9 * area.abs());
+    assert!((domain.area() - area.abs()).abs() < 1e-9 * area.abs());
     assert_eq!(repairs(&domain, RepairKind::Corner), 1, "{:?}", domain.repairs());
     assert!(domain.curves().iter().all(|c| c.curve.turning(0.0, 1.0) < 2.7));
 }
@@ -222,7 +222,7 @@ fn curves_that_part_slowly_are_one_within_a_tolerance_that_was_asked_for() {
     let zipped = drawing.arrange(&options).unwrap();
     assert_eq!(zipped.flaws(), [""; 0]);
     assert!(repairs(&zipped, RepairKind::Overlap) > 0, "{:?}", zipped.repairs());
-    assert!((zipped.measure() - whole.measure()).abs() < 1e-5, "{} {}", zipped.measure(), whole.measure());
+    assert!((zipped.area() - whole.area()).abs() < 1e-5, "{} {}", zipped.area(), whole.area());
     let corners = |domain: &Domain| {
         let at_contact = |&q: &squinch::ids::PointId| domain.points()[q].distance(Point::ORIGIN) < 0.1;
         domain

@@ -10,7 +10,7 @@ fn a_drawing_of_hatches_is_a_picture_of_shapes() {
     let domain = drawing.arrange(&ArrangeOptions::default()).unwrap();
     assert_eq!(domain.regions().len(), 1);
     assert_eq!(domain.name(domain.regions().iter().next().unwrap().name), "steel");
-    near(domain.measure(), 64.0 - PI);
+    near(domain.area(), 64.0 - PI);
     assert_eq!(drawing.curves[0].entity, "HATCH (handle 4D, line 6)");
 }
 
@@ -87,7 +87,7 @@ fn beside_outlines_a_hatch_names_a_region() {
     let domain = drawing.arrange(&ArrangeOptions::default()).unwrap();
     let regions: Vec<_> = domain.regions().iter().map(|r| domain.name(r.name)).collect();
     assert_eq!(regions, ["steel"]);
-    near(domain.measure(), 7.0 * PI);
+    near(domain.area(), 7.0 * PI);
 }
 
 fn square_path(flags: u8, [x, y]: [f64; 2], side: f64) -> String {

@@ -80,7 +80,7 @@ fn area(drawing: &Drawing) -> f64 {
 
 /// The area of the kept regions.
 fn measure(drawing: &Drawing) -> f64 {
-    drawing.arrange(&ArrangeOptions::default()).unwrap_or_else(|e| panic!("{e}")).measure()
+    drawing.arrange(&ArrangeOptions::default()).unwrap_or_else(|e| panic!("{e}")).area()
 }
 
 fn skipped(drawing: &Drawing) -> Vec<(&str, usize, &str)> {

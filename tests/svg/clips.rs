@@ -182,7 +182,6 @@ fn clips_round_trip_as_outlines() {
         read(text.as_bytes(), Format::Outline, "stem", &Options::default()).unwrap_or_else(|e| panic!("{e}\n{text}"));
     assert_eq!((&again.clips, &again.shapes, &again.curves), (&drawing.clips, &drawing.shapes, &drawing.curves));
     assert_eq!(squinch::import::outline::to_json(&again), text);
-    let [wanted, found] =
-        [&drawing, &again].map(|d| d.arrange(&ArrangeOptions::default()).expect("a domain").measure());
+    let [wanted, found] = [&drawing, &again].map(|d| d.arrange(&ArrangeOptions::default()).expect("a domain").area());
     assert_eq!(wanted.to_bits(), found.to_bits());
 }

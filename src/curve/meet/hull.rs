@@ -14,7 +14,7 @@ use std::f64::consts::FRAC_PI_2;
 type Homogeneous = [f64; 3];
 
 /// One Bézier piece, or (without control points) a group of neighbouring ones.
-pub(super) struct Piece {
+pub(super) struct HullNode {
     control: Vec<Homogeneous>,
     /// The control points; empty for a group.
     pub hull: Vec<Point>,
@@ -37,7 +37,7 @@ pub(super) struct Piece {
     children: Option<[usize; 2]>,
 }
 
-impl Piece {
+impl HullNode {
     pub fn first(&self) -> Point {
         self.hull[0]
     }
@@ -95,7 +95,7 @@ impl Span {
 
 pub(super) struct Hulls {
     spans: Vec<Span>,
-    pieces: Vec<Piece>,
+    pieces: Vec<HullNode>,
     root: usize,
     /// The largest coordinate that the curve is computed from.
     pub magnitude: f64,
@@ -105,8 +105,8 @@ pub(super) struct Hulls {
 }
 
 impl std::ops::Index<usize> for Hulls {
-    type Output = Piece;
-    fn index(&self, i: usize) -> &Piece {
+    type Output = HullNode;
+    fn index(&self, i: usize) -> &HullNode {
         &self.pieces[i]
     }
 }
@@ -227,7 +227,7 @@ fn halved(control: &[Homogeneous]) -> [Vec<Homogeneous>; 2] {
     [left, right]
 }
 
-fn bezier_piece(control: Vec<Homogeneous>, span: usize, s: [f64; 2], t: [f64; 2], span_end: [bool; 2]) -> Piece {
+fn bezier_piece(control: Vec<Homogeneous>, span: usize, s: [f64; 2], t: [f64; 2], span_end: [bool; 2]) -> HullNode {
     let hull: Vec<Point> = control.iter().map(|c| Point::new(c[0] / c[2], c[1] / c[2])).collect();
     let mut bounds = Rect::from_points(hull[0], hull[0]);
     hull.iter().for_each(|&p| bounds = bounds.union_pt(p));
@@ -243,13 +243,13 @@ fn bezier_piece(control: Vec<Homogeneous>, span: usize, s: [f64; 2], t: [f64; 2]
         })
     };
     let cone = cone(&hull, chord);
-    Piece { control, hull, bounds, t, s, span, normal, spread, cone, size, span_end, children: None }
+    HullNode { control, hull, bounds, t, s, span, normal, spread, cone, size, span_end, children: None }
 }
 
-fn group_piece(left: &Piece, right: &Piece, children: [usize; 2]) -> Piece {
+fn group_piece(left: &HullNode, right: &HullNode, children: [usize; 2]) -> HullNode {
     let bounds = left.bounds.union(right.bounds);
     let size = bounds.width().max(bounds.height());
-    Piece {
+    HullNode {
         control: Vec::new(),
         hull: Vec::new(),
         bounds,

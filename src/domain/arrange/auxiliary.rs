@@ -2,10 +2,10 @@
 //! frames, outlines that cross those of another layer, and bolt circles. It is taken as drawn, and told with the option
 //! that leaves it out.
 
+use super::arrangement::Arrangement;
 use super::faces::Faces;
 use super::fill::closed_outlines;
-use super::network::Network;
-use super::trace::Half;
+use super::trace::DirectedEdge;
 use crate::domain::Domain;
 use crate::domain::locate::Side;
 use crate::geometry::Point;
@@ -19,11 +19,11 @@ const FRAMES: [&str; 9] = ["frame", "border", "title", "sheet", "rahmen", "schri
 const HOLES: usize = 3;
 
 /// What is to be told of a drawing with layers.
-pub(super) fn remarks(network: &Network, domain: &Domain, faces: &Faces) -> Vec<String> {
-    if network.drawing.layers.is_empty() {
+pub(super) fn remarks(arrangement: &Arrangement, domain: &Domain, faces: &Faces) -> Vec<String> {
+    if arrangement.drawing.layers.is_empty() {
         return Vec::new();
     }
-    let outlines = Outlines::new(network, faces);
+    let outlines = Outlines::new(arrangement, faces);
     let mut remarks = outlines.frames();
     remarks.extend(outlines.crossings(domain));
     remarks.extend(outlines.bolt_circles(domain));
@@ -32,7 +32,7 @@ pub(super) fn remarks(network: &Network, domain: &Domain, faces: &Faces) -> Vec<
 
 /// The layers of closed outlines, by curve and by component.
 struct Outlines<'a> {
-    network: &'a Network<'a>,
+    arrangement: &'a Arrangement<'a>,
     faces: &'a Faces,
     by_curve: Vec<BTreeSet<LayerId>>,
     /// The drawn curves that are closed each for itself, with a layer: circles, mostly.
@@ -41,31 +41,32 @@ struct Outlines<'a> {
 }
 
 impl<'a> Outlines<'a> {
-    fn new(network: &'a Network<'a>, faces: &'a Faces) -> Self {
-        let closed = closed_outlines(network);
+    fn new(arrangement: &'a Arrangement<'a>, faces: &'a Faces) -> Self {
+        let closed = closed_outlines(arrangement);
         let layers = |id: CurveId| {
-            let sources = network.drawn_along(id).map(|(source, _)| source as usize).filter(|&source| closed[source]);
-            sources.filter_map(|source| network.drawing.curves[source].layer).collect::<BTreeSet<_>>()
+            let sources =
+                arrangement.drawn_along(id).map(|(source, _)| source as usize).filter(|&source| closed[source]);
+            sources.filter_map(|source| arrangement.drawing.curves[source].layer).collect::<BTreeSet<_>>()
         };
         let is_circle = |source: usize| {
-            let is_closed = network.drawn_ends[source].is_some_and(|[start, end]| start == end);
-            is_closed && network.drawing.curves[source].layer.is_some()
+            let is_closed = arrangement.drawn_ends[source].is_some_and(|[start, end]| start == end);
+            is_closed && arrangement.drawing.curves[source].layer.is_some()
         };
         let circles = |id: CurveId| {
-            network.drawn_along(id).map(|(source, _)| source as usize).filter(|&s| is_circle(s)).collect()
+            arrangement.drawn_along(id).map(|(source, _)| source as usize).filter(|&s| is_circle(s)).collect()
         };
-        let by_curve: Vec<_> = network.pieces.ids().map(layers).collect();
-        let circles = network.pieces.ids().map(circles).collect();
+        let by_curve: Vec<_> = arrangement.edges.ids().map(layers).collect();
+        let circles = arrangement.edges.ids().map(circles).collect();
         let mut by_component = vec![BTreeSet::new(); faces.outer.len()];
         for (k, layers) in by_curve.iter().enumerate() {
-            let half = Half { curve: CurveId::from_index(k), side: Side::Left };
+            let half = DirectedEdge { curve: CurveId::from_index(k), side: Side::Left };
             by_component[faces.cycles[faces.cycle_of[half.index()]].component].extend(layers);
         }
-        Self { network, faces, by_curve, circles, by_component }
+        Self { arrangement, faces, by_curve, circles, by_component }
     }
 
     fn name(&self, layer: LayerId) -> &str {
-        &self.network.drawing.layers[layer].name
+        &self.arrangement.drawing.layers[layer].name
     }
 
     /// The component in which a component lies.
@@ -132,7 +133,7 @@ impl<'a> Outlines<'a> {
 
     /// Circles that cross others of their own layer, which do not cross each other.
     fn bolt_circles(&self, domain: &Domain) -> Vec<String> {
-        let layer = |circle: usize| self.network.drawing.curves[circle].layer;
+        let layer = |circle: usize| self.arrangement.drawing.curves[circle].layer;
         let mut crossed: BTreeMap<usize, BTreeSet<usize>> = BTreeMap::new();
         let pairs = crossings(domain, &self.circles).into_keys().filter(|&[a, b]| layer(a) == layer(b));
         for [a, b] in pairs {
@@ -144,7 +145,7 @@ impl<'a> Outlines<'a> {
         let told = |(&circle, holes): (&usize, &BTreeSet<usize>)| {
             format!(
                 "{} crosses {} circles of its layer, as a bolt circle does: inside and outside change places there. On a layer of its own it can be left out by --skip-layers.",
-                self.network.drawing.curves[circle].entity,
+                self.arrangement.drawing.curves[circle].entity,
                 holes.len()
             )
         };
@@ -154,13 +155,13 @@ impl<'a> Outlines<'a> {
     /// The layer of fewer outlines is the one that crosses.
     fn tell_crossing(&self, pair: [LayerId; 2], places: &[Point]) -> String {
         let count = |layer: LayerId| self.by_curve.iter().filter(|layers| layers.contains(&layer)).count();
-        let entities = |layer: LayerId| self.network.drawing.layers[layer].line_types.values().sum::<usize>();
+        let entities = |layer: LayerId| self.arrangement.drawing.layers[layer].line_types.values().sum::<usize>();
         let [across, others] = if [entities(pair[0]), count(pair[0])] < [entities(pair[1]), count(pair[1])] {
             pair
         } else {
             [pair[1], pair[0]]
         };
-        let [x, y] = [places[0].x, places[0].y].map(|x| self.network.tolerances.told(x));
+        let [x, y] = [places[0].x, places[0].y].map(|x| self.arrangement.tolerances.told(x));
         let more = if places.len() > 1 { format!(" and {} places more", places.len() - 1) } else { String::new() };
         let [across, others] = [across, others].map(|layer| self.name(layer));
         format!(

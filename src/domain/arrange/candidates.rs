@@ -1,8 +1,8 @@
-//! What may meet: pairs of pieces, and of a node and a piece, whose boxes meet and of which it is not plain that they
+//! What may meet: pairs of edges, and of a node and an edge, whose boxes meet and of which it is not plain that they
 //! do not.
 
+use super::arrangement::{Arrangement, Edge};
 use super::error::{ArrangeError, Unarranged};
-use super::network::{Network, Piece};
 use crate::curve::{Curve, End};
 use crate::geometry::boxes::{BoxHierarchy, Labels};
 use crate::geometry::{Point, Rect};
@@ -14,7 +14,7 @@ use std::f64::consts::TAU;
 /// gigabyte.
 const PAIRS_MAX: usize = 1 << 26;
 
-/// Cuts of one round that are kept at most, two a crossing: some gigabytes with the pieces that they make.
+/// Cuts of one round that are kept at most, two a crossing: some gigabytes with the edges that they make.
 pub(super) const CUTS_MAX: usize = 1 << 24;
 
 /// Curves part slowly where they stay within the tolerance of each other for so many tolerances; those that part at an
@@ -37,11 +37,11 @@ struct Hubs {
 }
 
 impl Hubs {
-    fn new(network: &Network) -> Self {
-        let mut spokes: IdVec<PointId, Vec<CurveId>> = vec![Vec::new(); network.nodes.len()].into();
-        let lines = || network.pieces.enumerate().filter(|(_, piece)| piece.is_line());
+    fn new(arrangement: &Arrangement) -> Self {
+        let mut spokes: IdVec<PointId, Vec<CurveId>> = vec![Vec::new(); arrangement.nodes.len()].into();
+        let lines = || arrangement.edges.enumerate().filter(|(_, edge)| edge.is_line());
         lines().for_each(|(id, line)| line.ends.into_iter().for_each(|end| spokes[end].push(id)));
-        let mut hubs = Self { spokes, of_node: vec![Labels::default(); network.nodes.len()].into() };
+        let mut hubs = Self { spokes, of_node: vec![Labels::default(); arrangement.nodes.len()].into() };
         for (_, line) in lines() {
             for (node, hub) in [(line.ends[0], line.ends[1]), (line.ends[1], line.ends[0])] {
                 let free = hubs.of_node[node].iter().position(Option::is_none);
@@ -58,19 +58,19 @@ impl Hubs {
     }
 
     /// The hubs at which a line ends.
-    fn of_piece(&self, piece: &Piece) -> Labels {
-        if piece.is_line() { piece.ends.map(|end| self.is_hub(end).then_some(end.0)) } else { Labels::default() }
+    fn of_piece(&self, edge: &Edge) -> Labels {
+        if edge.is_line() { edge.ends.map(|end| self.is_hub(end).then_some(end.0)) } else { Labels::default() }
     }
 
     /// Calls `ask` with the far ends of spokes that may lie on other spokes of their hub, and these.
     fn spokes_on_spokes(
         &self,
-        network: &Network,
+        arrangement: &Arrangement,
         ask: &mut impl FnMut(PointId, CurveId) -> Result<(), Unarranged>,
     ) -> Result<(), Unarranged> {
         for hub in self.spokes.ids().filter(|&hub| self.is_hub(hub)) {
-            let far = |id: CurveId| network.pieces[id].ends.into_iter().find(|&end| end != hub).unwrap_or(hub);
-            let arm = |id: CurveId| network.nodes[far(id)].at - network.nodes[hub].at;
+            let far = |id: CurveId| arrangement.edges[id].ends.into_iter().find(|&end| end != hub).unwrap_or(hub);
+            let arm = |id: CurveId| arrangement.nodes[far(id)].at - arrangement.nodes[hub].at;
             let mut around: Vec<(f64, CurveId)> =
                 self.spokes[hub].iter().map(|&id| (libm::atan2(arm(id).y, arm(id).x), id)).collect();
             around.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
@@ -78,7 +78,7 @@ impl Hubs {
             for (k, &(angle, id)) in around.iter().enumerate() {
                 // Half a circle's chord at least as long as the tolerance; 1e-12 is more than rounding does to an
                 // angle.
-                let reach = (2.0 * network.tolerances.weld / arm(id).hypot()).min(4.0) + 1e-12;
+                let reach = (2.0 * arrangement.tolerances.weld / arm(id).hypot()).min(4.0) + 1e-12;
                 let off = |other: f64| (other - angle).abs().min(TAU - (other - angle).abs());
                 let beside = |step: usize| (1..n).map(move |i| (k + i * step) % n);
                 for way in [1, n - 1] {
@@ -93,19 +93,19 @@ impl Hubs {
     }
 }
 
-impl Network<'_> {
-    /// Pairs of pieces that may cross and were not both looked at before, in order.
+impl Arrangement<'_> {
+    /// Pairs of edges that may cross and were not both looked at before, in order.
     pub fn fresh_pairs(&self, boxes: &BoxHierarchy, watch: &mut Watch) -> Result<Vec<(CurveId, CurveId)>, Unarranged> {
         let mut pairs = Vec::new();
-        let fresh: Vec<CurveId> = self.pieces.ids().filter(|&id| self.pieces[id].fresh).collect();
+        let fresh: Vec<CurveId> = self.edges.ids().filter(|&id| self.edges[id].fresh).collect();
         let mut ask = |a: CurveId, b: CurveId| {
             if !self.are_circles_apart(a, b) && !self.part_at_once(a, b) {
                 pairs.push((a, b));
             }
-            self.keep_on(pairs.len(), self.pieces[a].bounds.center(), watch)
+            self.keep_on(pairs.len(), self.edges[a].bounds.center(), watch)
         };
         let labels = |i: usize| self.crossing_labels(CurveId::from_index(i));
-        if fresh.len() == self.pieces.len() {
+        if fresh.len() == self.edges.len() {
             boxes.try_pairs(labels, |i, j| ask(CurveId::from_index(i), CurveId::from_index(j)))?;
             pairs.sort_unstable();
             return Ok(pairs);
@@ -118,14 +118,14 @@ impl Network<'_> {
             |i, j| {
                 let (a, b) = (fresh[i], CurveId::from_index(j));
                 // Of two fresh ones each finds the other.
-                if a < b || (b < a && !self.pieces[b].fresh) { ask(a.min(b), a.max(b)) } else { Ok(()) }
+                if a < b || (b < a && !self.edges[b].fresh) { ask(a.min(b), a.max(b)) } else { Ok(()) }
             },
         )?;
         pairs.sort_unstable();
         Ok(pairs)
     }
 
-    /// Nodes with pieces that they may lie on without being their ends, each pair once, in order.
+    /// Nodes with edges that they may lie on without being their ends, each pair once, in order.
     pub fn nodes_near_pieces(
         &self,
         boxes: &BoxHierarchy,
@@ -135,8 +135,8 @@ impl Network<'_> {
         let nodes = BoxHierarchy::new(self.nodes.iter().map(|n| Rect::from_points(n.at, n.at)));
         let mut near = Vec::new();
         let mut ask = |id: PointId, i: CurveId| {
-            let (node, piece) = (&self.nodes[id], &self.pieces[i]);
-            if (node.fresh || piece.fresh) && !piece.ends.contains(&id) && !self.is_off_circle(node.at, piece) {
+            let (node, edge) = (&self.nodes[id], &self.edges[i]);
+            if (node.fresh || edge.fresh) && !edge.ends.contains(&id) && !self.is_off_circle(node.at, edge) {
                 near.push((id, i));
             }
             self.keep_on(near.len(), node.at, watch)
@@ -144,7 +144,7 @@ impl Network<'_> {
         nodes.try_pairs_with(
             |i| hubs.of_node[PointId::from_index(i)],
             boxes,
-            |i| hubs.of_piece(&self.pieces[CurveId::from_index(i)]),
+            |i| hubs.of_piece(&self.edges[CurveId::from_index(i)]),
             |i, j| ask(PointId::from_index(i), CurveId::from_index(j)),
         )?;
         hubs.spokes_on_spokes(self, &mut ask)?;
@@ -161,9 +161,9 @@ impl Network<'_> {
         if pairs.is_multiple_of(1024) { Ok(self.progress("meeting", pairs).tell(watch)?) } else { Ok(()) }
     }
 
-    /// Whether two pieces with a common end part there at an angle for good: they meet nowhere else.
+    /// Whether two edges with a common end part there at an angle for good: they meet nowhere else.
     fn part_at_once(&self, a: CurveId, b: CurveId) -> bool {
-        let [first, second] = [a, b].map(|id| &self.pieces[id]);
+        let [first, second] = [a, b].map(|id| &self.edges[id]);
         let ends = [End::Start, End::Finish];
         let common = ends.iter().find_map(|&i| {
             let j = ends.iter().find(|&&j| first.end(i) == second.end(j))?;
@@ -173,8 +173,8 @@ impl Network<'_> {
     }
 
     /// Whether a place is for certain no part of an arc, told by its circle.
-    fn is_off_circle(&self, at: Point, piece: &Piece) -> bool {
-        let Curve::Arc(arc) = &piece.curve else { return false };
+    fn is_off_circle(&self, at: Point, edge: &Edge) -> bool {
+        let Curve::Arc(arc) = &edge.curve else { return false };
         let from = at.distance(arc.center);
         (from - arc.radius).abs() > self.off_circle(from + arc.radius)
     }
@@ -188,7 +188,7 @@ impl Network<'_> {
     /// Whether two arcs meet nowhere, or nowhere but at their one common end, told by their circles: rings in each
     /// other and fans of arcs have as many pairs of boxes that meet as there are pairs.
     fn are_circles_apart(&self, a: CurveId, b: CurveId) -> bool {
-        let [first, second] = [a, b].map(|id| &self.pieces[id]);
+        let [first, second] = [a, b].map(|id| &self.edges[id]);
         let (Curve::Arc(p), Curve::Arc(q)) = (&first.curve, &second.curve) else { return false };
         let between = p.center.distance(q.center);
         let slack = self.off_circle(between + p.radius + q.radius);
@@ -205,12 +205,12 @@ impl Network<'_> {
         let reach = slack / SLANT;
         sine >= SLANT
             && at.distance(other) > 2.0 * reach
-            && [first, second].iter().any(|piece| piece.curve.nearest(other, 0.0, 1.0).1 > reach)
+            && [first, second].iter().any(|edge| edge.curve.nearest(other, 0.0, 1.0).1 > reach)
     }
 
     /// Lines with a common end do not cross.
     fn crossing_labels(&self, id: CurveId) -> Labels {
-        match &self.pieces[id] {
+        match &self.edges[id] {
             line if line.is_line() => line.ends.map(|end| Some(end.0)),
             _ => Labels::default(),
         }

@@ -8,9 +8,9 @@
 //!       ╲__╱ ╲__╱                                    ╱  ╲               ╰───●───╯
 //! ```
 
+use super::arrangement::{Arrangement, Edge, NodeOrigin, Part, is_spiral};
 use super::error::{ArrangeError, Unarranged};
 use super::frame::Tolerances;
-use super::network::{Network, Origin, Part, Piece, is_spiral};
 use super::repair::RepairKind;
 use crate::curve::{BreakKind, Curve, Meeting, self_meetings};
 use crate::domain::Drawing;
@@ -26,26 +26,26 @@ const HOOK: f64 = 0.0625;
 /// sharper than some millionth of its size then.
 const PACE: f64 = 1e-3;
 
-/// The pieces of a drawing, cut at breaks and self-meetings, not yet met with each other.
+/// The edges of a drawing, cut at breaks and self-meetings, not yet met with each other.
 pub(super) fn cut_drawing<'a>(
     drawing: &'a Drawing,
     tolerances: Tolerances,
     watch: &mut Watch,
-) -> Result<Network<'a>, Unarranged> {
-    let mut network = Network::empty(drawing, tolerances);
+) -> Result<Arrangement<'a>, Unarranged> {
+    let mut arrangement = Arrangement::empty(drawing, tolerances);
     for source in 0..drawing.curves.len() {
-        network.progress("cutting", drawing.curves.len() - source).tell(watch)?;
-        let ends = network.add_curve(source as u32)?;
-        network.drawn_ends.push(ends);
+        arrangement.progress("cutting", drawing.curves.len() - source).tell(watch)?;
+        let ends = arrangement.add_curve(source as u32)?;
+        arrangement.drawn_ends.push(ends);
     }
     for (i, point) in drawing.points.iter().enumerate() {
-        let id = network.add_node(point.at, Origin::Point(i as u32));
-        network.drawn_points.push(id);
+        let id = arrangement.add_node(point.at, NodeOrigin::Point(i as u32));
+        arrangement.drawn_points.push(id);
     }
-    Ok(network)
+    Ok(arrangement)
 }
 
-impl Network<'_> {
+impl Arrangement<'_> {
     fn add_curve(&mut self, source: u32) -> Result<Option<[PointId; 2]>, ArrangeError> {
         let curve = &self.drawing.curves[source as usize].curve;
         let (size, weld) = (extent(curve.bounds()), self.tolerances.weld);
@@ -57,18 +57,19 @@ impl Network<'_> {
         if size <= weld {
             // Too small for a shape of its own. Whether it is lost is told by its ends: a chain of short curves may be
             // a long one.
-            let [from, to] = [curve.start(), curve.end()].map(|at| self.add_node(at, Origin::Curve(source)));
-            self.pieces.push(Piece::new(Part::whole(curve), [from, to], source));
+            let [from, to] = [curve.start(), curve.end()].map(|at| self.add_node(at, NodeOrigin::Curve(source)));
+            self.edges.push(Edge::new(Part::whole(curve), [from, to], source));
             return Ok(Some([from, to]));
         }
-        let first = self.add_node(curve.start(), Origin::Curve(source));
-        let last = if curve.start() == curve.end() { first } else { self.add_node(curve.end(), Origin::Curve(source)) };
+        let first = self.add_node(curve.start(), NodeOrigin::Curve(source));
+        let last =
+            if curve.start() == curve.end() { first } else { self.add_node(curve.end(), NodeOrigin::Curve(source)) };
         let parts = self.own_parts(source, curve)?;
         let count = parts.len();
         let mut from = first;
         for (k, (part, origin)) in parts.into_iter().enumerate() {
             let to = if k + 1 == count { last } else { self.add_node(part.curve.end(), origin) };
-            self.pieces.push(Piece::new(part, [from, to], source));
+            self.edges.push(Edge::new(part, [from, to], source));
             from = to;
         }
         Ok(Some([first, last]))
@@ -76,9 +77,9 @@ impl Network<'_> {
 
     /// The parts of a drawn curve when cut on its own account: at breaks, at self-meetings, and once more where a part
     /// would be closed. Each with what its end is there for.
-    fn own_parts(&mut self, source: u32, curve: &Curve) -> Result<Vec<(Part, Origin)>, ArrangeError> {
+    fn own_parts(&mut self, source: u32, curve: &Curve) -> Result<Vec<(Part, NodeOrigin)>, ArrangeError> {
         if matches!(curve, Curve::Line(_)) {
-            return Ok(vec![(Part::whole(curve), Origin::Curve(source))]);
+            return Ok(vec![(Part::whole(curve), NodeOrigin::Curve(source))]);
         }
         let mut parts = Vec::new();
         for regular in self.parts_between_breaks(source, curve) {
@@ -89,7 +90,7 @@ impl Network<'_> {
             let regular = regular.split(&cuts);
             let last = regular.len() - 1;
             for (k, part) in regular.into_iter().enumerate() {
-                let origin = if k < last { Origin::Meeting(source) } else { Origin::Curve(source) };
+                let origin = if k < last { NodeOrigin::Meeting(source) } else { NodeOrigin::Curve(source) };
                 self.open_up(part, origin, source, &mut parts);
             }
         }
@@ -169,11 +170,11 @@ impl Network<'_> {
     }
 
     /// Adds a part, halved where its ends are one point, and where only its halves are arcs of circles.
-    fn open_up(&self, part: Part, origin: Origin, source: u32, parts: &mut Vec<(Part, Origin)>) {
+    fn open_up(&self, part: Part, origin: NodeOrigin, source: u32, parts: &mut Vec<(Part, NodeOrigin)>) {
         let weld = self.tolerances.weld;
         let is_closed = part.curve.start().distance(part.curve.end()) <= weld && extent(part.curve.bounds()) > weld;
         if is_closed || is_spiral(&part.curve) {
-            parts.push((part.between(0.0, 0.5), Origin::Curve(source)));
+            parts.push((part.between(0.0, 0.5), NodeOrigin::Curve(source)));
             parts.push((part.between(0.5, 1.0), origin));
         } else {
             parts.push((part, origin));

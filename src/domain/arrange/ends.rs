@@ -1,6 +1,6 @@
 //! Free ends, and the gaps between them and to open lines.
 
-use super::network::{Network, Piece};
+use super::arrangement::{Arrangement, Edge};
 use crate::curve::End;
 use crate::geometry::boxes::BoxHierarchy;
 use crate::geometry::{Point, Rect, Vec2, extent, scaled};
@@ -24,7 +24,7 @@ pub(super) struct FreeEnd {
     /// Unit vector along the line that ends there.
     pub direction: Vec2,
     pub owner: Owner,
-    /// The length of its chain, as the boxes around its pieces tell it.
+    /// The length of its chain, as the boxes around its edges tell it.
     pub chain: f64,
     /// The unit of the last decimal in which it is written; 0: exact.
     pub last_decimal: f64,
@@ -66,14 +66,14 @@ pub(super) fn nearest_ends(ends: &[FreeEnd], among: &[usize], bound: impl Fn(usi
     among.iter().filter_map(nearest).collect()
 }
 
-/// Pieces at each node, for walks along them.
+/// Edges at each node, for walks along them.
 pub(super) struct Joints(pub IdVec<PointId, Vec<CurveId>>);
 
 impl Joints {
-    pub fn new(network: &Network) -> Self {
-        let mut at: IdVec<PointId, Vec<CurveId>> = vec![Vec::new(); network.nodes.len()].into();
-        for (id, piece) in network.pieces.enumerate() {
-            piece.ends.into_iter().for_each(|end| at[end].push(id));
+    pub fn new(arrangement: &Arrangement) -> Self {
+        let mut at: IdVec<PointId, Vec<CurveId>> = vec![Vec::new(); arrangement.nodes.len()].into();
+        for (id, edge) in arrangement.edges.enumerate() {
+            edge.ends.into_iter().for_each(|end| at[end].push(id));
         }
         Self(at)
     }
@@ -87,13 +87,13 @@ impl Joints {
     }
 }
 
-/// The other end of a piece.
-pub(super) fn far_end(piece: &Piece, from: PointId) -> PointId {
-    if piece.ends[0] == from { piece.ends[1] } else { piece.ends[0] }
+/// The other end of an edge.
+pub(super) fn far_end(edge: &Edge, from: PointId) -> PointId {
+    if edge.ends[0] == from { edge.ends[1] } else { edge.ends[0] }
 }
 
-impl Network<'_> {
-    /// Nodes at which a single piece ends, ascending.
+impl Arrangement<'_> {
+    /// Nodes at which a single edge ends, ascending.
     pub fn free_ends(&self) -> Vec<FreeEnd> {
         let joints = Joints::new(self);
         let free = self.nodes.ids().filter(|&node| joints.is_free(node));
@@ -101,23 +101,23 @@ impl Network<'_> {
     }
 
     fn free_end(&self, node: PointId, joints: &Joints) -> FreeEnd {
-        let (last, before) = *self.chain(node, joints).last().expect("a free end has a piece");
-        let chain = before + extent(self.pieces[last].bounds);
-        let piece = &self.pieces[joints.0[node][0]];
-        let end = if piece.ends[0] == node { End::Start } else { End::Finish };
-        let direction = piece.curve.direction_at(end);
-        let last_decimal = self.drawing.curves[piece.source as usize].last_decimal;
+        let (last, before) = *self.chain(node, joints).last().expect("a free end has an edge");
+        let chain = before + extent(self.edges[last].bounds);
+        let edge = &self.edges[joints.0[node][0]];
+        let end = if edge.ends[0] == node { End::Start } else { End::Finish };
+        let direction = edge.curve.direction_at(end);
+        let last_decimal = self.drawing.curves[edge.source as usize].last_decimal;
         FreeEnd { at: self.nodes[node].at, direction, owner: Owner::Node(node), chain, last_decimal }
     }
 
-    /// The pieces from a free end to the next free end or branch, each with the length of those before it, as the boxes
+    /// The edges from a free end to the next free end or branch, each with the length of those before it, as the boxes
     /// around them tell it.
     fn chain(&self, node: PointId, joints: &Joints) -> Vec<(CurveId, f64)> {
         let (mut here, mut along, mut before) = (node, joints.0[node][0], 0.0);
         let mut chain = vec![(along, before)];
         loop {
-            here = far_end(&self.pieces[along], here);
-            before += extent(self.pieces[along].bounds);
+            here = far_end(&self.edges[along], here);
+            before += extent(self.edges[along].bounds);
             match joints.0[here][..] {
                 [a, b] if a != b => along = if a == along { b } else { a },
                 _ => return chain,
@@ -144,14 +144,14 @@ impl Network<'_> {
     /// grid take nothing from what it bounds.
     pub fn shorts(&self, ends: &[FreeEnd], among: &[usize], bound: impl Fn(usize) -> f64) -> Vec<Short> {
         let open = self.pieces_of_trees();
-        let boxes = BoxHierarchy::new(open.iter().map(|&id| self.pieces[id].bounds));
+        let boxes = BoxHierarchy::new(open.iter().map(|&id| self.edges[id].bounds));
         let joints = Joints::new(self);
         let short = |&i: &usize| {
             let Owner::Node(node) = ends[i].owner else { return None };
             open.binary_search(&joints.0[node][0]).ok()?;
             let along: BTreeMap<CurveId, f64> = self.chain(node, &joints).into_iter().collect();
             let p = ends[i].at;
-            let foot = |k: usize| self.pieces[open[k]].curve.nearest(p, 0.0, 1.0);
+            let foot = |k: usize| self.edges[open[k]].curve.nearest(p, 0.0, 1.0);
             let away = |k: usize, _| {
                 let (t, width) = foot(k);
                 let is_apart = along.get(&open[k]).is_none_or(|&way| way > AROUND * width);
@@ -159,25 +159,25 @@ impl Network<'_> {
             };
             let (k, width) = boxes.nearest(p, bound(i), away)?;
             let (t, _) = foot(k);
-            Some(Short { end: i, onto: open[k], at: self.pieces[open[k]].curve.point(t), t, width })
+            Some(Short { end: i, onto: open[k], at: self.edges[open[k]].curve.point(t), t, width })
         };
         among.iter().filter_map(short).collect()
     }
 
-    /// Pieces that are connected with nothing closed, ascending.
+    /// Edges that are connected with nothing closed, ascending.
     fn pieces_of_trees(&self) -> Vec<CurveId> {
         let mut parts = Forest::new(self.nodes.len());
         let mut closed = Vec::new();
-        for piece in self.pieces.iter() {
-            let [a, b] = piece.ends.map(Id::index);
+        for edge in self.edges.iter() {
+            let [a, b] = edge.ends.map(Id::index);
             if parts.root(a) == parts.root(b) {
                 closed.push(a);
             }
             parts.join(a, b);
         }
         let closed: BTreeSet<usize> = closed.into_iter().map(|node| parts.root(node)).collect();
-        let mut is_tree = |&id: &CurveId| !closed.contains(&parts.root(self.pieces[id].ends[0].index()));
-        self.pieces.ids().filter(|id| is_tree(id)).collect()
+        let mut is_tree = |&id: &CurveId| !closed.contains(&parts.root(self.edges[id].ends[0].index()));
+        self.edges.ids().filter(|id| is_tree(id)).collect()
     }
 
     /// The entity of an end and its place in the drawing.

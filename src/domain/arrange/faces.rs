@@ -9,7 +9,7 @@
 //! ```
 
 use super::error::{ArrangeError, Unarranged};
-use super::trace::{Cycle, Cycles, Half, tracing};
+use super::trace::{Cycle, Cycles, DirectedEdge, tracing};
 use crate::domain::Domain;
 use crate::domain::locate::{Axis, Hit, Locator, Side};
 use crate::geometry::{Rect, extent};
@@ -51,8 +51,8 @@ impl Faces {
     }
 
     /// The face on the left of a side.
-    pub fn face(&self, half: Half) -> Face {
-        self.face_of_cycle(self.cycle_of[half.index()])
+    pub fn face(&self, edge: DirectedEdge) -> Face {
+        self.face_of_cycle(self.cycle_of[edge.index()])
     }
 
     /// The components that lie in each face (by its cycle) and, last, in the unbounded one.
@@ -114,7 +114,7 @@ impl<'a> View<'a> {
         let count = cycles.outer.len();
         let mut bounds: Vec<Option<Rect>> = vec![None; count];
         for (id, curve) in domain.curves.enumerate() {
-            let own = &mut bounds[cycles.of(Half { curve: id, side: Side::Left }).component];
+            let own = &mut bounds[cycles.of(DirectedEdge { curve: id, side: Side::Left }).component];
             let around = curve.curve.bounds();
             *own = Some(own.map_or(around, |b| b.union(around)));
         }
@@ -220,7 +220,7 @@ impl<'a> View<'a> {
 
     /// The cycle that is seen from the right of a crossing.
     fn cycle_beyond(&self, hit: &Hit) -> usize {
-        self.cycles.cycle_of[Half { curve: hit.curve, side: hit.before.other() }.index()]
+        self.cycles.cycle_of[DirectedEdge { curve: hit.curve, side: hit.before.other() }.index()]
     }
 
     fn untold(&self, component: usize) -> ArrangeError {
@@ -232,7 +232,7 @@ impl<'a> View<'a> {
     }
 
     fn component_of(&self, hit: &Hit) -> usize {
-        self.cycles.of(Half { curve: hit.curve, side: hit.before }).component
+        self.cycles.of(DirectedEdge { curve: hit.curve, side: hit.before }).component
     }
 
     /// Notes what the components on a line see there that begin on the looked at part of it.

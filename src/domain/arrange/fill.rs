@@ -1,10 +1,10 @@
 //! Which faces are inside: by how often the drawn curves go around them, or by the shapes of a picture that paint them.
 
 use super::FillRule;
+use super::arrangement::Arrangement;
 use super::faces::{Face, Faces};
-use super::network::Network;
 use super::paint::painted;
-use super::trace::Half;
+use super::trace::DirectedEdge;
 use crate::domain::Domain;
 use crate::domain::locate::Side;
 use crate::ids::{CurveId, Id, IdVec, NameId, PointId};
@@ -18,18 +18,18 @@ pub(super) struct Fill {
 }
 
 impl Fill {
-    pub fn new(network: &Network, domain: &mut Domain, faces: &Faces, rule: FillRule, fragments: bool) -> Self {
+    pub fn new(arrangement: &Arrangement, domain: &mut Domain, faces: &Faces, rule: FillRule, fragments: bool) -> Self {
         let is_bounded = |cycle: usize| faces.outer[faces.cycles[cycle].component] != cycle;
-        let painted = painted(network, faces, &mut domain.names, fragments);
+        let painted = painted(arrangement, faces, &mut domain.names, fragments);
         let inside: Vec<bool> = match rule {
             FillRule::Regions => vec![true; faces.cycles.len()],
             FillRule::Shapes => painted.iter().map(Option::is_some).collect(),
             FillRule::NonZero | FillRule::EvenOdd => {
-                let winding = windings(network, domain, faces, rule);
+                let winding = windings(arrangement, domain, faces, rule);
                 winding.into_iter().map(|w| is_inside(rule, w)).collect()
             }
             FillRule::EvenOddAndShapes => {
-                let winding = windings(network, domain, faces, rule);
+                let winding = windings(arrangement, domain, faces, rule);
                 winding.into_iter().zip(&painted).map(|(w, paint)| is_inside(rule, w) || paint.is_some()).collect()
             }
         };
@@ -101,7 +101,7 @@ impl Windings<'_> {
     fn settle_component(&mut self, component: usize, bounded: &[usize], counted: &[bool]) {
         let around = self.of(self.faces.parent[component]);
         let outer = self.faces.outer[component];
-        let sides = bounded.iter().chain([&outer]).flat_map(|&cycle| &self.faces.cycles[cycle].halves);
+        let sides = bounded.iter().chain([&outer]).flat_map(|&cycle| &self.faces.cycles[cycle].edges);
         let closed = bounded.is_empty() || sides.clone().any(|half| counted[half.curve.index()]);
         if !closed {
             // Nothing but open curves that enclose something by crossing: filled where nothing around them is.
@@ -162,7 +162,7 @@ impl Windings<'_> {
     fn spread(&mut self, outer: usize, around: i32, count: &Count) {
         let mut stack = vec![(outer, around)];
         while let Some((cycle, winding)) = stack.pop() {
-            for &half in &self.faces.cycles[cycle].halves {
+            for &half in &self.faces.cycles[cycle].edges {
                 let beyond = self.faces.cycle_of[half.twin().index()];
                 if beyond == outer || beyond == cycle || self.winding[beyond].is_some() {
                     continue;
@@ -180,15 +180,15 @@ impl Windings<'_> {
 /// Which drawn curves are parts of closed outlines: a curve at a free end is none, nor what is left free without it. An
 /// end is not free where another curve runs along: partly drawn twice, an outline goes on there. Outlines of shapes are
 /// closed, and close no others.
-pub(super) fn closed_outlines(network: &Network) -> Vec<bool> {
-    let is_line = |i: usize| network.drawing.curves[i].shape.is_none();
+pub(super) fn closed_outlines(arrangement: &Arrangement) -> Vec<bool> {
+    let is_line = |i: usize| arrangement.drawing.curves[i].shape.is_none();
     let mut ends: Vec<Vec<PointId>> =
-        network.drawn_ends.iter().map(|ends| ends.iter().flatten().copied().collect()).collect();
-    let mut closed: Vec<bool> = network.drawn_ends.iter().map(Option::is_some).collect();
-    for (end, others) in carried_on(network) {
+        arrangement.drawn_ends.iter().map(|ends| ends.iter().flatten().copied().collect()).collect();
+    let mut closed: Vec<bool> = arrangement.drawn_ends.iter().map(Option::is_some).collect();
+    for (end, others) in carried_on(arrangement) {
         others.into_iter().for_each(|other| ends[other].push(end));
     }
-    let mut at: IdVec<PointId, Vec<usize>> = vec![Vec::new(); network.nodes.len()].into();
+    let mut at: IdVec<PointId, Vec<usize>> = vec![Vec::new(); arrangement.nodes.len()].into();
     for (i, ends) in ends.iter().enumerate().filter(|&(i, _)| is_line(i)) {
         ends.iter().for_each(|&end| at[end].push(i));
     }
@@ -213,14 +213,15 @@ pub(super) fn closed_outlines(network: &Network) -> Vec<bool> {
 /// ```text
 ///   a ═══════╤═══════ b      a ends within b, and b within a: where one ends the other goes on
 /// ```
-fn carried_on(network: &Network) -> BTreeMap<PointId, BTreeSet<usize>> {
-    let ends_at = |source: usize, node: PointId| network.drawn_ends[source].iter().flatten().any(|&end| end == node);
+fn carried_on(arrangement: &Arrangement) -> BTreeMap<PointId, BTreeSet<usize>> {
+    let ends_at =
+        |source: usize, node: PointId| arrangement.drawn_ends[source].iter().flatten().any(|&end| end == node);
     // The line that ends, and the one that passes, with the point.
     let mut ending: BTreeMap<(usize, usize), BTreeSet<PointId>> = BTreeMap::new();
-    let overlaps = network.pieces.enumerate().filter(|(_, piece)| !piece.merged.is_empty());
-    for (id, piece) in overlaps {
-        let along: BTreeSet<usize> = network.drawn_along(id).map(|(source, _)| source as usize).collect();
-        for node in piece.ends {
+    let overlaps = arrangement.edges.enumerate().filter(|(_, edge)| !edge.merged.is_empty());
+    for (id, edge) in overlaps {
+        let along: BTreeSet<usize> = arrangement.drawn_along(id).map(|(source, _)| source as usize).collect();
+        for node in edge.ends {
             let (here, passing): (Vec<usize>, Vec<usize>) = along.iter().partition(|&&source| ends_at(source, node));
             for (a, b) in here.into_iter().flat_map(|a| passing.iter().map(move |&b| (a, b))) {
                 ending.entry((a, b)).or_default().insert(node);
@@ -236,16 +237,17 @@ fn carried_on(network: &Network) -> BTreeMap<PointId, BTreeSet<usize>> {
     carried
 }
 
-fn windings(network: &Network, domain: &mut Domain, faces: &Faces, rule: FillRule) -> Vec<i32> {
-    let closed = closed_outlines(network);
+fn windings(arrangement: &Arrangement, domain: &mut Domain, faces: &Faces, rule: FillRule) -> Vec<i32> {
+    let closed = closed_outlines(arrangement);
     let same_face = |id: CurveId| {
-        let [left, right] = [Side::Left, Side::Right].map(|side| faces.cycle_of[Half { curve: id, side }.index()]);
+        let [left, right] =
+            [Side::Left, Side::Right].map(|side| faces.cycle_of[DirectedEdge { curve: id, side }.index()]);
         left == right
     };
-    let drawn = |id: CurveId| network.drawn_along(id);
+    let drawn = |id: CurveId| arrangement.drawn_along(id);
     // Outlines of shapes bound what they fill, and turn nothing inside out.
     let of_shapes =
-        |source: u32| rule == FillRule::EvenOddAndShapes && network.drawing.curves[source as usize].shape.is_some();
+        |source: u32| rule == FillRule::EvenOddAndShapes && arrangement.drawing.curves[source as usize].shape.is_some();
     let count = |(source, against): (u32, bool)| match closed[source as usize] && !of_shapes(source) {
         false => 0,
         true if against && rule == FillRule::NonZero => -1,
@@ -261,7 +263,7 @@ fn windings(network: &Network, domain: &mut Domain, faces: &Faces, rule: FillRul
     let Windings { winding, once, .. } = windings;
     let once = domain.curves.ids().filter(|id| once[id.index()]);
     let copies: BTreeSet<u32> = once
-        .flat_map(|id| network.pieces[id].merged.iter().map(|&(source, _)| source))
+        .flat_map(|id| arrangement.edges[id].merged.iter().map(|&(source, _)| source))
         .filter(|&s| !of_shapes(s))
         .collect();
     domain.notes.extend(tell_copies(copies.len()));

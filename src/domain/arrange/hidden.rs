@@ -4,13 +4,13 @@
 //! Likewise what a clip cuts away, and of the outline of a clip all but the part that bounds what it cuts.
 //!
 //! What was split only where such stretches met it is made whole again: the same part of the drawn curve, not its
-//! fragments. The network is settled once more after that, as what was split had been moved by up to a tolerance.
+//! fragments. The arrangement is settled once more after that, as what was split had been moved by up to a tolerance.
 
+use super::arrangement::{Arrangement, Edge, Part, is_spiral};
 use super::faces::Faces;
-use super::network::{Network, Part, Piece, is_spiral};
 use super::paint::{lines_in_clips, painters};
 use super::repair::{Cells, RepairKind};
-use super::trace::Half;
+use super::trace::DirectedEdge;
 use crate::curve::End;
 use crate::domain::locate::Side;
 use crate::geometry::extent;
@@ -20,12 +20,12 @@ use std::collections::BTreeSet;
 /// Where the parts of a drawn curve before and after a node differ by more in direction (a sine), there is a corner.
 const STRAIGHT_ON: f64 = 0.01;
 
-impl Network<'_> {
+impl Arrangement<'_> {
     /// Leaves out the hidden stretches and notes on the others which shapes are seen beside them; whether there were
-    /// any. `faces` are those of the settled network. Of `all` shapes, not only of the topmost, the borders are kept.
+    /// any. `faces` are those of the settled arrangement. Of `all` shapes, not only of the topmost, the borders are kept.
     pub fn drop_hidden(&mut self, faces: &Faces, all: bool) -> bool {
         let (seen, painters) = painters(self, faces, all);
-        let beside = |id: CurveId, side| faces.face(Half { curve: id, side }).and_then(|face| painters[face]);
+        let beside = |id: CurveId, side| faces.face(DirectedEdge { curve: id, side }).and_then(|face| painters[face]);
         let sides = |id: CurveId| [Side::Left, Side::Right].map(|side| beside(id, side));
         let lines = lines_in_clips(self, faces);
         let is_clipped = !self.drawing.clips.is_empty();
@@ -33,18 +33,18 @@ impl Network<'_> {
             let [left, right] = sides(id);
             left == right && (left.is_some() || is_clipped) && !lines[id]
         };
-        let (hidden, left): (Vec<CurveId>, Vec<CurveId>) = self.pieces.ids().partition(|&id| is_hidden(id));
+        let (hidden, left): (Vec<CurveId>, Vec<CurveId>) = self.edges.ids().partition(|&id| is_hidden(id));
         if hidden.is_empty() && !is_clipped {
             return false;
         }
         self.seen = seen;
         let paint: Vec<_> = left.iter().map(|&id| sides(id)).collect();
         self.itemise_hidden(&hidden, &painters, faces);
-        let painted = |(&id, paint)| Piece { paint: Some(paint), ..self.pieces[id].clone() };
-        let pieces: Vec<Piece> = left.iter().zip(paint).map(painted).collect();
+        let painted = |(&id, paint)| Edge { paint: Some(paint), ..self.edges[id].clone() };
+        let edges: Vec<Edge> = left.iter().zip(paint).map(painted).collect();
         // Ends of outlines that are hidden are no nodes any more.
         self.drawn_ends.iter_mut().for_each(|ends| *ends = None);
-        self.rejoin(pieces.into());
+        self.rejoin(edges.into());
         self.renumber();
         self.forget_splits();
         true
@@ -54,15 +54,15 @@ impl Network<'_> {
     fn itemise_hidden(&mut self, hidden: &[CurveId], painters: &[Option<SeenId>], faces: &Faces) {
         let mut known = BTreeSet::new();
         for &id in hidden {
-            let piece = &self.pieces[id];
+            let edge = &self.edges[id];
             // What is outside of a clip, and the clip's own outline, was never to be seen.
-            let over = faces.face(Half { curve: id, side: Side::Left }).and_then(|face| painters[face]);
-            let Some(over) = over.filter(|_| !self.is_of_clip(piece.source) && known.insert(piece.source)) else {
+            let over = faces.face(DirectedEdge { curve: id, side: Side::Left }).and_then(|face| painters[face]);
+            let Some(over) = over.filter(|_| !self.is_of_clip(edge.source) && known.insert(edge.source)) else {
                 continue;
             };
             let over = &self.drawing.shapes[self.seen.top(over)].entity;
-            let what = format!("{} runs beneath {over} and was left out there", self.entity(piece.source));
-            let at = piece.curve.point(0.5);
+            let what = format!("{} runs beneath {over} and was left out there", self.entity(edge.source));
+            let at = edge.curve.point(0.5);
             self.repair(RepairKind::Hidden, at, 0.0, what);
         }
     }
@@ -73,21 +73,21 @@ impl Network<'_> {
         shape.is_some_and(|shape| self.drawing.shapes[shape].part_of.is_some())
     }
 
-    /// The name of the boundary along a piece: the drawn one, but of the outline of a clip that of the shape which it
+    /// The name of the boundary along an edge: the drawn one, but of the outline of a clip that of the shape which it
     /// cuts.
-    pub fn boundary_name(&self, piece: &Piece) -> NameId {
-        let drawn = self.drawing.curves[piece.source as usize].name;
-        let cut = piece.paint.into_iter().flatten().flatten().map(|seen| self.seen.top(seen)).max();
+    pub fn boundary_name(&self, edge: &Edge) -> NameId {
+        let drawn = self.drawing.curves[edge.source as usize].name;
+        let cut = edge.paint.into_iter().flatten().flatten().map(|seen| self.seen.top(seen)).max();
         match cut {
-            Some(shape) if self.is_of_clip(piece.source) => self.drawing.shapes[shape].name,
+            Some(shape) if self.is_of_clip(edge.source) => self.drawing.shapes[shape].name,
             Some(_) | None => drawn,
         }
     }
 
-    /// Takes the pieces that are left, those in one where nothing but a hidden stretch had parted them.
-    fn rejoin(&mut self, left: IdVec<CurveId, Piece>) {
+    /// Takes the edges that are left, those in one where nothing but a hidden stretch had parted them.
+    fn rejoin(&mut self, left: IdVec<CurveId, Edge>) {
         let mut at_node: IdVec<PointId, Vec<CurveId>> = vec![Vec::new(); self.nodes.len()].into();
-        left.enumerate().for_each(|(id, piece)| piece.ends.into_iter().for_each(|end| at_node[end].push(id)));
+        left.enumerate().for_each(|(id, edge)| edge.ends.into_iter().for_each(|end| at_node[end].push(id)));
         // A drawn point stays.
         self.drawn_points.iter().for_each(|&node| at_node[node].clear());
         let next = |id: CurveId| match at_node[left[id].ends[1]][..] {
@@ -97,7 +97,7 @@ impl Network<'_> {
         let follows: IdVec<CurveId, Option<CurveId>> = left.ids().map(next).collect();
         let mut is_first: IdVec<CurveId, bool> = vec![true; left.len()].into();
         follows.iter().flatten().for_each(|&id| is_first[id] = false);
-        self.pieces = IdVec::new();
+        self.edges = IdVec::new();
         for first in left.ids().filter(|&id| is_first[id]) {
             let mut run = vec![first];
             while let Some(next) = follows[run[run.len() - 1]] {
@@ -112,13 +112,13 @@ impl Network<'_> {
         }
     }
 
-    /// Whether one piece goes on as another: along the same drawn curve, without a corner, between the same shapes.
-    fn goes_on(&self, piece: &Piece, next: &Piece) -> bool {
-        let [from, to] = [piece.range[1], next.range[0]];
-        if piece.source != next.source || piece.paint != next.paint || piece.ends[1] != next.ends[0] || from > to {
+    /// Whether one edge goes on as another: along the same drawn curve, without a corner, between the same shapes.
+    fn goes_on(&self, edge: &Edge, next: &Edge) -> bool {
+        let [from, to] = [edge.range[1], next.range[0]];
+        if edge.source != next.source || edge.paint != next.paint || edge.ends[1] != next.ends[0] || from > to {
             return false;
         }
-        let source = &self.drawing.curves[piece.source as usize].curve;
+        let source = &self.drawing.curves[edge.source as usize].curve;
         if is_spiral(source) {
             return false;
         }
@@ -128,15 +128,15 @@ impl Network<'_> {
         !turns && (from == to || extent(source.bounds_of(from, to)) <= 2.0 * self.tolerances.weld)
     }
 
-    fn place_run(&mut self, run: &[CurveId], left: &IdVec<CurveId, Piece>) {
+    fn place_run(&mut self, run: &[CurveId], left: &IdVec<CurveId, Edge>) {
         let (first, last) = (&left[run[0]], &left[run[run.len() - 1]]);
         if run.len() == 1 {
-            self.pieces.push(first.clone());
+            self.edges.push(first.clone());
             return;
         }
         let range = [first.range[0], last.range[1]];
         let curve = self.drawing.curves[first.source as usize].curve.part(range[0], range[1]);
-        let mut whole = Piece::new(Part { curve, range }, [first.ends[0], last.ends[1]], first.source);
+        let mut whole = Edge::new(Part { curve, range }, [first.ends[0], last.ends[1]], first.source);
         let merged: BTreeSet<(u32, bool)> = run.iter().flat_map(|&id| left[id].merged.iter().copied()).collect();
         whole.merged.extend(merged);
         whole.paint = first.paint;

@@ -1,6 +1,6 @@
 //! Free ends: which of them are joined, which outlines miss closing, and which lines are plainly open.
 //!
-//! A *free end* is a node at which a single piece ends; its *chain* leads from there to the next free end or branch.
+//! A *free end* is a node at which a single edge ends; its *chain* leads from there to the next free end or branch.
 //!
 //! ```text
 //!   a ───────────────── b     b and c are each other's nearest free ends. They are joined at their corner where the last decimal of the file
@@ -10,9 +10,9 @@
 //! ```
 
 use super::Loose;
+use super::arrangement::Arrangement;
 use super::ends::{FreeEnd, Gap, Joints, Owner, far_end, nearest_ends};
 use super::error::ArrangeError;
-use super::network::Network;
 use super::repair::RepairKind;
 use super::rings::missed_rings;
 use crate::geometry::Point;
@@ -31,7 +31,7 @@ const FARTHER: f64 = 2.0;
 /// Places that a note lists.
 const LISTED: usize = 3;
 
-impl Network<'_> {
+impl Arrangement<'_> {
     /// Joins free ends that are each other's nearest, within the gaps that the tolerances allow; whether there were
     /// any.
     ///
@@ -124,24 +124,24 @@ impl Network<'_> {
             Loose::Error => Err(self.open_refused(&ends[..own])),
             Loose::Auto | Loose::Keep => Ok(vec![told]),
             Loose::Drop => {
-                let pieces = std::mem::take(&mut self.pieces);
-                self.pieces = pieces.enumerate().filter(|(id, _)| !open.contains(id)).map(|(_, p)| p.clone()).collect();
+                let edges = std::mem::take(&mut self.edges);
+                self.edges = edges.enumerate().filter(|(id, _)| !open.contains(id)).map(|(_, p)| p.clone()).collect();
                 self.renumber();
                 Ok(vec![told])
             }
         }
     }
 
-    /// Pieces that lead to free ends and bound nothing.
+    /// Edges that lead to free ends and bound nothing.
     fn open_pieces(&self) -> BTreeSet<CurveId> {
         let joints = Joints::new(self);
         let mut degree: IdVec<PointId, usize> = self.nodes.ids().map(|node| joints.degree(node)).collect();
         let mut free: Vec<PointId> = self.nodes.ids().filter(|&node| joints.is_free(node)).collect();
         let mut open = BTreeSet::new();
         while let Some(node) = free.pop() {
-            let Some(&piece) = joints.0[node].iter().find(|piece| !open.contains(*piece)) else { continue };
-            open.insert(piece);
-            let beyond = far_end(&self.pieces[piece], node);
+            let Some(&edge) = joints.0[node].iter().find(|edge| !open.contains(*edge)) else { continue };
+            open.insert(edge);
+            let beyond = far_end(&self.edges[edge], node);
             degree[beyond] -= 1;
             if degree[beyond] == 1 {
                 free.push(beyond);
@@ -152,8 +152,8 @@ impl Network<'_> {
 
     /// How many lines are open, how long they are, and where.
     fn tell_open(&self, ends: &[FreeEnd], open: &BTreeSet<CurveId>, loose: Loose) -> String {
-        let drawn: BTreeSet<u32> = open.iter().map(|&id| self.pieces[id].source).collect();
-        let length: f64 = open.iter().map(|&id| self.pieces[id].curve.length()).sum();
+        let drawn: BTreeSet<u32> = open.iter().map(|&id| self.edges[id].source).collect();
+        let length: f64 = open.iter().map(|&id| self.edges[id].curve.length()).sum();
         let listed = ends.iter().take(LISTED).map(|end| self.place(end)).collect::<Vec<_>>().join(", ");
         let more = if ends.len() > LISTED { ", …" } else { "" };
         let lines = if drawn.len() == 1 { "1 line is open".into() } else { format!("{} lines are open", drawn.len()) };

@@ -1,9 +1,9 @@
-//! Where pieces meet: nodes on pieces, crossings of lines, meetings and contacts of curves. Each becomes a cut or a
+//! Where edges meet: nodes on edges, crossings of lines, meetings and contacts of curves. Each becomes a cut or a
 //! link of two nodes.
 
+use super::arrangement::{Arrangement, NodeOrigin};
 use super::candidates::{SLOW, too_many_cuts};
 use super::error::{ArrangeError, Unarranged};
-use super::network::{Network, Origin};
 use crate::curve::{Curve, Meeting, MeetingKind, Meetings, Overlap, meetings};
 use crate::geometry::Point;
 use crate::geometry::boxes::BoxHierarchy;
@@ -15,21 +15,21 @@ use crate::watch::Watch;
 /// be.
 const BENT: f64 = 0.375;
 
-/// Pieces that cross within the tolerance of a common end begin up to so many times as far from it, and no farther than
+/// Edges that cross within the tolerance of a common end begin up to so many times as far from it, and no farther than
 /// this part of the tolerance.
 const BEYOND: f64 = 16.0;
 const BEYOND_REACH: f64 = 0.9;
 
-/// A place at which a piece is to be cut.
+/// A place at which an edge is to be cut.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Cut {
-    pub piece: CurveId,
+    pub edge: CurveId,
     pub t: f64,
     pub at: Point,
     pub node: PointId,
 }
 
-/// Where pieces meet: cuts, and nodes that are one.
+/// Where edges meet: cuts, and nodes that are one.
 #[derive(Default, Debug)]
 pub(super) struct Found {
     pub cuts: Vec<Cut>,
@@ -42,7 +42,7 @@ impl Found {
     }
 }
 
-/// A place on a piece.
+/// A place on an edge.
 #[derive(Clone, Copy, Debug)]
 enum Site {
     /// Within the tolerance of one of its ends.
@@ -51,21 +51,21 @@ enum Site {
     Inside(f64, Point),
 }
 
-/// Makes one of a node and a place on a piece: a link of two nodes, or a cut.
-fn join(found: &mut Found, (piece, site): (CurveId, Site), node: PointId) {
+/// Makes one of a node and a place on an edge: a link of two nodes, or a cut.
+fn join(found: &mut Found, (edge, site): (CurveId, Site), node: PointId) {
     match site {
         Site::End(end) if end != node => found.links.push([end, node]),
         Site::End(_) => {}
-        Site::Inside(t, at) => found.cuts.push(Cut { piece, t, at, node }),
+        Site::Inside(t, at) => found.cuts.push(Cut { edge, t, at, node }),
     }
 }
 
-impl Network<'_> {
-    /// Every place where fresh pieces and nodes meet others, as long as there are no more cuts than `most`.
+impl Arrangement<'_> {
+    /// Every place where fresh edges and nodes meet others, as long as there are no more cuts than `most`.
     pub fn meet(&mut self, most: usize, watch: &mut Watch) -> Result<Found, Unarranged> {
         let mut found = Found::default();
         let known = self.nodes.len();
-        let grown = self.pieces.iter().map(|p| p.bounds.inflate(self.tolerances.weld, self.tolerances.weld));
+        let grown = self.edges.iter().map(|p| p.bounds.inflate(self.tolerances.weld, self.tolerances.weld));
         let boxes = BoxHierarchy::new(grown);
         self.nodes_on_pieces(&boxes, &mut found, watch)?;
         let pairs = self.fresh_pairs(&boxes, watch)?;
@@ -73,28 +73,28 @@ impl Network<'_> {
         for (k, (a, b)) in pairs.into_iter().enumerate() {
             self.progress("meeting", count - k).tell(watch)?;
             if found.cuts.len() > most {
-                return Err(too_many_cuts(most, self.pieces[a].bounds.center()).into());
+                return Err(too_many_cuts(most, self.edges[a].bounds.center()).into());
             }
-            if [a, b].iter().all(|&id| self.pieces[id].curve.as_line().is_some()) {
+            if [a, b].iter().all(|&id| self.edges[id].curve.as_line().is_some()) {
                 self.cross_lines(a, b, &mut found);
             } else {
                 self.meet_curves(a, b, &mut found)?;
             }
         }
-        // New nodes are looked at in the next round, when pieces end at them.
+        // New nodes are looked at in the next round, when edges end at them.
         self.nodes.iter_mut().take(known).for_each(|n| n.fresh = false);
-        self.pieces.iter_mut().for_each(|p| p.fresh = false);
+        self.edges.iter_mut().for_each(|p| p.fresh = false);
         Ok(found)
     }
 
-    /// Nodes that lie on pieces without being their ends: T-junctions, collinear overlaps, drawn points on curves.
+    /// Nodes that lie on edges without being their ends: T-junctions, collinear overlaps, drawn points on curves.
     fn nodes_on_pieces(&self, boxes: &BoxHierarchy, found: &mut Found, watch: &mut Watch) -> Result<(), Unarranged> {
-        for (id, piece) in self.nodes_near_pieces(boxes, watch)? {
+        for (id, edge) in self.nodes_near_pieces(boxes, watch)? {
             let at = self.nodes[id].at;
-            let (t, distance) = self.pieces[piece].curve.nearest(at, 0.0, 1.0);
+            let (t, distance) = self.edges[edge].curve.nearest(at, 0.0, 1.0);
             if distance <= self.tolerances.weld {
-                let site = self.site(piece, t, self.pieces[piece].curve.point(t));
-                join(found, (piece, site), id);
+                let site = self.site(edge, t, self.edges[edge].curve.point(t));
+                join(found, (edge, site), id);
             }
         }
         Ok(())
@@ -103,7 +103,7 @@ impl Network<'_> {
     /// The proper crossing of two lines without a common end. All other ways in which lines meet have an end of one on
     /// the other.
     fn cross_lines(&mut self, a: CurveId, b: CurveId, found: &mut Found) {
-        let [p, q] = [a, b].map(|id| &self.pieces[id]);
+        let [p, q] = [a, b].map(|id| &self.edges[id]);
         let (p0, p1, q0, q1) = (p.curve.start(), p.curve.end(), q.curve.start(), q.curve.end());
         let sides = [orient(p0, p1, q0), orient(p0, p1, q1), orient(q0, q1, p0), orient(q0, q1, p1)];
         if sides[0] == sides[1] || sides[2] == sides[3] || sides.contains(&Orientation::Collinear) {
@@ -121,7 +121,7 @@ impl Network<'_> {
     fn meet_curves(&mut self, a: CurveId, b: CurveId, found: &mut Found) -> Result<(), ArrangeError> {
         let weld = self.tolerances.weld;
         let near = self.meetings_of(a, b, weld)?;
-        let p = &self.pieces[a];
+        let p = &self.edges[a];
         let mut places: Vec<(Point, [f64; 2])> = Vec::new();
         let (zipped, points): (Vec<&Meeting>, Vec<&Meeting>) =
             near.points.iter().partition(|meeting| self.tolerances.zip && self.part_slowly([a, b], meeting));
@@ -141,7 +141,7 @@ impl Network<'_> {
         Ok(())
     }
 
-    /// Whether two pieces touch and part so slowly that what is between them, as long as that is within the tolerance,
+    /// Whether two edges touch and part so slowly that what is between them, as long as that is within the tolerance,
     /// would take more triangles than it is worth: they are one there. Straight lines at an angle are not made one, the
     /// wedge would only begin elsewhere.
     fn part_slowly(&self, ids: [CurveId; 2], meeting: &Meeting) -> bool {
@@ -149,7 +149,7 @@ impl Network<'_> {
         if meeting.kind == MeetingKind::Crossing || t[0] == t[1] || u[0] == u[1] {
             return false;
         }
-        let [p, q] = ids.map(|id| &self.pieces[id].curve);
+        let [p, q] = ids.map(|id| &self.edges[id].curve);
         let ends = t.map(|t| p.point(t));
         if ends[0].distance(ends[1]) <= SLOW * self.tolerances.weld {
             return false;
@@ -159,9 +159,9 @@ impl Network<'_> {
         within(0.5 * (t[0] + t[1])) <= BENT * widest
     }
 
-    /// Further meetings of two pieces with a common end. Within the tolerance of it all is one contact, but the curves
+    /// Further meetings of two edges with a common end. Within the tolerance of it all is one contact, but the curves
     /// may cross there once more: they are cut there. Where even that is within the tolerance of the end, both begin at
-    /// the crossing instead. Asked only of pieces that meet nowhere else: those that repeat each other are cut and
+    /// the crossing instead. Asked only of edges that meet nowhere else: those that repeat each other are cut and
     /// become one first.
     ///
     /// ```text
@@ -173,7 +173,7 @@ impl Network<'_> {
     ///        m
     /// ```
     fn untangle(&mut self, ids: [CurveId; 2], found: &mut Found) -> Result<(), ArrangeError> {
-        let [p, q] = ids.map(|id| &self.pieces[id]);
+        let [p, q] = ids.map(|id| &self.edges[id]);
         if !p.ends.iter().any(|end| q.ends.contains(end)) {
             return Ok(());
         }
@@ -186,13 +186,13 @@ impl Network<'_> {
             if self.is_contact(ids, ts, 4.0 * rounding) {
                 continue;
             }
-            let [on_a, on_b] = [0, 1].map(|k| self.site(ids[k], ts[k], self.pieces[ids[k]].curve.point(ts[k])));
+            let [on_a, on_b] = [0, 1].map(|k| self.site(ids[k], ts[k], self.edges[ids[k]].curve.point(ts[k])));
             match (on_a, on_b) {
                 (Site::End(m), Site::End(n)) if m == n => {
                     let ts = self.beyond(ids, ts, m);
-                    for (piece, t) in ids.into_iter().zip(ts).filter(|&(_, t)| 0.0 < t && t < 1.0) {
-                        let at = self.pieces[piece].curve.point(t);
-                        found.cuts.push(Cut { piece, t, at, node: m });
+                    for (edge, t) in ids.into_iter().zip(ts).filter(|&(_, t)| 0.0 < t && t < 1.0) {
+                        let at = self.edges[edge].curve.point(t);
+                        found.cuts.push(Cut { edge, t, at, node: m });
                     }
                 }
                 _ => self.join_pieces((ids[0], ts[0]), (ids[1], ts[1]), meeting.at, found),
@@ -201,15 +201,15 @@ impl Network<'_> {
         Ok(())
     }
 
-    /// Where two pieces that cross near a node are to begin: farther from it than where they cross, as far as the
+    /// Where two edges that cross near a node are to begin: farther from it than where they cross, as far as the
     /// tolerance goes. What is left of them turns a little as it is moved to the node, and so would cross again,
     /// somewhat nearer; farther away they have parted.
     fn beyond(&self, ids: [CurveId; 2], ts: [f64; 2], node: PointId) -> [f64; 2] {
-        let away = |k: usize, t: f64| self.pieces[ids[k]].curve.point(t).distance(self.nodes[node].at);
+        let away = |k: usize, t: f64| self.edges[ids[k]].curve.point(t).distance(self.nodes[node].at);
         let reach = BEYOND_REACH * self.tolerances.weld;
         let times = (reach / away(0, ts[0]).max(away(1, ts[1]))).min(BEYOND);
         let farther = [0, 1].map(|k| {
-            let end = if self.pieces[ids[k]].ends[0] == node { 0.0 } else { 1.0 };
+            let end = if self.edges[ids[k]].ends[0] == node { 0.0 } else { 1.0 };
             end + times * (ts[k] - end)
         });
         let is_near = |k: usize| (0.0..=1.0).contains(&farther[k]) && away(k, farther[k]) <= self.tolerances.weld;
@@ -217,18 +217,18 @@ impl Network<'_> {
     }
 
     fn meetings_of(&self, a: CurveId, b: CurveId, tolerance: f64) -> Result<Meetings, ArrangeError> {
-        let [p, q] = [a, b].map(|id| &self.pieces[id]);
+        let [p, q] = [a, b].map(|id| &self.edges[id]);
         meetings(&p.curve, &q.curve, tolerance).map_err(|budget| {
-            let [p, q] = [p, q].map(|piece| self.entity(piece.source));
+            let [p, q] = [p, q].map(|edge| self.entity(edge.source));
             let what = format!("{p} and {q} run so near to each other that their meetings cannot be told apart");
             ArrangeError::near(what, budget.at, "remove one of the two, or raise the tolerance so that they become one")
         })
     }
 
-    /// Whether a meeting of two pieces is nothing but their contact at a common end: from there to the meeting they
+    /// Whether a meeting of two edges is nothing but their contact at a common end: from there to the meeting they
     /// stay within `slack` of each other.
     fn is_contact(&self, ids: [CurveId; 2], ts: [f64; 2], slack: f64) -> bool {
-        let [p, q] = ids.map(|id| &self.pieces[id]);
+        let [p, q] = ids.map(|id| &self.edges[id]);
         let within = |t: f64, end: usize, curve: &Curve, other: &Curve| {
             let end = end as f64;
             t == end
@@ -240,25 +240,26 @@ impl Network<'_> {
         shared.into_iter().any(|(i, j)| within(ts[0], i, &p.curve, &q.curve) && within(ts[1], j, &q.curve, &p.curve))
     }
 
-    /// Makes one node of a place on one piece and a place on another.
+    /// Makes one node of a place on one edge and a place on another.
     fn join_pieces(&mut self, a: (CurveId, f64), b: (CurveId, f64), at: Point, found: &mut Found) {
-        let site = |network: &Self, (id, t): (CurveId, f64)| network.site(id, t, network.pieces[id].curve.point(t));
+        let site =
+            |arrangement: &Self, (id, t): (CurveId, f64)| arrangement.site(id, t, arrangement.edges[id].curve.point(t));
         let (on_a, on_b) = (site(self, a), site(self, b));
         match (on_a, on_b) {
             (Site::End(m), _) => join(found, (b.0, on_b), m),
             (_, Site::End(n)) => join(found, (a.0, on_a), n),
             _ => {
-                let node = self.add_node(at, Origin::Meeting(self.pieces[a.0].source));
+                let node = self.add_node(at, NodeOrigin::Meeting(self.edges[a.0].source));
                 join(found, (a.0, on_a), node);
                 join(found, (b.0, on_b), node);
             }
         }
     }
 
-    /// A place on a piece: one of its ends, where it is that near.
+    /// A place on an edge: one of its ends, where it is that near.
     fn site(&self, id: CurveId, t: f64, at: Point) -> Site {
-        let piece = &self.pieces[id];
-        let end = piece.ends.into_iter().min_by(|&m, &n| {
+        let edge = &self.edges[id];
+        let end = edge.ends.into_iter().min_by(|&m, &n| {
             let [m, n] = [m, n].map(|n| self.nodes[n].at.distance(at));
             m.total_cmp(&n)
         });

@@ -2,10 +2,10 @@
 //!
 //! 0. `frame`: the drawing is brought to a size of about 1, and its tolerances are chosen.
 //! 1. `cut`: drawn curves are cut at breaks (cusps, tangent jumps), at their meetings with themselves, and once where
-//!    they are closed. What comes of it are the nodes and pieces of a `network`.
-//! 2. `candidates`, `meet`, `weld`: pieces are cut where they meet, places within the tolerance become one node, and
-//!    pieces are moved by a similarity to end at their nodes, bit for bit; again, until nothing meets but at common
-//!    ends. The node is the truth: a drawn end, where there is one, rather than a computed crossing. Pieces that
+//!    they are closed. What comes of it are the nodes and edges of a `arrangement`.
+//! 2. `candidates`, `meet`, `weld`: edges are cut where they meet, places within the tolerance become one node, and
+//!    edges are moved by a similarity to end at their nodes, bit for bit; again, until nothing meets but at common
+//!    ends. The node is the truth: a drawn end, where there is one, rather than a computed crossing. Edges that
 //!    coincide become one.
 //! 3. `ends`, `rings`, `loose`: free ends, the outlines that miss closing because of them, and what becomes of lines
 //!    that stay open.
@@ -18,17 +18,17 @@
 //!
 //! `auxiliary` tells of frames and crossing layers; `repair` lists what was mended.
 //!
-//! **Invariant.** A drawn curve runs along pieces in its order, or its loss is itemised; every piece ends at the places
+//! **Invariant.** A drawn curve runs along edges in its order, or its loss is itemised; every edge ends at the places
 //! of its two nodes, bit for bit, and lies within the tolerance of its curve for every time that it was moved.
 //!
-//! **Result.** When a round finds nothing, no node lies within the tolerance of a piece but at its ends, and no two
-//! pieces meet but at common ends (as far as [`meetings`](crate::curve::meetings) tells, which misses none by its own
-//! invariant). Such pieces with their stars are a plane graph: the cycles of curve sides bound its faces, V − E + F =
+//! **Result.** When a round finds nothing, no node lies within the tolerance of an edge but at its ends, and no two
+//! edges meet but at common ends (as far as [`meetings`](crate::curve::meetings) tells, which misses none by its own
+//! invariant). Such edges with their stars are a plane graph: the cycles of curve sides bound its faces, V − E + F =
 //! 1 + C, winding numbers follow from one face to the next. [`Domain::flaws`] holds all of that against the domain by
 //! other means: each pair met anew, Euler's formula, winding numbers by rays.
 //!
-//! **Termination.** Each round welds two nodes or cuts a piece more than a tolerance from its ends; only moved pieces
-//! can meet anew. Pieces that cross beside a common end would settle by a steady factor only, and are cut farther away.
+//! **Termination.** Each round welds two nodes or cuts an edge more than a tolerance from its ends; only moved edges
+//! can meet anew. Edges that cross beside a common end would settle by a steady factor only, and are cut farther away.
 //! Still no proof: rounds have a budget, and its end is an error with the place. Most drawings take four rounds, welds
 //! within 1e-4 of the diagonal up to a dozen.
 //!
@@ -40,7 +40,7 @@
 //! shorter curves is thinned to steps of about a tolerance, so a loop of such is safe from three tolerances on.
 //!
 //! Lines around one point, repeated ends and components in each other cost n log n. Compared each with each are still:
-//! pieces whose boxes meet although they do not (rings in each other, fans of curves, long parallel slanted lines), and
+//! edges whose boxes meet although they do not (rings in each other, fans of curves, long parallel slanted lines), and
 //! curves between the same two points.
 //!
 //! Within a tolerance that was asked for, curves that part slowly (from a tangent contact, or from a common end) are
@@ -50,6 +50,7 @@
 //! All of it happens in a frame scaled by a power of two, so that the same drawing at another such scale gives the same
 //! bits.
 
+mod arrangement;
 mod auxiliary;
 mod candidates;
 mod cut;
@@ -61,7 +62,6 @@ mod frame;
 mod hidden;
 mod loose;
 mod meet;
-mod network;
 mod paint;
 mod regions;
 mod repair;
@@ -74,11 +74,11 @@ use super::{Domain, DomainCurve, Drawing, FillRule};
 use crate::geometry::{Point, magnitude, unit_scale};
 use crate::ids::{IdVec, PointId};
 use crate::watch::{Stopped, Watch};
+use arrangement::{Arrangement, Edge};
 use cut::cut_drawing;
 pub use error::{ArrangeError, Unarranged};
 use faces::Faces;
 use frame::Tolerances;
-use network::{Network, Piece};
 use repair::{Cells, Places};
 pub use repair::{Repair, RepairKind};
 use schemars::JsonSchema;
@@ -163,8 +163,8 @@ impl Drawing {
         let factor = unit_scale(magnitude(self.check_extent()?));
         let (unit, tolerances) = self.in_unit_frame(factor, &ArrangeOptions::default())?;
         let settled = |tolerances, watch: &mut Watch| {
-            let network = settled(&unit, tolerances, watch).map_err(|why| why.scaled(1.0 / factor))?;
-            Ok(network.repairs)
+            let arrangement = settled(&unit, tolerances, watch).map_err(|why| why.scaled(1.0 / factor))?;
+            Ok(arrangement.repairs)
         };
         let mut repairs: Vec<Repair> = settled(tolerances, watch)?;
         let exact = Tolerances { weld: tolerances.rounding, gap: 0.0, written: 0.0, ..tolerances };
@@ -187,59 +187,59 @@ fn arrange_in_unit_frame(
     options: &ArrangeOptions,
     watch: &mut Watch,
 ) -> Result<Domain, Unarranged> {
-    let mut network = settled(drawing, tolerances, watch)?;
-    let mut notes = network.settle_loose_ends(options.loose)?;
-    let (mut domain, mut faces) = traced(&network, watch)?;
+    let mut arrangement = settled(drawing, tolerances, watch)?;
+    let mut notes = arrangement.settle_loose_ends(options.loose)?;
+    let (mut domain, mut faces) = traced(&arrangement, watch)?;
     let rule = if options.keep_all { FillRule::Regions } else { options.fill.unwrap_or(drawing.fill) };
     let whole = rule == FillRule::Shapes && !options.fragments;
-    if (whole || !drawing.clips.is_empty()) && network.drop_hidden(&faces, !whole) {
-        network.settle(watch)?;
-        (domain, faces) = traced(&network, watch)?;
+    if (whole || !drawing.clips.is_empty()) && arrangement.drop_hidden(&faces, !whole) {
+        arrangement.settle(watch)?;
+        (domain, faces) = traced(&arrangement, watch)?;
     }
-    domain.repairs.append(&mut network.repairs);
+    domain.repairs.append(&mut arrangement.repairs);
     domain.notes.append(&mut notes);
     if fill::by_parity(rule) || rule == FillRule::NonZero {
-        domain.notes.append(&mut auxiliary::remarks(&network, &domain, &faces));
+        domain.notes.append(&mut auxiliary::remarks(&arrangement, &domain, &faces));
     }
-    regions::keep(&network, &mut domain, &faces, rule, options, watch)?;
+    regions::keep(&arrangement, &mut domain, &faces, rule, options, watch)?;
     Ok(domain)
 }
 
-/// The settled network as a domain without regions, and its faces.
-fn traced(network: &Network, watch: &mut Watch) -> Result<(Domain, Faces), Unarranged> {
-    let domain = bare_domain(network, watch)?;
+/// The settled arrangement as a domain without regions, and its faces.
+fn traced(arrangement: &Arrangement, watch: &mut Watch) -> Result<(Domain, Faces), Unarranged> {
+    let domain = bare_domain(arrangement, watch)?;
     let cycles = Cycles::trace(&domain, watch)?;
     // Level lines keep twice the rounding away from ends of curves.
-    let faces = Faces::new(cycles, &domain, 2.0 * network.tolerances.rounding, watch)?;
+    let faces = Faces::new(cycles, &domain, 2.0 * arrangement.tolerances.rounding, watch)?;
     Ok((domain, faces))
 }
 
 /// A drawing's curves welded and split until they meet at common ends only.
-fn settled<'a>(drawing: &'a Drawing, tolerances: Tolerances, watch: &mut Watch) -> Result<Network<'a>, Unarranged> {
-    let mut network = cut_drawing(drawing, tolerances, watch)?;
-    network.settle(watch)?;
-    if network.join_free_ends() {
-        network.settle(watch)?;
+fn settled<'a>(drawing: &'a Drawing, tolerances: Tolerances, watch: &mut Watch) -> Result<Arrangement<'a>, Unarranged> {
+    let mut arrangement = cut_drawing(drawing, tolerances, watch)?;
+    arrangement.settle(watch)?;
+    if arrangement.join_free_ends() {
+        arrangement.settle(watch)?;
     }
-    network.itemise_collapsed();
-    Ok(network)
+    arrangement.itemise_collapsed();
+    Ok(arrangement)
 }
 
 /// Points, curves and stars, without regions.
-fn bare_domain(network: &Network, watch: &mut Watch) -> Result<Domain, Unarranged> {
-    let drawing = network.drawing;
-    let (points, point_of) = used_points(network);
-    let curve = |piece: &Piece| DomainCurve {
-        curve: piece.curve.clone(),
-        ends: piece.ends.map(|end| point_of[end].expect("a piece ends at used points")),
+fn bare_domain(arrangement: &Arrangement, watch: &mut Watch) -> Result<Domain, Unarranged> {
+    let drawing = arrangement.drawing;
+    let (points, point_of) = used_points(arrangement);
+    let curve = |edge: &Edge| DomainCurve {
+        curve: edge.curve.clone(),
+        ends: edge.ends.map(|end| point_of[end].expect("an edge ends at used points")),
         sides: [None, None],
-        name: network.boundary_name(piece),
-        source: piece.source,
+        name: arrangement.boundary_name(edge),
+        source: edge.source,
     };
-    let curves = network.pieces.iter().map(curve).collect();
+    let curves = arrangement.edges.iter().map(curve).collect();
     let stars = star::stars(&points, &curves, watch)?;
     let mut point_names = BTreeMap::new();
-    for (drawn, &node) in drawing.points.iter().zip(&network.drawn_points) {
+    for (drawn, &node) in drawing.points.iter().zip(&arrangement.drawn_points) {
         if let (Some(name), Some(point)) = (drawn.name, point_of[node]) {
             point_names.entry(point).or_insert(name);
         }
@@ -253,17 +253,17 @@ fn bare_domain(network: &Network, watch: &mut Watch) -> Result<Domain, Unarrange
         point_names,
         repairs: Vec::new(),
         notes: Vec::new(),
-        tolerance: network.tolerances.weld,
+        tolerance: arrangement.tolerances.weld,
         stars,
     })
 }
 
-/// The nodes at which pieces end or points were drawn, as points of P.
-fn used_points(network: &Network) -> (IdVec<PointId, Point>, IdVec<PointId, Option<PointId>>) {
-    let mut used: IdVec<PointId, bool> = vec![false; network.nodes.len()].into();
-    let ends = network.pieces.iter().flat_map(|p| p.ends);
-    ends.chain(network.drawn_points.iter().copied()).for_each(|node| used[node] = true);
+/// The nodes at which edges end or points were drawn, as points of P.
+fn used_points(arrangement: &Arrangement) -> (IdVec<PointId, Point>, IdVec<PointId, Option<PointId>>) {
+    let mut used: IdVec<PointId, bool> = vec![false; arrangement.nodes.len()].into();
+    let ends = arrangement.edges.iter().flat_map(|p| p.ends);
+    ends.chain(arrangement.drawn_points.iter().copied()).for_each(|node| used[node] = true);
     let mut points = IdVec::new();
-    let point_of = network.nodes.enumerate().map(|(id, node)| used[id].then(|| points.push(node.at))).collect();
+    let point_of = arrangement.nodes.enumerate().map(|(id, node)| used[id].then(|| points.push(node.at))).collect();
     (points, point_of)
 }

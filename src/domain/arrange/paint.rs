@@ -1,8 +1,8 @@
 //! Which shapes of a picture paint each face, and the names that come of it.
 
+use super::arrangement::{Arrangement, Seen};
 use super::faces::{Face, Faces};
-use super::network::{Network, Seen};
-use super::trace::Half;
+use super::trace::DirectedEdge;
 use crate::domain::Drawing;
 use crate::domain::locate::Side;
 use crate::geometry::extent;
@@ -58,9 +58,9 @@ impl<'a> Paint<'a> {
     }
 
     /// Goes from the face of a curve's side to the face across the curve.
-    fn cross(&mut self, half: Half, network: &Network) {
-        for (source, against) in network.drawn_along(half.curve) {
-            if let Some(shape) = network.drawing.curves[source as usize].shape {
+    fn cross(&mut self, half: DirectedEdge, arrangement: &Arrangement) {
+        for (source, against) in arrangement.drawn_along(half.curve) {
+            if let Some(shape) = arrangement.drawing.curves[source as usize].shape {
                 // The left of a curve that runs once around a shape winds once more than its right.
                 let leaves_left = (half.side == Side::Left) != against;
                 self.add(shape, if leaves_left { -1 } else { 1 });
@@ -122,43 +122,49 @@ impl FragmentNames<'_> {
 }
 
 /// The name of each face by the shapes that fill it: the topmost one or, of `fragments`, all.
-pub(super) fn painted(network: &Network, faces: &Faces, names: &mut Names, fragments: bool) -> Vec<Option<NameId>> {
+pub(super) fn painted(
+    arrangement: &Arrangement,
+    faces: &Faces,
+    names: &mut Names,
+    fragments: bool,
+) -> Vec<Option<NameId>> {
     let looked_at;
-    let (seen, painters) = if network.pieces.iter().any(|piece| piece.paint.is_some()) {
-        (&network.seen, painters_beside(network, faces))
+    let (seen, painters) = if arrangement.edges.iter().any(|edge| edge.paint.is_some()) {
+        (&arrangement.seen, painters_beside(arrangement, faces))
     } else {
-        let (seen, painters) = painters(network, faces, fragments);
+        let (seen, painters) = painters(arrangement, faces, fragments);
         looked_at = seen;
         (&looked_at, painters)
     };
     let mut fragment_names = FragmentNames { names, known: BTreeMap::new() };
     let mut name = |list: &Vec<ShapeId>| match fragments {
-        true => fragment_names.of(network.drawing, list),
-        false => Some(network.drawing.shapes[list[0]].name),
+        true => fragment_names.of(arrangement.drawing, list),
+        false => Some(arrangement.drawing.shapes[list[0]].name),
     };
     let named: IdVec<SeenId, Option<NameId>> = seen.lists.iter().map(&mut name).collect();
     painters.into_iter().map(|painter| painter.and_then(|id| named[id])).collect()
 }
 
 /// The topmost shape seen on each face, or all. All outlines must be there.
-pub(super) fn painters(network: &Network, faces: &Faces, all: bool) -> (Seen, Vec<Option<SeenId>>) {
+pub(super) fn painters(arrangement: &Arrangement, faces: &Faces, all: bool) -> (Seen, Vec<Option<SeenId>>) {
     let mut seen = Seen::default();
     let most = if all { usize::MAX } else { 1 };
-    let painters = by_paint(network, faces, |_, paint| seen.id(paint.seen().take(most).collect()));
+    let painters = by_paint(arrangement, faces, |_, paint| seen.id(paint.seen().take(most).collect()));
     (seen, painters)
 }
 
-/// Whether each piece is one that curves of no shape run along, of which one lies in its clip or has none. All outlines
+/// Whether each edge is one that curves of no shape run along, of which one lies in its clip or has none. All outlines
 /// must be there.
-pub(super) fn lines_in_clips(network: &Network, faces: &Faces) -> IdVec<CurveId, bool> {
+pub(super) fn lines_in_clips(arrangement: &Arrangement, faces: &Faces) -> IdVec<CurveId, bool> {
     let lines = |id: CurveId| {
-        let drawn = network.drawn_along(id).map(|(source, _)| &network.drawing.curves[source as usize]);
+        let drawn = arrangement.drawn_along(id).map(|(source, _)| &arrangement.drawing.curves[source as usize]);
         drawn.filter(|drawn| drawn.shape.is_none()).map(|drawn| drawn.clip)
     };
-    let mut kept: IdVec<CurveId, bool> = network.pieces.ids().map(|id| lines(id).any(|clip| clip.is_none())).collect();
-    if !network.drawing.clips.is_empty() {
-        by_paint(network, faces, |cycles, paint| {
-            for half in cycles.iter().flat_map(|&cycle| &faces.cycles[cycle].halves) {
+    let mut kept: IdVec<CurveId, bool> =
+        arrangement.edges.ids().map(|id| lines(id).any(|clip| clip.is_none())).collect();
+    if !arrangement.drawing.clips.is_empty() {
+        by_paint(arrangement, faces, |cycles, paint| {
+            for half in cycles.iter().flat_map(|&cycle| &faces.cycles[cycle].edges) {
                 kept[half.curve] |= lines(half.curve).any(|clip| paint.lies_in(clip));
             }
             None::<()>
@@ -169,13 +175,13 @@ pub(super) fn lines_in_clips(network: &Network, faces: &Faces) -> IdVec<CurveId,
 
 /// What is seen in each face, as noted on the curves around it. They agree, but where a tolerance moved one over
 /// another: then most of the border says.
-fn painters_beside(network: &Network, faces: &Faces) -> Vec<Option<SeenId>> {
+fn painters_beside(arrangement: &Arrangement, faces: &Faces) -> Vec<Option<SeenId>> {
     let mut votes: Vec<BTreeMap<Option<SeenId>, f64>> = vec![BTreeMap::new(); faces.cycles.len()];
-    for (id, piece) in network.pieces.enumerate() {
-        let Some(paint) = piece.paint else { continue };
+    for (id, edge) in arrangement.edges.enumerate() {
+        let Some(paint) = edge.paint else { continue };
         for (side, seen) in [Side::Left, Side::Right].into_iter().zip(paint) {
-            if let Some(face) = faces.face(Half { curve: id, side }) {
-                *votes[face].entry(seen).or_default() += extent(piece.bounds);
+            if let Some(face) = faces.face(DirectedEdge { curve: id, side }) {
+                *votes[face].entry(seen).or_default() += extent(edge.bounds);
             }
         }
     }
@@ -184,13 +190,17 @@ fn painters_beside(network: &Network, faces: &Faces) -> Vec<Option<SeenId>> {
 }
 
 /// What is said of every bounded face by the cycles that bound it and the shapes that fill it.
-fn by_paint<T>(network: &Network, faces: &Faces, mut of: impl FnMut(&[usize], &Paint) -> Option<T>) -> Vec<Option<T>> {
+fn by_paint<T>(
+    arrangement: &Arrangement,
+    faces: &Faces,
+    mut of: impl FnMut(&[usize], &Paint) -> Option<T>,
+) -> Vec<Option<T>> {
     enum Step {
-        Cross(Half),
-        Return(Half),
+        Cross(DirectedEdge),
+        Return(DirectedEdge),
     }
     let mut said: Vec<Option<T>> = faces.cycles.iter().map(|_| None).collect();
-    if network.drawing.shapes.is_empty() {
+    if arrangement.drawing.shapes.is_empty() {
         return said;
     }
     let holds = faces.components_by_face();
@@ -198,17 +208,17 @@ fn by_paint<T>(network: &Network, faces: &Faces, mut of: impl FnMut(&[usize], &P
         let around = holds[face.unwrap_or(faces.cycles.len())].iter().map(|&component| faces.outer[component]);
         face.into_iter().chain(around)
     };
-    let sides = |face: Face| cycles(face).flat_map(|cycle| faces.cycles[cycle].halves.iter().copied());
+    let sides = |face: Face| cycles(face).flat_map(|cycle| faces.cycles[cycle].edges.iter().copied());
     let mut seen = vec![false; faces.cycles.len()];
-    let mut paint = Paint::nothing(network.drawing);
+    let mut paint = Paint::nothing(arrangement.drawing);
     let mut steps: Vec<Step> = sides(None).map(Step::Cross).collect();
     while let Some(step) = steps.pop() {
         match step {
-            Step::Return(half) => paint.cross(half.twin(), network),
+            Step::Return(half) => paint.cross(half.twin(), arrangement),
             Step::Cross(half) => {
                 let Some(face) = faces.face(half.twin()).filter(|&face| !seen[face]) else { continue };
                 seen[face] = true;
-                paint.cross(half, network);
+                paint.cross(half, arrangement);
                 said[face] = of(&cycles(Some(face)).collect::<Vec<usize>>(), &paint);
                 steps.push(Step::Return(half));
                 steps.extend(sides(Some(face)).map(Step::Cross));

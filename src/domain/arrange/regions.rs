@@ -1,13 +1,13 @@
 //! Regions: which faces are kept, what seeds and labels say of them, and their names.
 
+use super::arrangement::Arrangement;
 use super::error::{ArrangeError, Unarranged};
 use super::faces::Faces;
 use super::fill::Fill;
-use super::network::Network;
 use super::repair::{Repair, RepairKind};
-use super::trace::{Half, tracing};
+use super::trace::{DirectedEdge, tracing};
 use super::{ArrangeOptions, FillRule};
-use crate::domain::locate::{Locator, Side, Sight};
+use crate::domain::locate::{Locator, Side, VisibleSide};
 use crate::domain::{Domain, Drawing, Region, SeedKind};
 use crate::geometry::{Point, extent};
 use crate::ids::{LayerId, NameId, RegionId};
@@ -21,26 +21,26 @@ enum Said {
     Region(NameId, Option<f64>),
 }
 
-/// Chooses the kept faces, names their regions and writes them on the sides of the curves. `network` is what the domain
+/// Chooses the kept faces, names their regions and writes them on the sides of the curves. `arrangement` is what the domain
 /// was made of.
 pub(super) fn keep(
-    network: &Network,
+    arrangement: &Arrangement,
     domain: &mut Domain,
     faces: &Faces,
     rule: FillRule,
     options: &ArrangeOptions,
     watch: &mut Watch,
 ) -> Result<(), Unarranged> {
-    let Fill { inside: mut kept, painted } = Fill::new(network, domain, faces, rule, options.fragments);
-    let said = read_seeds(network, domain, faces, watch)?;
+    let Fill { inside: mut kept, painted } = Fill::new(arrangement, domain, faces, rule, options.fragments);
+    let said = read_seeds(arrangement, domain, faces, watch)?;
     for (face, said) in said.iter().enumerate() {
         kept[face] &= options.keep_all || *said != Some(Said::Hole);
     }
     if !kept.contains(&true) {
-        return Err(nothing_to_mesh(network, faces, rule).into());
+        return Err(nothing_to_mesh(arrangement, faces, rule).into());
     }
     let areas = face_areas(faces);
-    let labels = read_labels(network, domain, faces, watch)?;
+    let labels = read_labels(arrangement, domain, faces, watch)?;
     let mut named: Vec<Option<(NameId, Option<f64>)>> = vec![None; kept.len()];
     for face in (0..kept.len()).filter(|&face| kept[face]) {
         named[face] = match said[face] {
@@ -51,10 +51,10 @@ pub(super) fn keep(
             }
         };
     }
-    let region_of = name_regions(network, domain, faces, &kept, |face| named[face], &areas);
-    let region = |half: Half| faces.face(half).and_then(|face| region_of[face]);
+    let region_of = name_regions(arrangement, domain, faces, &kept, |face| named[face], &areas);
+    let region = |half: DirectedEdge| faces.face(half).and_then(|face| region_of[face]);
     for id in domain.curves.ids() {
-        let sides = [Side::Left, Side::Right].map(|side| region(Half { curve: id, side }));
+        let sides = [Side::Left, Side::Right].map(|side| region(DirectedEdge { curve: id, side }));
         domain.curves[id].sides = sides;
     }
     Ok(())
@@ -62,12 +62,12 @@ pub(super) fn keep(
 
 /// What the seeds say, by face. Holes win over region names; of several names the first.
 fn read_seeds(
-    network: &Network,
+    arrangement: &Arrangement,
     domain: &mut Domain,
     faces: &Faces,
     watch: &mut Watch,
 ) -> Result<Vec<Option<Said>>, Stopped> {
-    let seeds = &network.drawing.seeds;
+    let seeds = &arrangement.drawing.seeds;
     let mut said: Vec<Option<Said>> = vec![None; faces.cycles.len()];
     let mut repairs = Vec::new();
     let locator = Locator::new(domain);
@@ -76,12 +76,12 @@ fn read_seeds(
     for (k, seed) in holes_first.enumerate() {
         tracing(domain, seeds.len() - k).tell(watch)?;
         let sight = locator.sight(seed.at);
-        let face = sight.and_then(|Sight { curve, side, .. }| faces.face(Half { curve, side }));
+        let face = sight.and_then(|VisibleSide { curve, side, .. }| faces.face(DirectedEdge { curve, side }));
         let mut note = |why: &str| {
             let what = format!("{} {why}", seed.entity);
             repairs.push(Repair { kind: RepairKind::Seed, at: [seed.at.x, seed.at.y], size: 0.0, what });
         };
-        let on_curve = sight.is_some_and(|s| s.distance <= network.tolerances.weld);
+        let on_curve = sight.is_some_and(|s| s.distance <= arrangement.tolerances.weld);
         if on_curve && face.is_some() {
             note("lies on a curve, and was taken for the face on one of its sides");
         }
@@ -103,18 +103,18 @@ fn read_seeds(
 
 /// The text that stands in each face, where there is one only.
 fn read_labels<'a>(
-    network: &Network<'a>,
+    arrangement: &Arrangement<'a>,
     domain: &Domain,
     faces: &Faces,
     watch: &mut Watch,
 ) -> Result<Vec<Option<&'a str>>, Stopped> {
-    let labels = &network.drawing.labels;
+    let labels = &arrangement.drawing.labels;
     let mut said: Vec<BTreeSet<&str>> = vec![BTreeSet::new(); faces.cycles.len()];
     let locator = Locator::new(domain);
     for (k, label) in labels.iter().enumerate() {
         tracing(domain, labels.len() - k).tell(watch)?;
         let sight = locator.sight(label.at);
-        if let Some(face) = sight.and_then(|Sight { curve, side, .. }| faces.face(Half { curve, side })) {
+        if let Some(face) = sight.and_then(|VisibleSide { curve, side, .. }| faces.face(DirectedEdge { curve, side })) {
             said[face].insert(label.text.as_str());
         }
     }
@@ -135,7 +135,7 @@ fn face_areas(faces: &Faces) -> Vec<f64> {
 /// One region for each name and area limit that is given, in order of the names; then one for each other kept face, the
 /// largest first, under a name that no other region has.
 fn name_regions(
-    network: &Network,
+    arrangement: &Arrangement,
     domain: &mut Domain,
     faces: &Faces,
     kept: &[bool],
@@ -159,7 +159,7 @@ fn name_regions(
         group.iter().for_each(|g| region_of[g.2] = Some(id));
     }
     let place = |face: usize| {
-        let points = faces.cycles[face].halves.iter().map(|&h| domain.points[h.tail(domain)]);
+        let points = faces.cycles[face].edges.iter().map(|&h| domain.points[h.tail(domain)]);
         points.map(|p| [p.y, p.x]).min_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1]))).unwrap_or_default()
     };
     let mut placed: Vec<(f64, [f64; 2], usize)> = unnamed.into_iter().map(|f| (areas[f], place(f), f)).collect();
@@ -168,7 +168,7 @@ fn name_regions(
         b.0.total_cmp(&a.0).then(lower).then(a.2.cmp(&b.2))
     });
     let outlines: Vec<Option<&str>> =
-        placed.iter().map(|&(_, _, face)| layer_of_outline(network, faces, face)).collect();
+        placed.iter().map(|&(_, _, face)| layer_of_outline(arrangement, faces, face)).collect();
     let names = numbered(domain, &outlines);
     for ((area, _, face), name) in placed.into_iter().zip(names) {
         let name = domain.names.intern(&name);
@@ -179,13 +179,13 @@ fn name_regions(
 
 /// The layer that most of the outline of a face is drawn on; `None` where the file has no layers, or for the one that
 /// every file has.
-fn layer_of_outline<'a>(network: &Network<'a>, faces: &Faces, face: usize) -> Option<&'a str> {
-    let drawing = network.drawing;
+fn layer_of_outline<'a>(arrangement: &Arrangement<'a>, faces: &Faces, face: usize) -> Option<&'a str> {
+    let drawing = arrangement.drawing;
     let mut lengths: BTreeMap<LayerId, f64> = BTreeMap::new();
-    for half in &faces.cycles[face].halves {
-        let piece = &network.pieces[half.curve];
-        if let Some(layer) = drawing.curves[piece.source as usize].layer {
-            *lengths.entry(layer).or_default() += extent(piece.bounds);
+    for half in &faces.cycles[face].edges {
+        let edge = &arrangement.edges[half.curve];
+        if let Some(layer) = drawing.curves[edge.source as usize].layer {
+            *lengths.entry(layer).or_default() += extent(edge.bounds);
         }
     }
     let (&layer, _) = lengths.iter().max_by(|a, b| a.1.total_cmp(b.1))?;
@@ -214,24 +214,24 @@ fn numbered(domain: &Domain, outlines: &[Option<&str>]) -> Vec<String> {
 }
 
 /// Says why no face is kept, at the first free end if that is why.
-fn nothing_to_mesh(network: &Network, faces: &Faces, rule: FillRule) -> ArrangeError {
+fn nothing_to_mesh(arrangement: &Arrangement, faces: &Faces, rule: FillRule) -> ArrangeError {
     let has_faces = faces.cycles.len() > faces.outer.len();
-    let first = network.drawing.curves.first().map_or(Point::ORIGIN, |c| c.curve.start());
-    if let Some(error) = cut_away(network.drawing, rule) {
+    let first = arrangement.drawing.curves.first().map_or(Point::ORIGIN, |c| c.curve.start());
+    if let Some(error) = cut_away(arrangement.drawing, rule) {
         return error;
     }
     if has_faces {
         return all_outside(rule, first);
     }
-    let free = network.free_ends();
+    let free = arrangement.free_ends();
     let Some(end) = free.first() else {
         let help = "the curves enclose nothing: draw a closed outline";
         return ArrangeError::new("nothing to mesh: no closed region", first, help);
     };
     let gap = free[1..].iter().map(|other| other.at.distance(end.at)).reduce(f64::min);
-    let away =
-        gap.map_or_else(String::new, |gap| format!("{} away from the next free end: ", network.tolerances.told(gap)));
-    let what = format!("nothing to mesh: no closed region; {} ends freely", network.entity_of(end));
+    let away = gap
+        .map_or_else(String::new, |gap| format!("{} away from the next free end: ", arrangement.tolerances.told(gap)));
+    let what = format!("nothing to mesh: no closed region; {} ends freely", arrangement.entity_of(end));
     ArrangeError::new(what, end.at, format!("{away}close the outline by another curve"))
 }
 

@@ -3,7 +3,7 @@
 //!
 //! ```text
 //!    ┌──────────┐          Each free end is linked with its nearest one where the gap is below a twentieth of both chains. A link between
-//!    │          │          parts that are connected already closes a ring: the way from one end to the other along pieces and earlier
+//!    │          │          parts that are connected already closes a ring: the way from one end to the other along edges and earlier
 //!    └─────── ──┘          links. A ring that is hardly wider than its gaps is a pair of parallel lines.
 //!           gap
 //! ```
@@ -11,9 +11,9 @@
 //! A free end without such a link may stop short of the inside of another open line, which goes on beyond the corner:
 //! it is linked with the nearest point there, under the same limits.
 
+use super::arrangement::Arrangement;
 use super::ends::{FreeEnd, Gap, Owner, Short, nearest_ends};
 use super::error::ArrangeError;
-use super::network::Network;
 use crate::geometry::{Point, extent};
 use crate::ids::{CurveId, Forest, Id, PointId};
 use std::collections::{BTreeSet, VecDeque};
@@ -36,7 +36,7 @@ const PLAIN: f64 = 1e-4;
 /// Along what a ring goes from one place to the next.
 #[derive(Clone, Copy)]
 enum Via {
-    Piece(CurveId),
+    Edge(CurveId),
     OffPlane(usize),
     Gap(Gap),
     /// From a free end to the inside of an open line.
@@ -55,7 +55,7 @@ struct Ring {
 /// Nodes, then both ends of each entity that leaves the plane, then the points that free ends stop short of; what leads
 /// from each to others.
 struct Ways<'n, 'a> {
-    network: &'n Network<'a>,
+    arrangement: &'n Arrangement<'a>,
     ends: &'n [FreeEnd],
     shorts: &'n [Short],
     from: Vec<Vec<(usize, Via)>>,
@@ -66,11 +66,11 @@ struct Ways<'n, 'a> {
 }
 
 impl<'n, 'a> Ways<'n, 'a> {
-    fn new(network: &'n Network<'a>, ends: &'n [FreeEnd], shorts: &'n [Short]) -> Self {
-        let count = network.nodes.len() + 2 * network.drawing.off_plane.len() + shorts.len();
+    fn new(arrangement: &'n Arrangement<'a>, ends: &'n [FreeEnd], shorts: &'n [Short]) -> Self {
+        let count = arrangement.nodes.len() + 2 * arrangement.drawing.off_plane.len() + shorts.len();
         let nothing = (0, 0, Via::OffPlane(0));
         let mut ways = Self {
-            network,
+            arrangement,
             ends,
             shorts,
             from: vec![Vec::new(); count],
@@ -78,10 +78,10 @@ impl<'n, 'a> Ways<'n, 'a> {
             reached: vec![nothing; count],
             searches: 0,
         };
-        for (id, piece) in network.pieces.enumerate() {
-            ways.add(piece.ends.map(Id::index), Via::Piece(id));
+        for (id, edge) in arrangement.edges.enumerate() {
+            ways.add(edge.ends.map(Id::index), Via::Edge(id));
         }
-        for k in 0..network.drawing.off_plane.len() {
+        for k in 0..arrangement.drawing.off_plane.len() {
             let ends = [0, 1].map(|end| ways.place_of(Owner::OffPlane(k, end)));
             ways.add(ends, Via::OffPlane(k));
         }
@@ -96,7 +96,7 @@ impl<'n, 'a> Ways<'n, 'a> {
         feet.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
         for feet in feet.chunk_by(|a, b| a.0 == b.0) {
             let onto = feet[0].0;
-            let [start, end] = self.network.pieces[onto].ends.map(Id::index);
+            let [start, end] = self.arrangement.edges[onto].ends.map(Id::index);
             let stations =
                 [(0.0, start)].into_iter().chain(feet.iter().map(|&(_, t, foot)| (t, foot))).chain([(1.0, end)]);
             let stations: Vec<(f64, usize)> = stations.collect();
@@ -109,7 +109,7 @@ impl<'n, 'a> Ways<'n, 'a> {
     fn place_of(&self, owner: Owner) -> usize {
         match owner {
             Owner::Node(node) => node.index(),
-            Owner::OffPlane(k, end) => self.network.nodes.len() + 2 * k + end,
+            Owner::OffPlane(k, end) => self.arrangement.nodes.len() + 2 * k + end,
         }
     }
 
@@ -119,10 +119,10 @@ impl<'n, 'a> Ways<'n, 'a> {
     }
 
     fn at(&self, place: usize) -> Point {
-        match (place.checked_sub(self.network.nodes.len()), place.checked_sub(self.foot(0))) {
-            (None, _) => self.network.nodes[PointId::from_index(place)].at,
+        match (place.checked_sub(self.arrangement.nodes.len()), place.checked_sub(self.foot(0))) {
+            (None, _) => self.arrangement.nodes[PointId::from_index(place)].at,
             (Some(_), Some(k)) => self.shorts[k].at,
-            (Some(beyond), None) => self.network.drawing.off_plane[beyond / 2].ends[beyond % 2],
+            (Some(beyond), None) => self.arrangement.drawing.off_plane[beyond / 2].ends[beyond % 2],
         }
     }
 
@@ -148,7 +148,7 @@ impl<'n, 'a> Ways<'n, 'a> {
         let mut ring = Ring { gaps: Vec::new(), shorts: Vec::new(), off_plane: BTreeSet::new() };
         for (_, _, via) in via {
             match via {
-                Via::Piece(_) | Via::Part(..) => {}
+                Via::Edge(_) | Via::Part(..) => {}
                 Via::OffPlane(k) => _ = ring.off_plane.insert(k),
                 Via::Gap(gap) => ring.gaps.push(gap),
                 Via::Short(short) => ring.shorts.push(short),
@@ -197,15 +197,15 @@ impl<'n, 'a> Ways<'n, 'a> {
         for &(from, to, via) in way {
             let (a, b) = (self.at(from), self.at(to));
             match via {
-                Via::Piece(id) => {
-                    let piece = &self.network.pieces[id];
-                    let swept = piece.curve.signed_area(origin);
-                    area += if piece.ends[0].index() == from { swept } else { -swept };
-                    length += extent(piece.bounds);
+                Via::Edge(id) => {
+                    let edge = &self.arrangement.edges[id];
+                    let swept = edge.curve.signed_area(origin);
+                    area += if edge.ends[0].index() == from { swept } else { -swept };
+                    length += extent(edge.bounds);
                 }
                 Via::Part(_, [t0, t1]) if t0 == t1 => {}
                 Via::Part(id, [t0, t1]) => {
-                    let part = self.network.pieces[id].curve.part(t0, t1);
+                    let part = self.arrangement.edges[id].curve.part(t0, t1);
                     let swept = part.signed_area(origin);
                     area +=
                         if a.distance_squared(part.start()) <= a.distance_squared(part.end()) { swept } else { -swept };
@@ -232,14 +232,14 @@ impl<'n, 'a> Ways<'n, 'a> {
 ///   │              · 3      foot is part of the ring; what goes on beyond it is not.
 ///   ╰──────────────·──────
 /// ```
-pub(super) fn missed_rings(network: &Network, ends: &[FreeEnd]) -> Option<ArrangeError> {
+pub(super) fn missed_rings(arrangement: &Arrangement, ends: &[FreeEnd]) -> Option<ArrangeError> {
     let gaps = missed_gaps(ends);
-    let shorts = missed_lines(network, ends, &gaps);
+    let shorts = missed_lines(arrangement, ends, &gaps);
     if gaps.is_empty() && shorts.is_empty() {
         return None;
     }
-    let rings = closed_by(&gaps, Ways::new(network, ends, &shorts));
-    leaves_plane(network, &rings).or_else(|| misses_closing(network, ends, &rings))
+    let rings = closed_by(&gaps, Ways::new(arrangement, ends, &shorts));
+    leaves_plane(arrangement, &rings).or_else(|| misses_closing(arrangement, ends, &rings))
 }
 
 /// Gaps between nearest free ends that are short beside both chains, each once, the narrowest first.
@@ -254,11 +254,11 @@ fn missed_gaps(ends: &[FreeEnd]) -> Vec<Gap> {
 }
 
 /// Free ends without such a gap that stop short of open lines, under the same limits.
-fn missed_lines(network: &Network, ends: &[FreeEnd], gaps: &[Gap]) -> Vec<Short> {
+fn missed_lines(arrangement: &Arrangement, ends: &[FreeEnd], gaps: &[Gap]) -> Vec<Short> {
     let linked: BTreeSet<usize> = gaps.iter().flat_map(|gap| gap.ends).collect();
     let left: Vec<usize> = (0..ends.len()).filter(|i| !linked.contains(i)).collect();
-    let mut shorts = network.shorts(ends, &left, |i| MISSED * ends[i].chain);
-    shorts.retain(|short| short.width < MISSED * extent(network.pieces[short.onto].bounds));
+    let mut shorts = arrangement.shorts(ends, &left, |i| MISSED * ends[i].chain);
+    shorts.retain(|short| short.width < MISSED * extent(arrangement.edges[short.onto].bounds));
     shorts
 }
 
@@ -281,9 +281,9 @@ fn closed_by(gaps: &[Gap], mut ways: Ways) -> Vec<Ring> {
 }
 
 /// A ring that an entity which is left out would close.
-fn leaves_plane(network: &Network, rings: &[Ring]) -> Option<ArrangeError> {
+fn leaves_plane(arrangement: &Arrangement, rings: &[Ring]) -> Option<ArrangeError> {
     let &k = rings.iter().find_map(|ring| ring.off_plane.first())?;
-    let entity = &network.drawing.off_plane[k];
+    let entity = &arrangement.drawing.off_plane[k];
     let what = format!("{} leaves the plane and is left out, so that an outline does not close", entity.entity);
     Some(ArrangeError::new(what, entity.ends[0], "--flatten-z projects it onto the plane"))
 }
@@ -297,28 +297,28 @@ struct Missing {
 }
 
 /// All that rings lack: gaps, then ends that stop short of lines, in the order of the ends, each once.
-fn missing(network: &Network, ends: &[FreeEnd], rings: &[Ring]) -> Vec<Missing> {
+fn missing(arrangement: &Arrangement, ends: &[FreeEnd], rings: &[Ring]) -> Vec<Missing> {
     let mut gaps: Vec<Gap> = rings.iter().flat_map(|ring| ring.gaps.iter().copied()).collect();
     gaps.sort_by_key(|gap| gap.ends);
     gaps.dedup_by_key(|gap| gap.ends);
     let mut shorts: Vec<Short> = rings.iter().flat_map(|ring| ring.shorts.iter().copied()).collect();
     shorts.sort_by_key(|short| short.end);
     shorts.dedup_by_key(|short| short.end);
-    let told = |width: f64| network.tolerances.told(width);
+    let told = |width: f64| arrangement.tolerances.told(width);
     let across = gaps.into_iter().map(|Gap { ends: pair, width }| {
-        let [a, b] = pair.map(|end| network.place(&ends[end]));
+        let [a, b] = pair.map(|end| arrangement.place(&ends[end]));
         Missing { width, at: ends[pair[0]].at, text: format!("{a} and {b} are {} apart", told(width)) }
     });
     let onto = shorts.into_iter().map(|Short { end, onto, width, .. }| {
-        let (a, b) = (network.place(&ends[end]), network.text_of(onto));
+        let (a, b) = (arrangement.place(&ends[end]), arrangement.text_of(onto));
         Missing { width, at: ends[end].at, text: format!("{a} stops {} short of {b}", told(width)) }
     });
     across.chain(onto).collect()
 }
 
 /// Lists what is missing, with the option that closes it.
-fn misses_closing(network: &Network, ends: &[FreeEnd], rings: &[Ring]) -> Option<ArrangeError> {
-    let missing = missing(network, ends, rings);
+fn misses_closing(arrangement: &Arrangement, ends: &[FreeEnd], rings: &[Ring]) -> Option<ArrangeError> {
+    let missing = missing(arrangement, ends, rings);
     let widest = missing.iter().map(|missing| missing.width).reduce(f64::max)?;
     let listed: Vec<&str> = missing.iter().take(LISTED).map(|missing| missing.text.as_str()).collect();
     let more = match missing.len().saturating_sub(LISTED) {
@@ -329,7 +329,7 @@ fn misses_closing(network: &Network, ends: &[FreeEnd], rings: &[Ring]) -> Option
     let what = format!("{outlines} closing: {}{more}", listed.join("; "));
     let help = format!(
         "--close {} joins these ends and welds nothing else; --loose keep takes them for open lines, --loose drop leaves them out",
-        rounded_up(widest * network.tolerances.unit)
+        rounded_up(widest * arrangement.tolerances.unit)
     );
     let also_at = missing.iter().take(LISTED).skip(1).map(|missing| missing.at).collect();
     Some(ArrangeError { also_at, ..ArrangeError::new(what, missing[0].at, help) })

@@ -14,18 +14,18 @@ use crate::watch::{Progress, Stopped, Watch};
 
 /// A curve side: the curve travelled forward has its face on the left, travelled backward the one on its right.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) struct Half {
+pub(super) struct DirectedEdge {
     pub curve: CurveId,
     pub side: Side,
 }
 
-impl Half {
+impl DirectedEdge {
     pub fn index(self) -> usize {
         2 * self.curve.index() + self.side.index()
     }
 
     pub fn twin(self) -> Self {
-        Half { side: self.side.other(), ..self }
+        DirectedEdge { side: self.side.other(), ..self }
     }
 
     /// The point from which this side is travelled.
@@ -40,7 +40,7 @@ impl Half {
 
 /// Sides one after the other, each with the same face on its left.
 pub(super) struct Cycle {
-    pub halves: Vec<Half>,
+    pub edges: Vec<DirectedEdge>,
     /// The signed area that it goes around: negative where the face lies outside of it.
     pub area: f64,
     /// What it is connected with.
@@ -49,7 +49,7 @@ pub(super) struct Cycle {
 
 /// The cycles of all sides, and their components.
 pub(super) struct Cycles {
-    /// By [`Half::index`].
+    /// By [`DirectedEdge::index`].
     pub cycle_of: Vec<usize>,
     pub cycles: Vec<Cycle>,
     /// By component: the cycle that sees the component from outside.
@@ -80,8 +80,8 @@ impl Cycles {
     }
 
     /// The cycle of a side.
-    pub fn of(&self, half: Half) -> &Cycle {
-        &self.cycles[self.cycle_of[half.index()]]
+    pub fn of(&self, edge: DirectedEdge) -> &Cycle {
+        &self.cycles[self.cycle_of[edge.index()]]
     }
 }
 
@@ -122,43 +122,44 @@ fn cycles(
     let mut place = vec![0; 2 * domain.curves.len()];
     for star in domain.stars.iter() {
         for (k, &i) in star.iter().enumerate() {
-            place[Half { curve: i.curve, side: left_of(i) }.index()] = k;
+            place[DirectedEdge { curve: i.curve, side: left_of(i) }.index()] = k;
         }
     }
-    let next = |half: Half| {
-        let twin = half.twin();
+    let next = |edge: DirectedEdge| {
+        let twin = edge.twin();
         let star = domain.star(twin.tail(domain));
         let before = star[(place[twin.index()] + star.len() - 1) % star.len()];
-        Half { curve: before.curve, side: left_of(before) }
+        DirectedEdge { curve: before.curve, side: left_of(before) }
     };
     let mut cycle_of = vec![usize::MAX; 2 * domain.curves.len()];
     let mut cycles = Vec::new();
-    let sides = domain.curves.ids().flat_map(|curve| [Side::Left, Side::Right].map(|side| Half { curve, side }));
+    let sides =
+        domain.curves.ids().flat_map(|curve| [Side::Left, Side::Right].map(|side| DirectedEdge { curve, side }));
     for first in sides {
         tracing(domain, domain.curves.len() - first.curve.index()).tell(watch)?;
-        let mut halves = Vec::new();
-        let mut half = first;
-        while cycle_of[half.index()] == usize::MAX {
-            cycle_of[half.index()] = cycles.len();
-            halves.push(half);
-            half = next(half);
+        let mut edges = Vec::new();
+        let mut edge = first;
+        while cycle_of[edge.index()] == usize::MAX {
+            cycle_of[edge.index()] = cycles.len();
+            edges.push(edge);
+            edge = next(edge);
         }
-        if !halves.is_empty() {
+        if !edges.is_empty() {
             let component = component_of[first.tail(domain)];
-            cycles.push(Cycle { area: area(domain, &halves), halves, component });
+            cycles.push(Cycle { area: area(domain, &edges), edges, component });
         }
     }
     Ok((cycle_of, cycles))
 }
 
 /// The signed area that a cycle goes around, by Green about one of its points; summed with Neumaier's compensation.
-fn area(domain: &Domain, halves: &[Half]) -> f64 {
-    let Some(&first) = halves.first() else { return 0.0 };
+fn area(domain: &Domain, edges: &[DirectedEdge]) -> f64 {
+    let Some(&first) = edges.first() else { return 0.0 };
     let origin = domain.points[first.tail(domain)];
     let (mut sum, mut lost) = (0.0f64, 0.0);
-    for half in halves {
-        let forward = domain.curves[half.curve].curve.signed_area(origin);
-        let term = if half.side == Side::Left { forward } else { -forward };
+    for edge in edges {
+        let forward = domain.curves[edge.curve].curve.signed_area(origin);
+        let term = if edge.side == Side::Left { forward } else { -forward };
         let next = sum + term;
         lost += if sum.abs() >= term.abs() { (sum - next) + term } else { (term - next) + sum };
         sum = next;

@@ -1,10 +1,10 @@
-//! Welding: nodes within the tolerance become one, pieces are cut and moved to end at their nodes, repeated pieces
+//! Welding: nodes within the tolerance become one, edges are cut and moved to end at their nodes, repeated edges
 //! become one.
 
+use super::arrangement::{Arrangement, Edge, NodeOrigin};
 use super::candidates::CUTS_MAX;
 use super::error::{ArrangeError, Unarranged};
 use super::meet::{Cut, Found};
-use super::network::{Network, Origin, Piece};
 use super::repair::{Cells, RepairKind};
 use crate::curve::{Curve, End};
 use crate::geometry::{Point, Vec2, extent};
@@ -16,27 +16,27 @@ use std::collections::BTreeMap;
 /// meeting; a drawing that needs more rounds is one whose features lie as near to each other as its tolerance.
 const ROUNDS: usize = 48;
 
-/// After the first round pieces meet where they were moved to, seldom twice on a piece. Where it is so often in the
+/// After the first round edges meet where they were moved to, seldom twice on an edge. Where it is so often in the
 /// mean, whole bundles of curves lie within the tolerance of each other, and each round finds more of them.
 const CROWDED: usize = 32;
 
-impl Network<'_> {
+impl Arrangement<'_> {
     /// Meets and welds until nothing meets but at common ends.
     ///
-    /// **Invariant.** After every round each piece ends at the places of its two nodes, bit for bit; the nodes that
+    /// **Invariant.** After every round each edge ends at the places of its two nodes, bit for bit; the nodes that
     /// drawn ends and drawn points became are known; and every drawn curve that had a size either runs along some
-    /// pieces (as source or as merged), or its loss is itemised at the end. On success the last round found nothing: no
-    /// node lies within the tolerance of a piece but at its ends, and no two pieces meet but at common ends.
+    /// edges (as source or as merged), or its loss is itemised at the end. On success the last round found nothing: no
+    /// node lies within the tolerance of an edge but at its ends, and no two edges meet but at common ends.
     ///
     /// **Termination.** A round does one of two things to the nodes: it makes one of two, which lessens them; or it
-    /// cuts a piece at a place more than a tolerance from its ends, which the length of the drawing allows only so
-    /// often as long as pieces stay where they are. Pieces that move, by up to a tolerance, may meet others anew, so
+    /// cuts an edge at a place more than a tolerance from its ends, which the length of the drawing allows only so
+    /// often as long as edges stay where they are. Edges that move, by up to a tolerance, may meet others anew, so
     /// this is no proof: the rounds have a budget, and its end is an error with the place.
     pub fn settle(&mut self, watch: &mut Watch) -> Result<(), Unarranged> {
         self.weld(Found::default());
         let mut at = Point::ORIGIN;
         for round in 0..ROUNDS {
-            let most = if round == 0 { CUTS_MAX } else { CUTS_MAX.min(CROWDED * self.pieces.len().max(CROWDED)) };
+            let most = if round == 0 { CUTS_MAX } else { CUTS_MAX.min(CROWDED * self.edges.len().max(CROWDED)) };
             let found = self.meet(most, watch)?;
             if found.is_empty() {
                 return Ok(());
@@ -49,13 +49,13 @@ impl Network<'_> {
         Err(ArrangeError::near(what, at, help).into())
     }
 
-    /// One round: clusters the nodes, cuts the pieces, moves their ends to the clusters, and drops what is repeated or
+    /// One round: clusters the nodes, cuts the edges, moves their ends to the clusters, and drops what is repeated or
     /// of no length.
     ///
     /// ```text
     ///   p ─────── a   b ─────── q           p ──────╲ ╱────── q       a and b are nearer to each other than the tolerance, and so is r. They
     ///   r ───────────────────────     →              a                become one node, the one drawn first, at which r is cut, and to which
-    ///                                      r₁ ──────╱ ╲────── r₂      all pieces are moved.
+    ///                                      r₁ ──────╱ ╲────── r₂      all edges are moved.
     /// ```
     fn weld(&mut self, found: Found) {
         let cuts = self.cuts_by_piece(found.cuts);
@@ -65,9 +65,9 @@ impl Network<'_> {
         self.merge_repeated();
     }
 
-    /// Cuts sorted along each piece; ascending by piece.
+    /// Cuts sorted along each edge; ascending by edge.
     fn cuts_by_piece(&self, mut cuts: Vec<Cut>) -> Vec<Cut> {
-        cuts.sort_by(|a, b| a.piece.cmp(&b.piece).then(a.t.total_cmp(&b.t)).then(a.node.cmp(&b.node)));
+        cuts.sort_by(|a, b| a.edge.cmp(&b.edge).then(a.t.total_cmp(&b.t)).then(a.node.cmp(&b.node)));
         cuts
     }
 
@@ -76,8 +76,8 @@ impl Network<'_> {
         let mut forest = Forest::new(self.nodes.len());
         links.iter().for_each(|&[a, b]| forest.join(a.index(), b.index()));
         for pair in cuts.windows(2) {
-            // Cuts next to each other on one piece and in space are one, lest a piece falls between them.
-            if pair[0].piece == pair[1].piece && pair[0].at.distance(pair[1].at) <= self.tolerances.weld {
+            // Cuts next to each other on one edge and in space are one, lest an edge falls between them.
+            if pair[0].edge == pair[1].edge && pair[0].at.distance(pair[1].at) <= self.tolerances.weld {
                 forest.join(pair[0].node.index(), pair[1].node.index());
             }
         }
@@ -132,46 +132,46 @@ impl Network<'_> {
         self.drawn_points.iter_mut().for_each(|node| *node = clusters[*node]);
     }
 
-    /// Cuts the pieces and moves their ends; renumbers the nodes that are left.
+    /// Cuts the edges and moves their ends; renumbers the nodes that are left.
     fn rebuild(&mut self, clusters: &IdVec<PointId, PointId>, cuts: Vec<Cut>) {
-        let pieces = std::mem::take(&mut self.pieces);
+        let edges = std::mem::take(&mut self.edges);
         let mut rest = cuts.as_slice();
-        for (id, mut piece) in pieces.enumerate().map(|(id, p)| (id, p.clone())) {
-            let mine = rest.iter().take_while(|cut| cut.piece == id).count();
+        for (id, mut edge) in edges.enumerate().map(|(id, p)| (id, p.clone())) {
+            let mine = rest.iter().take_while(|cut| cut.edge == id).count();
             let (cuts, others) = rest.split_at(mine);
             rest = others;
-            piece.ends = piece.ends.map(|end| clusters[end]);
-            self.cut_piece(piece, cuts, clusters);
+            edge.ends = edge.ends.map(|end| clusters[end]);
+            self.cut_piece(edge, cuts, clusters);
         }
         self.renumber();
     }
 
-    /// The parts of a piece between its cuts.
-    fn cut_piece(&mut self, piece: Piece, cuts: &[Cut], clusters: &IdVec<PointId, PointId>) {
+    /// The parts of an edge between its cuts.
+    fn cut_piece(&mut self, edge: Edge, cuts: &[Cut], clusters: &IdVec<PointId, PointId>) {
         let inner: Vec<(Cut, PointId)> = cuts.iter().map(|cut| (*cut, clusters[cut.node])).collect();
         if inner.is_empty() {
-            return self.place_part(piece);
+            return self.place_part(edge);
         }
-        self.itemise_splits(&piece, &inner);
-        let (mut t0, mut from) = (0.0, piece.ends[0]);
-        for (t1, to) in inner.iter().map(|(cut, node)| (cut.t, *node)).chain([(1.0, piece.ends[1])]) {
+        self.itemise_splits(&edge, &inner);
+        let (mut t0, mut from) = (0.0, edge.ends[0]);
+        for (t1, to) in inner.iter().map(|(cut, node)| (cut.t, *node)).chain([(1.0, edge.ends[1])]) {
             if t0 < t1 {
-                self.place_part(piece.between(t0, t1, [from, to]));
+                self.place_part(edge.between(t0, t1, [from, to]));
             }
             (t0, from) = (t1, to);
         }
     }
 
-    fn itemise_splits(&mut self, piece: &Piece, inner: &[(Cut, PointId)]) {
-        let mut last = piece.ends[0];
+    fn itemise_splits(&mut self, edge: &Edge, inner: &[(Cut, PointId)]) {
+        let mut last = edge.ends[0];
         for &(cut, node) in inner {
-            if node != last && node != piece.ends[1] {
+            if node != last && node != edge.ends[1] {
                 let kept = self.nodes[node];
                 let what = match kept.origin {
-                    Origin::Point(_) => {
-                        format!("{} was split at {}", self.entity(piece.source), kept.origin.text(self.drawing))
+                    NodeOrigin::Point(_) => {
+                        format!("{} was split at {}", self.entity(edge.source), kept.origin.text(self.drawing))
                     }
-                    _ => format!("{} was split where it meets another curve", self.entity(piece.source)),
+                    _ => format!("{} was split where it meets another curve", self.entity(edge.source)),
                 };
                 self.repair(RepairKind::Split, kept.at, cut.at.distance(kept.at), what);
             }
@@ -181,7 +181,7 @@ impl Network<'_> {
 
     /// Moves the ends of a part to its nodes; drops it where nothing is left, and halves it first where that would bend
     /// it out of shape.
-    pub fn place_part(&mut self, part: Piece) {
+    pub fn place_part(&mut self, part: Edge) {
         let weld = self.tolerances.weld;
         let [from, to] = part.ends.map(|end| self.nodes[end].at);
         let size = extent(part.bounds);
@@ -193,7 +193,7 @@ impl Network<'_> {
         }
         let (start, end) = (part.curve.start(), part.curve.end());
         if start == from && end == to && from != to {
-            self.pieces.push(part);
+            self.edges.push(part);
             return;
         }
         let chord = start.distance(end);
@@ -201,7 +201,7 @@ impl Network<'_> {
         // A similarity that moves the ends of a chord by `moved` moves what lies off it by `moved · size / chord`.
         let bends = 4.0 * chord < size && moved * size > weld * chord;
         if part.ends[0] == part.ends[1] || bends {
-            let middle = self.add_node(part.curve.point(0.5), Origin::Meeting(part.source));
+            let middle = self.add_node(part.curve.point(0.5), NodeOrigin::Meeting(part.source));
             for (t0, t1, ends) in [(0.0, 0.5, [part.ends[0], middle]), (0.5, 1.0, [middle, part.ends[1]])] {
                 self.move_ends(part.between(t0, t1, ends));
             }
@@ -211,7 +211,7 @@ impl Network<'_> {
     }
 
     /// A whole drawn curve became one point.
-    fn itemise_lost(&mut self, part: &Piece, at: Point, size: f64) {
+    fn itemise_lost(&mut self, part: &Edge, at: Point, size: f64) {
         let closed = part.curve.start().distance(part.curve.end()) < size / 2.0;
         let kind = if closed { RepairKind::Collapsed } else { RepairKind::ZeroLength };
         let what = format!("{} is no longer than the tolerance and was dropped", self.entity(part.source));
@@ -219,7 +219,7 @@ impl Network<'_> {
         self.drawn_ends[part.source as usize] = None;
     }
 
-    fn move_ends(&mut self, mut part: Piece) {
+    fn move_ends(&mut self, mut part: Edge) {
         let [from, to] = part.ends.map(|end| self.nodes[end].at);
         // What fits within the tolerance has no shape; all else keeps its own, however coarse the tolerance.
         let shapeless = extent(part.bounds) <= self.tolerances.weld;
@@ -229,15 +229,15 @@ impl Network<'_> {
         };
         part.bounds = part.curve.bounds();
         part.fresh = true;
-        self.pieces.push(part);
+        self.edges.push(part);
     }
 
-    /// Pieces between the same nodes that coincide become one, the first; it remembers which drawn curves ran along it.
+    /// Edges between the same nodes that coincide become one, the first; it remembers which drawn curves ran along it.
     fn merge_repeated(&mut self) {
-        let mut order: Vec<([PointId; 2], CurveId)> = Vec::with_capacity(self.pieces.len());
-        order.extend(self.pieces.enumerate().map(|(id, p)| ([p.ends[0].min(p.ends[1]), p.ends[0].max(p.ends[1])], id)));
+        let mut order: Vec<([PointId; 2], CurveId)> = Vec::with_capacity(self.edges.len());
+        order.extend(self.edges.enumerate().map(|(id, p)| ([p.ends[0].min(p.ends[1]), p.ends[0].max(p.ends[1])], id)));
         order.sort_unstable();
-        let mut dropped: IdVec<CurveId, bool> = vec![false; self.pieces.len()].into();
+        let mut dropped: IdVec<CurveId, bool> = vec![false; self.edges.len()].into();
         for group in order.chunk_by(|a, b| a.0 == b.0) {
             let mut rest: Vec<CurveId> = group.iter().map(|g| g.1).collect();
             while let Some((&first, others)) = rest.split_first() {
@@ -254,15 +254,15 @@ impl Network<'_> {
                 rest = apart;
             }
         }
-        let pieces = std::mem::take(&mut self.pieces);
-        self.pieces = pieces.enumerate().filter(|&(id, _)| !dropped[id]).map(|(_, p)| p.clone()).collect();
+        let edges = std::mem::take(&mut self.edges);
+        self.edges = edges.enumerate().filter(|&(id, _)| !dropped[id]).map(|(_, p)| p.clone()).collect();
     }
 
-    /// The widest gap between two pieces with the same ends, where they coincide: where neither is farther than the
+    /// The widest gap between two edges with the same ends, where they coincide: where neither is farther than the
     /// tolerance from the other, nor the face between them wider. They do not cross in between, or will be split there,
     /// so a few samples tell.
     fn gap_of_coincident(&self, a: CurveId, b: CurveId) -> Option<f64> {
-        let [p, q] = [a, b].map(|id| &self.pieces[id].curve);
+        let [p, q] = [a, b].map(|id| &self.edges[id].curve);
         if matches!((p, q), (Curve::Line(_), Curve::Line(_))) {
             return Some(0.0);
         }
@@ -281,40 +281,40 @@ impl Network<'_> {
     }
 
     fn absorb(&mut self, kept: CurveId, dropped: CurveId, gap: f64) {
-        let gone = self.pieces[dropped].clone();
-        let against = gone.ends[0] != self.pieces[kept].ends[0];
-        let (first, second) = (self.entity(self.pieces[kept].source), self.entity(gone.source));
+        let gone = self.edges[dropped].clone();
+        let against = gone.ends[0] != self.edges[kept].ends[0];
+        let (first, second) = (self.entity(self.edges[kept].source), self.entity(gone.source));
         let at = gone.curve.point(0.5);
-        if gone.source == self.pieces[kept].source {
+        if gone.source == self.edges[kept].source {
             self.loops.push((gone.source, at, gap));
             self.straighten(kept);
-        } else if gone.is_whole() && self.pieces[kept].is_whole() {
+        } else if gone.is_whole() && self.edges[kept].is_whole() {
             self.repair(RepairKind::Duplicate, at, gap, format!("{second} repeats {first} and was dropped"));
         } else {
             let what = format!("{second} overlaps {first}; the common stretch became one");
             self.repair(RepairKind::Overlap, at, gap, what);
         }
-        let piece = &mut self.pieces[kept];
-        piece.merged.push((gone.source, against));
-        piece.merged.extend(gone.merged.iter().map(|&(source, reversed)| (source, reversed != against)));
+        let edge = &mut self.edges[kept];
+        edge.merged.push((gone.source, against));
+        edge.merged.extend(gone.merged.iter().map(|&(source, reversed)| (source, reversed != against)));
     }
 
     /// Makes one side of a loop that became a line straight, where it was cut beside the loop's tip and so folds back.
     fn straighten(&mut self, id: CurveId) {
-        let piece = &mut self.pieces[id];
-        if !piece.curve.breaks().is_empty()
-            && let Ok(chord) = Curve::line(piece.curve.start(), piece.curve.end())
+        let edge = &mut self.edges[id];
+        if !edge.curve.breaks().is_empty()
+            && let Ok(chord) = Curve::line(edge.curve.start(), edge.curve.end())
         {
-            (piece.bounds, piece.curve, piece.fresh) = (chord.bounds(), chord, true);
+            (edge.bounds, edge.curve, edge.fresh) = (chord.bounds(), chord, true);
         }
     }
 
     /// Itemises drawn curves of which nothing is left although they had a size, and loops of others that became lines.
     pub fn itemise_collapsed(&mut self) {
         let mut left = vec![false; self.drawing.curves.len()];
-        for piece in self.pieces.iter() {
-            left[piece.source as usize] = true;
-            piece.merged.iter().for_each(|&(source, _)| left[source as usize] = true);
+        for edge in self.edges.iter() {
+            left[edge.source as usize] = true;
+            edge.merged.iter().for_each(|&(source, _)| left[source as usize] = true);
         }
         for source in (0..left.len()).filter(|&i| !left[i]) {
             let Some([node, _]) = self.drawn_ends[source].take() else { continue };
@@ -329,7 +329,7 @@ impl Network<'_> {
     }
 }
 
-/// Samples that tell whether two pieces coincide are this part of them apart.
+/// Samples that tell whether two edges coincide are this part of them apart.
 const SAMPLES: usize = 8;
 
 /// The width of the face between two curves at a place on the first: along its normal there. Where the normal passes

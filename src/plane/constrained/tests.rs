@@ -37,7 +37,7 @@ impl Scene {
     fn build(&self) -> Constrained {
         let mut built = Constrained::new(self.points.clone()).unwrap();
         for (i, &[a, b]) in self.segments.iter().enumerate() {
-            built.join(VertexId::from_index(a), VertexId::from_index(b), PieceId::from_index(i)).unwrap();
+            built.join(VertexId::from_index(a), VertexId::from_index(b), SubcurveId::from_index(i)).unwrap();
         }
         built
     }
@@ -108,7 +108,7 @@ fn whatever_the_way_there_the_triangulation_is_the_same() {
         let whole = triangles(&scene.build());
         let mut backwards = Constrained::new(scene.points.clone()).unwrap();
         for (i, &[a, b]) in scene.segments.iter().enumerate().rev() {
-            backwards.join(VertexId::from_index(b), VertexId::from_index(a), PieceId::from_index(i)).unwrap();
+            backwards.join(VertexId::from_index(b), VertexId::from_index(a), SubcurveId::from_index(i)).unwrap();
         }
         assert_eq!(triangles(&backwards), whole, "seed {seed}: joined in another order");
         // Points that no segment ends at come last, or go and come again.
@@ -157,7 +157,7 @@ fn a_parted_segment_leaves_what_is_built_with_its_parts() {
             if !built.can_part(side, p) {
                 continue;
             }
-            let pieces = [i, scene.segments.len()].map(PieceId::from_index);
+            let pieces = [i, scene.segments.len()].map(SubcurveId::from_index);
             let v = built.part(side, p, pieces);
             assert_eq!(built.flaws(), Vec::<String>::new(), "seed {seed}: segment {a} {b} at {p:?}");
             let mut with = Scene { points: scene.points.clone(), segments: scene.segments.clone() };
@@ -165,9 +165,9 @@ fn a_parted_segment_leaves_what_is_built_with_its_parts() {
             with.segments[i] = [a, v.index()];
             with.segments.push([v.index(), b]);
             assert_eq!(triangles(&built), triangles(&with.build()), "seed {seed}: segment {a} {b} at {p:?}");
-            for (end, piece) in [a, b].into_iter().zip(pieces) {
+            for (end, subcurve) in [a, b].into_iter().zip(pieces) {
                 let part = built.topology().side_between(v, VertexId::from_index(end)).unwrap();
-                assert_eq!(built.topology().piece(part), Some(piece));
+                assert_eq!(built.topology().subcurve(part), Some(subcurve));
             }
             parted += 1;
             on_hull += usize::from(a >= first);
@@ -206,10 +206,10 @@ fn a_segment_that_is_blocked_changes_nothing() {
     let points = vec![at(0.0, 0.0), at(4.0, 0.0), at(2.0, 0.0), at(3.0, -1.0), at(3.0, 1.0), at(1.0, 3.0)];
     let mut built = Constrained::new(points).unwrap();
     let [a, b, on, below, above, _] = [0, 1, 2, 3, 4, 5].map(VertexId);
-    built.join(below, above, PieceId(7)).unwrap();
+    built.join(below, above, SubcurveId(7)).unwrap();
     let before = triangles(&built);
-    assert_eq!(built.join(a, b, PieceId(8)), Err(Obstacle::Vertex(on)));
-    assert_eq!(built.join(on, b, PieceId(8)), Err(Obstacle::Piece(PieceId(7))));
+    assert_eq!(built.join(a, b, SubcurveId(8)), Err(Obstacle::Vertex(on)));
+    assert_eq!(built.join(on, b, SubcurveId(8)), Err(Obstacle::Subcurve(SubcurveId(7))));
     assert_eq!(triangles(&built), before);
 }
 

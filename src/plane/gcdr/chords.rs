@@ -1,6 +1,6 @@
 //! The beginning: pieces of curves whose chords are a valid PSLG, and stay one however the pieces are split.
 //!
-//! What is split later stays within the convex hull of its piece, and so does every chord of it. A piece of lens angle
+//! What is split later stays within the convex hull of its subcurve, and so does every chord of it. A subcurve of lens angle
 //! λ lies in its lens, which is convex and lies in the rhombus on its chord with angles 2λ at the ends. So curved
 //! pieces are split until no two rhombi meet but in a common end: at the bisector, or on curves that end at a sharp
 //! corner on [shells](shell_between) around it, so that edges across a cusp have their ends equally far from it and may
@@ -8,13 +8,13 @@
 //! curves are cut at one distance from the corner, and from then on together ([`Fan`]): equal distances keep their
 //! order.
 
-use super::{Fan, Origin};
+use super::{Fan, VertexSource};
 use crate::curve::{Curve, End};
 use crate::domain::Domain;
 use crate::geometry::boxes::BoxHierarchy;
 use crate::geometry::{Point, Rect, bounds_of, turn_from};
-use crate::ids::{CurveId, FanId, Id, IdVec, PieceId, PointId, VertexId};
-use crate::plane::subcurves::{Carrier, Piece, Standing, Subcurves};
+use crate::ids::{CurveId, FanId, Id, IdVec, PointId, SubcurveId, VertexId};
+use crate::plane::subcurves::{Carrier, Standing, Subcurve, Subcurves};
 use crate::size::SizeField;
 use crate::watch::{Progress, Stopped, Watch};
 
@@ -24,16 +24,16 @@ pub(super) struct Beginning<'a> {
     /// Whether curves meet at less than 60°.
     sharp: &'a IdVec<PointId, bool>,
     pub(super) points: Vec<Point>,
-    pub(super) origins: IdVec<VertexId, Origin>,
+    pub(super) origins: IdVec<VertexId, VertexSource>,
     pub(super) subcurves: Subcurves,
     pub(super) fans: IdVec<FanId, Fan>,
     /// No lengths below this are told apart.
     resolution: f64,
 }
 
-/// A piece as the search for meetings sees it.
+/// A subcurve as the search for meetings sees it.
 pub(super) struct Hull {
-    piece: Option<PieceId>,
+    subcurve: Option<SubcurveId>,
     ends: [Point; 2],
     /// λ, 0 of what is straight.
     lambda: f64,
@@ -45,14 +45,14 @@ impl<'a> Beginning<'a> {
             domain,
             sharp,
             points: domain.points().iter().copied().collect(),
-            origins: domain.points().ids().map(Origin::Input).collect(),
+            origins: domain.points().ids().map(VertexSource::Input).collect(),
             subcurves: Subcurves::default(),
             fans: IdVec::new(),
             resolution,
         }
     }
 
-    fn add(&mut self, at: Point, origin: Origin) -> VertexId {
+    fn add(&mut self, at: Point, origin: VertexSource) -> VertexId {
         self.points.push(at);
         self.origins.push(origin)
     }
@@ -66,7 +66,7 @@ impl<'a> Beginning<'a> {
             for (i, end) in [End::Start, End::Finish].into_iter().enumerate() {
                 let Some(fan) = fan_of[curve.ends[i]] else { continue };
                 let Some(leave) = curve.curve.leaves_ball(end, self.fans[fan].radius, 0.0, 1.0) else { continue };
-                let x = self.add(curve.curve.point(leave), Origin::OnCurve(id));
+                let x = self.add(curve.curve.point(leave), VertexSource::OnCurve(id));
                 let (spoke_t, spoke_ends) = match end {
                     End::Start => ([0.0, leave], [ends[0], x]),
                     End::Finish => ([leave, 1.0], [x, ends[1]]),
@@ -99,7 +99,7 @@ impl<'a> Beginning<'a> {
 
     /// Splits bent pieces until the hulls of any two are apart, as far as the budget and the watch allow.
     pub(super) fn part_hulls(&mut self, max_vertices: usize, watch: &mut Watch) -> Result<(), Stopped> {
-        let mut dirty: Vec<PieceId> = self.subcurves.ids().collect();
+        let mut dirty: Vec<SubcurveId> = self.subcurves.ids().collect();
         while !dirty.is_empty() && self.points.len() <= max_vertices {
             Progress { phase: "conforming", vertices: self.points.len(), queued: dirty.len() }.tell(watch)?;
             let met = self.meeting(&dirty);
@@ -112,7 +112,7 @@ impl<'a> Beginning<'a> {
     }
 
     /// Bent pieces that meet another, where one of the two is among `dirty`; ascending.
-    fn meeting(&self, dirty: &[PieceId]) -> Vec<PieceId> {
+    fn meeting(&self, dirty: &[SubcurveId]) -> Vec<SubcurveId> {
         let live = self.subcurves.ids().filter(|&id| !self.subcurves.get(id).is_gone());
         let mut hulls: Vec<Hull> = live.map(|id| self.hull(id)).collect();
         if hulls.iter().all(|h| h.lambda == 0.0) {
@@ -121,17 +121,18 @@ impl<'a> Beginning<'a> {
         let lone = self.domain.points().ids().filter(|&p| self.domain.star(p).is_empty());
         hulls.extend(lone.map(|p| {
             let at = self.domain.points()[p];
-            Hull { piece: None, ends: [at, at], lambda: 0.0 }
+            Hull { subcurve: None, ends: [at, at], lambda: 0.0 }
         }));
         let boxes = BoxHierarchy::new(hulls.iter().map(|h| h.bounds(self.resolution)));
-        let place = |id: PieceId| hulls.binary_search_by_key(&(id.index()), |h| h.piece.map_or(usize::MAX, Id::index));
+        let place =
+            |id: SubcurveId| hulls.binary_search_by_key(&(id.index()), |h| h.subcurve.map_or(usize::MAX, Id::index));
         let mut met = Vec::new();
         for &id in dirty {
             let Ok(i) = place(id) else { continue };
             boxes.meeting(hulls[i].bounds(self.resolution), |j| {
                 if i != j && (hulls[i].lambda > 0.0 || hulls[j].lambda > 0.0) && !self.are_apart(&hulls[i], &hulls[j]) {
                     let bent = |h: &&Hull| h.lambda > 0.0 && !h.is_noise(self.resolution);
-                    met.extend([&hulls[i], &hulls[j]].into_iter().filter(bent).filter_map(|h| h.piece));
+                    met.extend([&hulls[i], &hulls[j]].into_iter().filter(bent).filter_map(|h| h.subcurve));
                 }
                 true
             });
@@ -141,14 +142,14 @@ impl<'a> Beginning<'a> {
         met
     }
 
-    fn hull(&self, id: PieceId) -> Hull {
-        let piece = self.subcurves.get(id);
-        Hull { piece: Some(id), ..Hull::of(self.domain, piece, piece.t) }
+    fn hull(&self, id: SubcurveId) -> Hull {
+        let subcurve = self.subcurves.get(id);
+        Hull { subcurve: Some(id), ..Hull::of(self.domain, subcurve, subcurve.t) }
     }
 
     /// Whether two hulls meet at most in a common end.
     fn are_apart(&self, a: &Hull, b: &Hull) -> bool {
-        let [Some(first), Some(second)] = [a.piece, b.piece].map(|id| id.map(|id| self.subcurves.get(id))) else {
+        let [Some(first), Some(second)] = [a.subcurve, b.subcurve].map(|id| id.map(|id| self.subcurves.get(id))) else {
             return a.is_apart(b, self.resolution);
         };
         // Of two that are noise, joining tells whether their chords cross.
@@ -161,8 +162,8 @@ impl<'a> Beginning<'a> {
             return a.is_apart(b, self.resolution);
         }
         shared.all(|x| {
-            let away = |piece: &Piece| {
-                let other = piece.ends[usize::from(piece.ends[0] == x)];
+            let away = |subcurve: &Subcurve| {
+                let other = subcurve.ends[usize::from(subcurve.ends[0] == x)];
                 self.points[other.index()] - self.points[x.index()]
             };
             // Beyond a millionth of a radian directions of rounded points can be told apart.
@@ -172,8 +173,8 @@ impl<'a> Beginning<'a> {
 
     /// Whether one is a spoke and the other lies on a curve of the same corner: spokes keep their order, and the others
     /// lie outside.
-    fn share_a_fan(&self, first: &Piece, second: &Piece) -> bool {
-        let meets = |spoke: &Piece, other: &Piece| {
+    fn share_a_fan(&self, first: &Subcurve, second: &Subcurve) -> bool {
+        let meets = |spoke: &Subcurve, other: &Subcurve| {
             let Standing::OfFan(fan) = spoke.standing else { return false };
             let corner = self.fans[fan].corner;
             matches!(other.carrier, Carrier::Curve(c) if self.domain.curves()[c].ends.contains(&corner))
@@ -181,54 +182,54 @@ impl<'a> Beginning<'a> {
         meets(first, second) || meets(second, first)
     }
 
-    /// Splits a bent piece on a shell around a sharp corner, or at its bisector; `None` of a spoke, and where
+    /// Splits a bent subcurve on a shell around a sharp corner, or at its bisector; `None` of a spoke, and where
     /// coordinates cannot hold it: joining will tell.
-    fn split(&mut self, id: PieceId) -> Option<[PieceId; 2]> {
-        let piece = *self.subcurves.get(id);
-        let shape = shape_of(self.domain, &piece);
-        let ends = piece.ends.map(|v| self.points[v.index()]);
-        let on_shell = shell_between(self.domain, self.sharp, &piece, ends)
+    fn split(&mut self, id: SubcurveId) -> Option<[SubcurveId; 2]> {
+        let subcurve = *self.subcurves.get(id);
+        let shape = shape_of(self.domain, &subcurve);
+        let ends = subcurve.ends.map(|v| self.points[v.index()]);
+        let on_shell = shell_between(self.domain, self.sharp, &subcurve, ends)
             .and_then(|(end, radius)| shape.leaves_ball(end, radius, 0.0, 1.0));
-        let t = on_shell.unwrap_or_else(|| shape.bisector_crossing(piece.t[0], piece.t[1]));
+        let t = on_shell.unwrap_or_else(|| shape.bisector_crossing(subcurve.t[0], subcurve.t[1]));
         let at = shape.point(t);
-        let room = piece.ends.map(|v| at.distance(self.points[v.index()]));
-        if piece.is_spoke() || room[0].min(room[1]) < self.resolution || !(piece.t[0] < t && t < piece.t[1]) {
+        let room = subcurve.ends.map(|v| at.distance(self.points[v.index()]));
+        if subcurve.is_spoke() || room[0].min(room[1]) < self.resolution || !(subcurve.t[0] < t && t < subcurve.t[1]) {
             return None;
         }
-        let origin = match piece.carrier {
-            Carrier::Curve(curve) => Origin::OnCurve(curve),
+        let origin = match subcurve.carrier {
+            Carrier::Curve(curve) => VertexSource::OnCurve(curve),
             Carrier::Arc(..) => unreachable!("there are no arcs here"),
         };
         let v = self.add(at, origin);
         self.subcurves.retire(id);
-        let mut part = |t, ends| self.subcurves.add(piece.carrier, t, ends, Standing::Ordinary);
-        Some([part([piece.t[0], t], [piece.ends[0], v]), part([t, piece.t[1]], [v, piece.ends[1]])])
+        let mut part = |t, ends| self.subcurves.add(subcurve.carrier, t, ends, Standing::Ordinary);
+        Some([part([subcurve.t[0], t], [subcurve.ends[0], v]), part([t, subcurve.t[1]], [v, subcurve.ends[1]])])
     }
 }
 
-/// The curve that a piece is a part of.
-pub(super) fn shape_of<'a>(domain: &'a Domain, piece: &Piece) -> &'a Curve {
-    &domain.curves()[curve_of(piece)].curve
+/// The curve that a subcurve is a part of.
+pub(super) fn shape_of<'a>(domain: &'a Domain, subcurve: &Subcurve) -> &'a Curve {
+    &domain.curves()[curve_of(subcurve)].curve
 }
 
 /// Its id.
-pub(super) fn curve_of(piece: &Piece) -> CurveId {
-    match piece.carrier {
+pub(super) fn curve_of(subcurve: &Subcurve) -> CurveId {
+    match subcurve.carrier {
         Carrier::Curve(curve) => curve,
         Carrier::Arc(..) => unreachable!("this engine makes no arcs"),
     }
 }
 
-/// On a curve that ends at a sharp corner: which end that is, and the distance from it at which a piece is split: the
+/// On a curve that ends at a sharp corner: which end that is, and the distance from it at which a subcurve is split: the
 /// roundest binary number in the middle third. Next to the corner that is a power of two (Ruppert's concentric shells);
 /// and wherever they are split, the two curves of a narrow corner are split at the same distances.
 pub(super) fn shell_between(
     domain: &Domain,
     sharp: &IdVec<PointId, bool>,
-    piece: &Piece,
+    subcurve: &Subcurve,
     [x, y]: [Point; 2],
 ) -> Option<(End, f64)> {
-    let curve = &domain.curves()[curve_of(piece)];
+    let curve = &domain.curves()[curve_of(subcurve)];
     let middle = x.midpoint(y);
     let corners = [(End::Start, curve.ends[0]), (End::Finish, curve.ends[1])].into_iter().filter(|&(_, p)| sharp[p]);
     let away = |p: PointId| middle.distance(domain.points()[p]);
@@ -255,11 +256,11 @@ fn roundest_between(low: f64, high: f64) -> f64 {
 }
 
 impl Hull {
-    /// Of the part t of the curve of a piece.
-    pub(super) fn of(domain: &Domain, piece: &Piece, t: [f64; 2]) -> Self {
-        let shape = shape_of(domain, piece);
+    /// Of the part t of the curve of a subcurve.
+    pub(super) fn of(domain: &Domain, subcurve: &Subcurve, t: [f64; 2]) -> Self {
+        let shape = shape_of(domain, subcurve);
         let lambda = if shape.is_straight() { 0.0 } else { shape.lens_angle(t[0], t[1]) };
-        Self { piece: None, ends: t.map(|t| shape.point(t)), lambda }
+        Self { subcurve: None, ends: t.map(|t| shape.point(t)), lambda }
     }
 
     /// Whether it is so short that its shape is mostly rounding: splitting would find no end.

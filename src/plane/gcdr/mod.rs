@@ -15,10 +15,10 @@
 //!
 //! What the paper leaves open, and how it is done here:
 //!
-//! - *Curves.* A segment is a piece of a curve, seen as its chord; its point is taken on the curve, above the place
+//! - *Curves.* A segment is a subcurve of a curve, seen as its chord; its point is taken on the curve, above the place
 //!   chosen on the chord. `chords` splits curves at the beginning until chords are a valid PSLG, whatever is split
 //!   later. To move a segment to its curve, its chord is taken out of the triangulation, the point inserted and the two
-//!   new chords joined; regions are carved anew there.
+//!   new chords joined; regions are labelled anew there.
 //! - *Corners sharper than 60°.* Segments that end there are split on concentric shells (Ruppert 1995), at distances
 //!   from the corner that are round binary numbers; a triangle whose shortest edge lies across the corner, from one
 //!   curve to the other, with ends equally far from the corner is left as it is: its small angle is the input's. Curves
@@ -27,7 +27,7 @@
 //!   than 180° − 2κ come before all else: they cannot stand, and split late they would undo what was refined beside
 //!   them. Then comes what the strategy says.
 //! - *Rounding.* Decisions are made on the rounded point. A point that would not remove its triangle is not inserted,
-//!   and owed.
+//!   and unresolved.
 //!
 //! *Which engine.* Of 180 drawings at 20.7° with free optimal points (outlines, maps, DXF, SVG) all end that end with
 //! corner lopping, all but one with fewer triangles: a fourth to a half of them by folder, in the geometric mean. That
@@ -43,15 +43,15 @@ mod segments;
 pub mod steiner;
 mod triangles;
 
-use super::carve;
 use super::constrained::Constrained;
-use super::harvest::Harvest;
+use super::extraction::Extraction;
+use super::labelling;
+use super::queue::{self, Candidate};
 use super::refined::{RefineError, Refined};
 use super::refinement::Refinement;
-use super::suspects::{self, Suspect};
 use crate::domain::Domain;
 use crate::geometry::{self, Point};
-use crate::ids::{CurveId, FanId, Id, IdVec, PieceId, PointId, TriangleId, VertexId};
+use crate::ids::{CurveId, FanId, Id, IdVec, PointId, SubcurveId, TriangleId, VertexId};
 use crate::mesh::{Insertion, InsertionKind};
 use crate::promise::{ConstrainedPromise, DensityPromise, EnginePromise, Promise};
 use crate::refine::{Counters, Engine, Stop, StopReason, Until, drive};
@@ -104,7 +104,7 @@ pub fn least_angle(domain: &Domain) -> f64 {
 
 /// Where a vertex came from.
 #[derive(Clone, Copy, PartialEq, Debug)]
-enum Origin {
+enum VertexSource {
     Input(PointId),
     OnCurve(CurveId),
     Free,
@@ -114,7 +114,7 @@ enum Origin {
 struct Fan {
     corner: PointId,
     radius: f64,
-    spokes: Vec<PieceId>,
+    spokes: Vec<SubcurveId>,
 }
 
 /// The engine, held at a step.
@@ -122,7 +122,7 @@ pub struct Gcdr<'s> {
     state: Refinement,
     options: Options,
     mesh: Constrained,
-    origins: IdVec<VertexId, Origin>,
+    origins: IdVec<VertexId, VertexSource>,
     /// Vertices that were not deleted.
     alive: usize,
     /// Of these, the free ones.
@@ -196,7 +196,7 @@ impl<'s> Gcdr<'s> {
         let stopped = beginning.part_hulls(options.max_vertices, watch).is_err();
         if stopped || beginning.points.len() > options.max_vertices {
             let reason = if stopped { StopReason::Cancelled } else { StopReason::VertexBudget };
-            let stop = Stop { reason, owed: 1, places: Vec::new(), angle_deg: None };
+            let stop = Stop { reason, unresolved: 1, places: Vec::new(), angle_deg: None };
             return Ok(Start::Ended(Box::new(Refined {
                 mesh: None,
                 vertices: beginning.points.len(),
@@ -225,12 +225,13 @@ impl<'s> Gcdr<'s> {
         let input = state.domain.points().len();
         state.counters.add("vertices_input", input as u64);
         state.counters.add("vertices_chord", (origins.len() - input) as u64);
-        let live: Vec<PieceId> = state.subcurves.ids().rev().filter(|&id| !state.subcurves.get(id).is_gone()).collect();
-        live.into_iter().for_each(|id| state.suspect(id));
+        let live: Vec<SubcurveId> =
+            state.subcurves.ids().rev().filter(|&id| !state.subcurves.get(id).is_gone()).collect();
+        live.into_iter().for_each(|id| state.enqueue(id));
         mesh.take_touched(&mut Vec::new());
-        let mut all = carve::all_triangles(mesh.kernel());
-        state.carver.carve(mesh.kernel_mut(), &state.subcurves, state.domain.curves(), &mut all);
-        all.into_iter().for_each(|t| gcdr.judge(t));
+        let mut all = labelling::all_triangles(mesh.kernel());
+        state.labeller.label(mesh.kernel_mut(), &state.subcurves, state.domain.curves(), &mut all);
+        all.into_iter().for_each(|t| gcdr.assess(t));
         Ok(Start::Ready(Box::new(gcdr)))
     }
 
@@ -250,30 +251,30 @@ impl<'s> Gcdr<'s> {
         self.alive >= most || self.origins.len() >= most.saturating_mul(4)
     }
 
-    fn is_side(&self, id: PieceId) -> bool {
+    fn is_side(&self, id: SubcurveId) -> bool {
         let [x, y] = self.state.subcurves.get(id).ends;
         let topology = self.mesh.topology();
-        topology.side_between(y, x).is_some_and(|s| topology.piece(s) == Some(id))
+        topology.side_between(y, x).is_some_and(|s| topology.subcurve(s) == Some(id))
     }
 }
 
 impl Engine for Gcdr<'_> {
     type Outcome = Result<Refined, RefineError>;
 
-    /// Splits the first of: a piece that is too large, the worst skinny triangle, the largest triangle. `false`: there
+    /// Splits the first of: a subcurve that is too large, the worst skinny triangle, the largest triangle. `false`: there
     /// is none, or the run is over.
     fn step(&mut self) -> bool {
         if self.state.reason == StopReason::Done
-            && let Some(piece) = self.state.suspects.pop()
+            && let Some(subcurve) = self.state.queue.pop()
         {
-            self.look_at_piece(piece);
+            self.look_at_piece(subcurve);
             return true;
         }
         if self.state.reason != StopReason::Done {
             return false;
         }
         match self.state.bad.next(self.alive) {
-            Some(suspect) => self.split_triangle(suspect),
+            Some(candidate) => self.split_triangle(candidate),
             None => return false,
         }
         true
@@ -284,7 +285,7 @@ impl Engine for Gcdr<'_> {
     }
 
     fn progress(&self) -> Progress {
-        let queued = self.state.suspects.len() + self.state.bad.len();
+        let queued = self.state.queue.len() + self.state.bad.len();
         Progress { phase: "refining", vertices: self.alive, queued }
     }
 
@@ -297,10 +298,10 @@ impl Engine for Gcdr<'_> {
             return Err(self.state.too_near_error());
         }
         const PLACES: usize = 16;
-        let (owed, places) = self.state.bad.owed(self.mesh.kernel(), PLACES);
-        let harvest =
-            Harvest { domain: &self.state.domain, delaunay: self.mesh.kernel(), subcurves: &self.state.subcurves };
-        let mesh = Some(harvest.mesh().scaled(1.0 / self.state.scale));
+        let (unresolved, places) = self.state.bad.unresolved(self.mesh.kernel(), PLACES);
+        let extraction =
+            Extraction { domain: &self.state.domain, delaunay: self.mesh.kernel(), subcurves: &self.state.subcurves };
+        let mesh = Some(extraction.mesh().scaled(1.0 / self.state.scale));
         let down = |p: Point| geometry::scaled(p, 1.0 / self.state.scale);
         let unscaled = |i: &Insertion| Insertion {
             at: down(i.at),
@@ -310,7 +311,7 @@ impl Engine for Gcdr<'_> {
         };
         let insertions = self.insertions.iter().map(unscaled).collect();
         self.state.count_kernel(self.mesh.kernel().counters());
-        let stop = self.state.stop(self.state.reason, owed, places);
+        let stop = self.state.stop(self.state.reason, unresolved, places);
         Ok(Refined { mesh, vertices: self.alive, stop, counters: self.state.counters, insertions })
     }
 }
@@ -321,11 +322,11 @@ fn triangulated(beginning: &Beginning) -> Result<Constrained, RefineError> {
     let mut mesh =
         Constrained::new(beginning.points.clone()).map_err(|why| RefineError::degenerate(&why, &beginning.points))?;
     for id in beginning.subcurves.ids() {
-        let piece = beginning.subcurves.get(id);
-        if piece.is_gone() {
+        let subcurve = beginning.subcurves.get(id);
+        if subcurve.is_gone() {
             continue;
         }
-        let [a, b] = piece.ends;
+        let [a, b] = subcurve.ends;
         mesh.join(a, b, id).map_err(|_| RefineError::too_near(at(a.index())))?;
     }
     Ok(mesh)

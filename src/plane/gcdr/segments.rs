@@ -2,21 +2,21 @@
 
 use super::chords::{Hull, curve_of, shape_of, shell_between};
 use super::steiner::Encroached;
-use super::{Gcdr, Origin};
+use super::{Gcdr, VertexSource};
 use crate::curve::End;
 use crate::geometry::exact::{CircleSide, in_diametral};
 use crate::geometry::{Point, Vec2, scaled};
-use crate::ids::{FanId, PieceId, TriangleId, VertexId};
+use crate::ids::{FanId, SubcurveId, TriangleId, VertexId};
 use crate::mesh::InsertionKind;
 use crate::plane::insert::{self, Location};
-use crate::plane::subcurves::{Piece, Standing};
-use crate::plane::triangulation::Side;
+use crate::plane::subcurves::{Standing, Subcurve};
+use crate::plane::triangulation::HalfEdge;
 use crate::refine::StopReason;
 
-/// Vertices in the diametral circle of a piece.
+/// Vertices in the diametral circle of a subcurve.
 #[derive(Default)]
 struct Encroachers {
-    /// Free ones that see the piece.
+    /// Free ones that see the subcurve.
     free: Vec<VertexId>,
     /// All that are not free, seen or not.
     others: Vec<VertexId>,
@@ -25,19 +25,19 @@ struct Encroachers {
 }
 
 impl Gcdr<'_> {
-    pub(super) fn ends_of(&self, piece: &Piece) -> [Point; 2] {
-        piece.ends.map(|v| self.mesh.point(v))
+    pub(super) fn ends_of(&self, subcurve: &Subcurve) -> [Point; 2] {
+        subcurve.ends.map(|v| self.mesh.point(v))
     }
 
-    /// Splits a piece that is larger than asked.
-    pub(super) fn look_at_piece(&mut self, id: PieceId) {
+    /// Splits a subcurve that is larger than asked.
+    pub(super) fn look_at_piece(&mut self, id: SubcurveId) {
         self.state.subcurves.get_mut(id).queued = false;
-        let piece = *self.state.subcurves.get(id);
-        if piece.is_gone() || self.is_spent() {
+        let subcurve = *self.state.subcurves.get(id);
+        if subcurve.is_gone() || self.is_spent() {
             return;
         }
-        let [t0, t1] = piece.t;
-        if self.state.field.edge_too_large(curve_of(&piece), shape_of(&self.state.domain, &piece), t0, t1) {
+        let [t0, t1] = subcurve.t;
+        if self.state.field.edge_too_large(curve_of(&subcurve), shape_of(&self.state.domain, &subcurve), t0, t1) {
             self.split_segment(id, None, "vertices_size");
         }
     }
@@ -45,15 +45,15 @@ impl Gcdr<'_> {
     /// Lines 7–14 of Algorithm 2: free vertices in the diametral circle go, and a point of type B or C comes. A spoke
     /// takes its whole fan with it. `latest` is the parent where no vertex crowds the segment. `false` where
     /// coordinates cannot hold it.
-    pub(super) fn split_segment(&mut self, id: PieceId, latest: Option<VertexId>, why: &'static str) -> bool {
-        let piece = *self.state.subcurves.get(id);
-        if let Standing::OfFan(fan) = piece.standing {
+    pub(super) fn split_segment(&mut self, id: SubcurveId, latest: Option<VertexId>, why: &'static str) -> bool {
+        let subcurve = *self.state.subcurves.get(id);
+        if let Standing::OfFan(fan) = subcurve.standing {
             return self.cut_fan(fan, why);
         }
         let Encroachers { free, others, type_c } = self.encroachers(id);
-        let t = match shell_between(&self.state.domain, &self.sharp, &piece, self.ends_of(&piece)) {
-            Some((end, radius)) => shape_of(&self.state.domain, &piece).leaves_ball(end, radius, 0.0, 1.0),
-            None => self.choose(&piece, type_c),
+        let t = match shell_between(&self.state.domain, &self.sharp, &subcurve, self.ends_of(&subcurve)) {
+            Some((end, radius)) => shape_of(&self.state.domain, &subcurve).leaves_ball(end, radius, 0.0, 1.0),
+            None => self.choose(&subcurve, type_c),
         };
         let Some(v) = self.split_at(id, t.unwrap_or(f64::NAN), free, why) else { return false };
         if self.options.record {
@@ -65,12 +65,12 @@ impl Gcdr<'_> {
     }
 
     /// The parameter that the strategy chooses: the place on the curve above its place on the chord.
-    fn choose(&mut self, piece: &Piece, type_c: bool) -> Option<f64> {
-        let shape = shape_of(&self.state.domain, piece);
-        let [t0, t1] = piece.t;
+    fn choose(&mut self, subcurve: &Subcurve, type_c: bool) -> Option<f64> {
+        let shape = shape_of(&self.state.domain, subcurve);
+        let [t0, t1] = subcurve.t;
         let size = if type_c { self.options.regions.mu } else { self.options.regions.delta1 };
         let interval = [0.5 * size, 1.0 - 0.5 * size];
-        let [x, y] = self.ends_of(piece);
+        let [x, y] = self.ends_of(subcurve);
         let ends = [x, y].map(|p| scaled(p, 1.0 / self.state.scale));
         let share = self.strategy.on_segment(&Encroached { ends, interval, type_c });
         let share = if share >= interval[0] { share.min(interval[1]) } else { interval[0] };
@@ -92,7 +92,7 @@ impl Gcdr<'_> {
         seen.min_by(|a, b| away(a).total_cmp(&away(b)))
     }
 
-    fn encroachers(&mut self, id: PieceId) -> Encroachers {
+    fn encroachers(&mut self, id: SubcurveId) -> Encroachers {
         let mut found = Encroachers::default();
         let Some(side) = self.side_of(id) else { return found };
         for side in [side, self.mesh.topology().twin(side)] {
@@ -118,7 +118,7 @@ impl Gcdr<'_> {
     }
 
     fn is_free(&self, v: VertexId) -> bool {
-        self.origins[v] == Origin::Free
+        self.origins[v] == VertexSource::Free
     }
 
     /// Deletes free vertices, some of which may be given twice.
@@ -131,12 +131,12 @@ impl Gcdr<'_> {
         vertices.into_iter().for_each(|v| self.mesh.remove(v));
     }
 
-    fn side_of(&self, id: PieceId) -> Option<Side> {
+    fn side_of(&self, id: SubcurveId) -> Option<HalfEdge> {
         let [x, y] = self.state.subcurves.get(id).ends;
         // A corner may have as many neighbours as there are curves at it; the other end has a handful.
         let topology = self.mesh.topology();
         match self.origins[x] {
-            Origin::Input(_) => topology.side_between(y, x).map(|s| topology.twin(s)),
+            VertexSource::Input(_) => topology.side_between(y, x).map(|s| topology.twin(s)),
             _ => topology.side_between(x, y),
         }
     }
@@ -153,7 +153,7 @@ impl Gcdr<'_> {
         self.fans[id].radius = radius;
         self.fans[id].spokes.clear();
         for parts in parts {
-            let ends_there = |&&part: &&PieceId| self.state.subcurves.get(part).ends.contains(&corner);
+            let ends_there = |&&part: &&SubcurveId| self.state.subcurves.get(part).ends.contains(&corner);
             let inner = *parts.iter().find(ends_there).expect("the first or the last part");
             self.state.subcurves.get_mut(inner).standing = Standing::OfFan(id);
             self.fans[id].spokes.push(inner);
@@ -163,19 +163,19 @@ impl Gcdr<'_> {
 
     /// Parameters, ascending, at which spokes are cut from `radius` on outward: so many shells that the hulls of
     /// neighbours are apart.
-    fn shells(&self, corner: VertexId, radius: f64, spokes: &[PieceId]) -> Vec<(PieceId, Vec<f64>)> {
+    fn shells(&self, corner: VertexId, radius: f64, spokes: &[SubcurveId]) -> Vec<(SubcurveId, Vec<f64>)> {
         const SHELLS_MOST: u32 = 64;
         let center = self.mesh.point(corner);
         let mut around = spokes.to_vec();
-        let away = |id: &PieceId| {
-            let piece = self.state.subcurves.get(*id);
-            self.mesh.point(piece.ends[usize::from(piece.ends[0] == corner)]) - center
+        let away = |id: &SubcurveId| {
+            let subcurve = self.state.subcurves.get(*id);
+            self.mesh.point(subcurve.ends[usize::from(subcurve.ends[0] == corner)]) - center
         };
         around.sort_by(|a, b| away(a).atan2().total_cmp(&away(b).atan2()).then(a.cmp(b)));
         let mut shells = 1;
         loop {
             let radii: Vec<f64> = (0..shells).map(|k| radius * (1.0 + f64::from(k) / f64::from(shells))).collect();
-            let cuts: Vec<(PieceId, Vec<f64>)> =
+            let cuts: Vec<(SubcurveId, Vec<f64>)> =
                 around.iter().map(|&id| (id, self.leaves(id, corner, &radii))).collect();
             let hulls: Vec<Vec<Hull>> = cuts.iter().map(|(id, ts)| self.hulls_outside(*id, corner, ts)).collect();
             let neighbours =
@@ -192,10 +192,10 @@ impl Gcdr<'_> {
 
     /// Ascending parameters at which a spoke leaves the circles of ascending radii around its corner; NaN where it does
     /// not.
-    fn leaves(&self, spoke: PieceId, corner: VertexId, radii: &[f64]) -> Vec<f64> {
-        let piece = self.state.subcurves.get(spoke);
-        let end = if piece.ends[0] == corner { End::Start } else { End::Finish };
-        let shape = shape_of(&self.state.domain, piece);
+    fn leaves(&self, spoke: SubcurveId, corner: VertexId, radii: &[f64]) -> Vec<f64> {
+        let subcurve = self.state.subcurves.get(spoke);
+        let end = if subcurve.ends[0] == corner { End::Start } else { End::Finish };
+        let shape = shape_of(&self.state.domain, subcurve);
         let leave = |&r: &f64| shape.leaves_ball(end, r, 0.0, 1.0).unwrap_or(f64::NAN);
         let mut ts: Vec<f64> = radii.iter().map(leave).collect();
         if end == End::Finish {
@@ -205,68 +205,68 @@ impl Gcdr<'_> {
     }
 
     /// The hulls of the parts of a spoke that do not end at its corner.
-    fn hulls_outside(&self, spoke: PieceId, corner: VertexId, ts: &[f64]) -> Vec<Hull> {
-        let piece = self.state.subcurves.get(spoke);
+    fn hulls_outside(&self, spoke: SubcurveId, corner: VertexId, ts: &[f64]) -> Vec<Hull> {
+        let subcurve = self.state.subcurves.get(spoke);
         let bounds: Vec<f64> =
-            if piece.ends[0] == corner { [ts, &piece.t[1..]].concat() } else { [&piece.t[..1], ts].concat() };
-        bounds.windows(2).map(|t| Hull::of(&self.state.domain, piece, [t[0], t[1]])).collect()
+            if subcurve.ends[0] == corner { [ts, &subcurve.t[1..]].concat() } else { [&subcurve.t[..1], ts].concat() };
+        bounds.windows(2).map(|t| Hull::of(&self.state.domain, subcurve, [t[0], t[1]])).collect()
     }
 
-    /// Splits a piece at a parameter, after the deletion of `free` vertices that encroach it. `None` where coordinates
+    /// Splits a subcurve at a parameter, after the deletion of `free` vertices that encroach it. `None` where coordinates
     /// cannot hold it.
-    fn split_at(&mut self, id: PieceId, t: f64, free: Vec<VertexId>, why: &'static str) -> Option<VertexId> {
-        let piece = *self.state.subcurves.get(id);
-        if !self.has_room(&piece, &[t]) {
-            self.state.too_near.push(self.mesh.point(piece.ends[0]));
+    fn split_at(&mut self, id: SubcurveId, t: f64, free: Vec<VertexId>, why: &'static str) -> Option<VertexId> {
+        let subcurve = *self.state.subcurves.get(id);
+        if !self.has_room(&subcurve, &[t]) {
+            self.state.too_near.push(self.mesh.point(subcurve.ends[0]));
             return None;
         }
         self.delete(free);
-        let at = shape_of(&self.state.domain, &piece).point(t);
-        let side = self.side_of(id).expect("a piece is a side");
+        let at = shape_of(&self.state.domain, &subcurve).point(t);
+        let side = self.side_of(id).expect("a subcurve is a side");
         if !self.mesh.can_part(side, at) {
             let parts = self.split_together(&[(id, vec![t])], Vec::new(), why)?;
             return Some(self.state.subcurves.get(parts[0][0]).ends[1]);
         }
-        let v = self.add_on(&piece, why);
+        let v = self.add_on(&subcurve, why);
         self.state.subcurves.retire(id);
-        let parts = self.add_parts(&piece, &[(t, v)]);
+        let parts = self.add_parts(&subcurve, &[(t, v)]);
         self.mesh.part(side, at, [parts[0], parts[1]]);
-        parts.into_iter().for_each(|part| self.state.suspect(part));
-        // What lies to the left and right of a piece lies there of its parts.
+        parts.into_iter().for_each(|part| self.state.enqueue(part));
+        // What lies to the left and right of a subcurve lies there of its parts.
         self.settle(false);
         Some(v)
     }
 
     /// Splits pieces at ascending parameters, all at once: between two of a fan chords may cross. `free` vertices,
-    /// those that encroach, are deleted first. `None` where coordinates cannot hold it: the place is owed; if that
+    /// those that encroach, are deleted first. `None` where coordinates cannot hold it: the place is unresolved; if that
     /// shows only half-way, the run is over.
     fn split_together(
         &mut self,
-        cuts: &[(PieceId, Vec<f64>)],
+        cuts: &[(SubcurveId, Vec<f64>)],
         free: Vec<VertexId>,
         why: &'static str,
-    ) -> Option<Vec<Vec<PieceId>>> {
+    ) -> Option<Vec<Vec<SubcurveId>>> {
         for (id, ts) in cuts {
-            let piece = *self.state.subcurves.get(*id);
-            if !self.has_room(&piece, ts) {
-                self.state.too_near.push(self.mesh.point(piece.ends[0]));
+            let subcurve = *self.state.subcurves.get(*id);
+            if !self.has_room(&subcurve, ts) {
+                self.state.too_near.push(self.mesh.point(subcurve.ends[0]));
                 return None;
             }
         }
         self.delete(free);
         for (id, _) in cuts {
-            let side = self.side_of(*id).expect("a piece is a side");
+            let side = self.side_of(*id).expect("a subcurve is a side");
             self.mesh.release(side);
         }
         let mut all = Vec::with_capacity(cuts.len());
         for (id, ts) in cuts {
-            let piece = *self.state.subcurves.get(*id);
+            let subcurve = *self.state.subcurves.get(*id);
             self.state.subcurves.retire(*id);
             let mut at = Vec::with_capacity(ts.len());
             for &t in ts {
-                at.push((t, self.insert_on(&piece, t, why)?));
+                at.push((t, self.insert_on(&subcurve, t, why)?));
             }
-            all.push(self.add_parts(&piece, &at));
+            all.push(self.add_parts(&subcurve, &at));
         }
         for &part in all.iter().flatten() {
             let [a, b] = self.state.subcurves.get(part).ends;
@@ -274,28 +274,28 @@ impl Gcdr<'_> {
                 self.stop_too_near(self.mesh.point(a));
                 return None;
             }
-            self.state.suspect(part);
+            self.state.enqueue(part);
         }
         self.settle(true);
         Some(all)
     }
 
-    /// The parts of a piece between vertices at ascending parameters.
-    fn add_parts(&mut self, piece: &Piece, at: &[(f64, VertexId)]) -> Vec<PieceId> {
-        let mut from = (piece.t[0], piece.ends[0]);
+    /// The parts of a subcurve between vertices at ascending parameters.
+    fn add_parts(&mut self, subcurve: &Subcurve, at: &[(f64, VertexId)]) -> Vec<SubcurveId> {
+        let mut from = (subcurve.t[0], subcurve.ends[0]);
         let mut add = |to: (f64, VertexId)| {
             let from = std::mem::replace(&mut from, to);
-            self.state.subcurves.add(piece.carrier, [from.0, to.0], [from.1, to.1], Standing::Ordinary)
+            self.state.subcurves.add(subcurve.carrier, [from.0, to.0], [from.1, to.1], Standing::Ordinary)
         };
-        at.iter().copied().chain([(piece.t[1], piece.ends[1])]).map(&mut add).collect()
+        at.iter().copied().chain([(subcurve.t[1], subcurve.ends[1])]).map(&mut add).collect()
     }
 
-    /// Whether points of a piece can part it: coordinates tell them from each other and from the ends, and they lie in
+    /// Whether points of a subcurve can part it: coordinates tell them from each other and from the ends, and they lie in
     /// the diametral circle.
-    fn has_room(&self, piece: &Piece, ts: &[f64]) -> bool {
-        let [x, y] = self.ends_of(piece);
-        let shape = shape_of(&self.state.domain, piece);
-        let mut last = (piece.t[0], x);
+    fn has_room(&self, subcurve: &Subcurve, ts: &[f64]) -> bool {
+        let [x, y] = self.ends_of(subcurve);
+        let shape = shape_of(&self.state.domain, subcurve);
+        let mut last = (subcurve.t[0], x);
         let mut follows = |t: f64, at: Point| {
             let before = std::mem::replace(&mut last, (t, at));
             before.0 < t && before.1.distance(at) >= self.state.resolution
@@ -303,13 +303,13 @@ impl Gcdr<'_> {
         ts.iter()
             .map(|&t| (t, shape.point(t)))
             .all(|(t, at)| follows(t, at) && insert::in_range(at) && in_diametral(x, y, at) == CircleSide::Inside)
-            && follows(piece.t[1], y)
+            && follows(subcurve.t[1], y)
     }
 
-    /// Inserts the point of a piece at a parameter; the piece lies on no side any more.
-    fn insert_on(&mut self, piece: &Piece, t: f64, why: &'static str) -> Option<VertexId> {
-        let at = shape_of(&self.state.domain, piece).point(t);
-        let near = self.mesh.topology().sides_from(piece.ends[1]).next().map_or(TriangleId(0), Side::triangle);
+    /// Inserts the point of a subcurve at a parameter; the subcurve lies on no side any more.
+    fn insert_on(&mut self, subcurve: &Subcurve, t: f64, why: &'static str) -> Option<VertexId> {
+        let at = shape_of(&self.state.domain, subcurve).point(t);
+        let near = self.mesh.topology().sides_from(subcurve.ends[1]).next().map_or(TriangleId(0), HalfEdge::triangle);
         let location = self.mesh.kernel().locate(at, near);
         if matches!(location, Location::Vertex(_)) {
             self.stop_too_near(at);
@@ -317,14 +317,14 @@ impl Gcdr<'_> {
         }
         self.mesh.cavity(at, location, &mut self.state.cavity);
         self.mesh.fill(at, &self.state.cavity);
-        Some(self.add_on(piece, why))
+        Some(self.add_on(subcurve, why))
     }
 
-    /// Counts a vertex on a piece, the next of all.
-    fn add_on(&mut self, piece: &Piece, why: &'static str) -> VertexId {
+    /// Counts a vertex on a subcurve, the next of all.
+    fn add_on(&mut self, subcurve: &Subcurve, why: &'static str) -> VertexId {
         self.alive += 1;
         self.state.counters.add(why, 1);
-        self.origins.push(Origin::OnCurve(curve_of(piece)))
+        self.origins.push(VertexSource::OnCurve(curve_of(subcurve)))
     }
 
     pub(super) fn stop_too_near(&mut self, at: Point) {

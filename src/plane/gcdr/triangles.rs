@@ -1,17 +1,17 @@
-//! Points of type A: which triangles miss a bound, whom a corner excuses, and what mends the others.
+//! Points of type A: which triangles miss a bound, whom a corner exempts, and what mends the others.
 
 use super::parameters::radius_edge_of;
 use super::steiner::{Disks, Order, Skinny};
-use super::{Gcdr, Origin, Suspect, suspects};
+use super::{Candidate, Gcdr, VertexSource, queue};
 use crate::geometry::triangle::{circumcircle, sin2_smallest};
 use crate::geometry::{Point, scaled};
-use crate::ids::{CurveId, PieceId, RegionId, TriangleId, VertexId};
+use crate::ids::{CurveId, RegionId, SubcurveId, TriangleId, VertexId};
 use crate::mesh::InsertionKind;
 use crate::plane::constrained::Look;
 use crate::plane::insert::{self, Location};
+use crate::plane::queue::DETAIL_RAD;
 use crate::plane::refinement::Flaw;
-use crate::plane::suspects::DETAIL_RAD;
-use crate::plane::triangulation::{GHOST, Side};
+use crate::plane::triangulation::{GHOST, HalfEdge};
 use crate::refine::{Patience, StopReason};
 
 /// Badness of an octave of length: 2^-40 is as short as it gets.
@@ -20,8 +20,8 @@ const OCTAVE: f64 = 1.0 / 40.0;
 /// How long angles may take to get larger with a strategy's order of triangles.
 pub(super) fn patience(order: Order, angle_min_rad: f64) -> Patience {
     match order {
-        Order::SmallestAngle => suspects::by_angle(1.0 - libm::sin(DETAIL_RAD) / libm::sin(angle_min_rad)),
-        Order::ShortestEdge | Order::SmallestCircle => suspects::by_length(OCTAVE),
+        Order::SmallestAngle => queue::by_angle(1.0 - libm::sin(DETAIL_RAD) / libm::sin(angle_min_rad)),
+        Order::ShortestEdge | Order::SmallestCircle => queue::by_length(OCTAVE),
     }
 }
 
@@ -30,96 +30,96 @@ impl Gcdr<'_> {
         self.mesh.topology().corners(t).map(|v| self.mesh.point(v))
     }
 
-    /// Judges the triangles made since the last time; where a piece has moved, they get their regions first.
-    pub(super) fn settle(&mut self, carve: bool) {
+    /// Judges the triangles made since the last time; where a subcurve has moved, they get their regions first.
+    pub(super) fn settle(&mut self, label: bool) {
         let mut touched = std::mem::take(&mut self.touched);
         self.mesh.take_touched(&mut touched);
-        if carve {
+        if label {
             let kernel = self.mesh.kernel_mut();
-            self.state.carver.carve(kernel, &self.state.subcurves, self.state.domain.curves(), &mut touched);
+            self.state.labeller.label(kernel, &self.state.subcurves, self.state.domain.curves(), &mut touched);
         } else {
             touched.sort_unstable();
             touched.dedup();
             touched.retain(|&t| self.mesh.topology().is_alive(t));
         }
-        touched.drain(..).for_each(|t| self.judge(t));
+        touched.drain(..).for_each(|t| self.assess(t));
         self.touched = touched;
     }
 
     /// Queues a kept triangle that misses a bound.
-    pub(super) fn judge(&mut self, t: TriangleId) {
+    pub(super) fn assess(&mut self, t: TriangleId) {
         let Some(region) = self.mesh.topology().region(t) else { return };
         let corners = self.corners(t);
-        let suspect = (t, self.mesh.topology().corners(t));
+        let candidate = (t, self.mesh.topology().corners(t));
         match self.state.flaw(region, corners) {
-            Some(Flaw::Skinny(sin2)) => self.push_skinny(suspect, corners, sin2),
-            Some(Flaw::Oversized(excess)) => self.state.bad.push_oversized(suspect, excess),
+            Some(Flaw::Skinny(sin2)) => self.push_skinny(candidate, corners, sin2),
+            Some(Flaw::Oversized(excess)) => self.state.bad.push_oversized(candidate, excess),
             None => {}
         }
     }
 
-    fn push_skinny(&mut self, suspect: Suspect, corners: [Point; 3], sin2: f64) {
+    fn push_skinny(&mut self, candidate: Candidate, corners: [Point; 3], sin2: f64) {
         // Lengths by octaves below the unit to which the domain is scaled.
         let octaves = |length: f64| -libm::log2(length) * OCTAVE;
         let badness = match self.strategy.order() {
-            _ if self.doomed(suspect.0).is_some() => 1.0,
+            _ if self.unavoidable_split(candidate.0).is_some() => 1.0,
             // By the sine: its square would crowd what is nearly good enough.
             Order::SmallestAngle => 1.0 - (sin2 / self.state.sin2_min).sqrt(),
             Order::ShortestEdge => octaves((0..3).map(|i| edge2(corners, i)).fold(f64::INFINITY, f64::min).sqrt()),
             Order::SmallestCircle => octaves(circumcircle(corners).1),
         };
-        self.state.bad.push_skinny(suspect, badness);
+        self.state.bad.push_skinny(candidate, badness);
     }
 
-    fn is_stale(&self, suspect: &Suspect) -> bool {
-        suspects::is_stale(self.mesh.topology(), suspect)
+    fn is_stale(&self, candidate: &Candidate) -> bool {
+        queue::is_stale(self.mesh.topology(), candidate)
     }
 
-    pub(super) fn split_triangle(&mut self, suspect: Suspect) {
-        if self.is_stale(&suspect) {
+    pub(super) fn split_triangle(&mut self, candidate: Candidate) {
+        if self.is_stale(&candidate) {
             return;
         }
-        let (t, vertices) = suspect;
+        let (t, vertices) = candidate;
         let Some(region) = self.mesh.topology().region(t) else { return };
         let corners = self.corners(t);
         let oversized = self.state.field.excess(region, corners) > 1.0;
         let skinny = sin2_smallest(corners) < self.state.sin2_min;
         let (center, radius) = circumcircle(corners);
         let too_small = self.state.field.sizing().min_edge.is_some_and(|h| radius < h);
-        if !oversized && (too_small || skinny && self.is_excused(vertices)) {
+        if !oversized && (too_small || skinny && self.is_exempt(vertices)) {
             return;
         }
         if self.is_spent() {
             self.state.reason = StopReason::VertexBudget;
-            return self.state.bad.push_skinny(suspect, 1.0);
+            return self.state.bad.push_skinny(candidate, 1.0);
         }
         if self.state.bad.is_stuck() {
             self.state.reason = StopReason::NoProgress;
-            return self.state.bad.push_skinny(suspect, 1.0);
+            return self.state.bad.push_skinny(candidate, 1.0);
         }
         let parent = skinny.then(|| self.latest_of_shortest(vertices));
-        if skinny && let Some(piece) = self.doomed(t) {
-            return self.encroach(suspect, piece, parent);
+        if skinny && let Some(subcurve) = self.unavoidable_split(t) {
+            return self.encroach(candidate, subcurve, parent);
         }
         let p = self.choose_in_disk(t, region, (center, radius), skinny);
-        self.kill(suspect, p, parent);
+        self.kill(candidate, p, parent);
     }
 
     /// The segment of a triangle that must be split whatever else is: a vertex that will stay sees it at an angle so
     /// wide that the triangle on it will be skinny as long as it stands. Split at once, it spares free vertices that
     /// would be deleted later. Its point is of type C, which needs no rejected point to be proven.
-    fn doomed(&self, t: TriangleId) -> Option<PieceId> {
+    fn unavoidable_split(&self, t: TriangleId) -> Option<SubcurveId> {
         let topology = self.mesh.topology();
         let widest = 1.0 - 2.0 * self.state.sin2_min;
-        let stays = |s: &Side| self.origins[topology.apex(*s)] != Origin::Free;
-        let is_wide = |s: &Side| {
+        let stays = |s: &HalfEdge| self.origins[topology.apex(*s)] != VertexSource::Free;
+        let is_wide = |s: &HalfEdge| {
             let [u, v] = [topology.origin(*s), topology.target(*s)]
                 .map(|end| self.mesh.point(end) - self.mesh.point(topology.apex(*s)));
             -u.dot(v) > widest * u.hypot() * v.hypot()
         };
         let sides = [0, 1, 2].map(|i| t.side_of(i)).into_iter();
-        let seen = sides.filter_map(|s| topology.piece(s).map(|piece| (s, piece)));
-        seen.filter(|(s, _)| stays(s) && is_wide(s)).map(|(_, piece)| piece).next()
+        let seen = sides.filter_map(|s| topology.subcurve(s).map(|subcurve| (s, subcurve)));
+        seen.filter(|(s, _)| stays(s) && is_wide(s)).map(|(_, subcurve)| subcurve).next()
     }
 
     /// The vertices of a triangle, the ends of its shortest edge first.
@@ -137,10 +137,10 @@ impl Gcdr<'_> {
 
     /// Whether the shortest edge of a triangle lies across a sharp corner, with its ends equally far from it: an angle
     /// that the input has.
-    fn is_excused(&self, vertices: [VertexId; 3]) -> bool {
+    fn is_exempt(&self, vertices: [VertexId; 3]) -> bool {
         let shortest = self.shortest_edge_first(vertices);
         let [u, v] = [shortest[0], shortest[1]].map(|v| self.origins[v]);
-        if u == v || [u, v].contains(&Origin::Free) {
+        if u == v || [u, v].contains(&VertexSource::Free) {
             return false;
         }
         let [a, b, c] = shortest.map(|v| self.curves_at(v));
@@ -149,9 +149,9 @@ impl Gcdr<'_> {
 
     fn curves_at(&self, v: VertexId) -> Vec<CurveId> {
         match self.origins[v] {
-            Origin::Input(p) => self.state.domain.star(p).iter().map(|i| i.curve).collect(),
-            Origin::OnCurve(curve) => vec![curve],
-            Origin::Free => Vec::new(),
+            VertexSource::Input(p) => self.state.domain.star(p).iter().map(|i| i.curve).collect(),
+            VertexSource::OnCurve(curve) => vec![curve],
+            VertexSource::Free => Vec::new(),
         }
     }
 
@@ -170,7 +170,7 @@ impl Gcdr<'_> {
         let sides = [0, 1, 2].map(|i| t.side_of((first + i) % 3));
         let across = sides.map(|s| {
             let apex = topology.apex(topology.twin(s));
-            (topology.piece(s).is_none() && apex != GHOST).then(|| down(self.mesh.point(apex)))
+            (topology.subcurve(s).is_none() && apex != GHOST).then(|| down(self.mesh.point(apex)))
         });
         let skinny = Skinny {
             corners: sides.map(|s| down(self.mesh.point(topology.origin(s)))),
@@ -206,16 +206,16 @@ impl Gcdr<'_> {
     }
 
     /// Inserts a point that removes a triangle, or splits the nearest segment that hides it from there.
-    fn kill(&mut self, suspect: Suspect, p: Point, parent: Option<VertexId>) {
-        let (t, vertices) = suspect;
+    fn kill(&mut self, candidate: Candidate, p: Point, parent: Option<VertexId>) {
+        let (t, vertices) = candidate;
         let place = self.mesh.point(vertices[0]);
         if !insert::in_range(p) {
             return self.state.too_near.push(place);
         }
         let location = match self.mesh.look_from(t, p) {
-            Some(Look::Blocked(side)) => return self.reject(suspect, side, parent),
-            Some(Look::Seen(Location::Side(side))) if self.mesh.topology().piece(side).is_some() => {
-                return self.reject(suspect, side, parent);
+            Some(Look::Blocked(side)) => return self.reject(candidate, side, parent),
+            Some(Look::Seen(Location::HalfEdge(side))) if self.mesh.topology().subcurve(side).is_some() => {
+                return self.reject(candidate, side, parent);
             }
             Some(Look::Seen(location)) => location,
             None => return self.state.too_near.push(place),
@@ -226,7 +226,7 @@ impl Gcdr<'_> {
             return self.state.too_near.push(place);
         }
         let v = self.mesh.fill(p, &self.state.cavity);
-        self.origins.push(Origin::Free);
+        self.origins.push(VertexSource::Free);
         self.alive += 1;
         self.free += 1;
         self.state.counters.add("vertices_free", 1);
@@ -237,16 +237,16 @@ impl Gcdr<'_> {
     }
 
     /// The chosen point is rejected: Definition 2.1.
-    fn reject(&mut self, suspect: Suspect, side: Side, parent: Option<VertexId>) {
-        let Some(piece) = self.mesh.topology().piece(side) else { return };
+    fn reject(&mut self, candidate: Candidate, side: HalfEdge, parent: Option<VertexId>) {
+        let Some(subcurve) = self.mesh.topology().subcurve(side) else { return };
         self.state.counters.add("rejected", 1);
-        self.encroach(suspect, piece, parent);
+        self.encroach(candidate, subcurve, parent);
     }
 
     /// Splits a segment that a triangle encroaches, and comes back to the triangle if it still stands.
-    fn encroach(&mut self, suspect: Suspect, piece: PieceId, parent: Option<VertexId>) {
-        if self.split_segment(piece, parent, "vertices_segment") && !self.is_stale(&suspect) {
-            self.judge(suspect.0);
+    fn encroach(&mut self, candidate: Candidate, subcurve: SubcurveId, parent: Option<VertexId>) {
+        if self.split_segment(subcurve, parent, "vertices_segment") && !self.is_stale(&candidate) {
+            self.assess(candidate.0);
         }
     }
 }

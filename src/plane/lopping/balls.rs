@@ -6,7 +6,7 @@
 use crate::curve::Curve;
 use crate::domain::Domain;
 use crate::geometry::{Point, Rect, boxes::BoxHierarchy};
-use crate::ids::{BallId, IdVec, PieceId, PointId, TriangleId, VertexId};
+use crate::ids::{BallId, IdVec, PointId, SubcurveId, TriangleId, VertexId};
 use crate::mesh::BallReason;
 use crate::size::SizeField;
 
@@ -18,15 +18,15 @@ pub struct Ball {
     pub radius: f64,
     pub why: BallReason,
     /// The spoke of each incident curve, counter-clockwise as in the domain's star.
-    pub spokes: Vec<PieceId>,
+    pub spokes: Vec<SubcurveId>,
     /// Distance of the nearest vertex that came in since the last shrinking.
     pub intruder: f64,
     /// Corner arcs as placed; empty while they wait to be placed.
     pub arcs: Vec<Curve>,
     /// Live pieces of those arcs.
-    pub arc_pieces: Vec<PieceId>,
-    /// Triangles that this ball excused when they were last looked at (their circumcenters lay in it).
-    pub excused: Vec<(TriangleId, [VertexId; 3])>,
+    pub arc_pieces: Vec<SubcurveId>,
+    /// Triangles that this ball exempt when they were last looked at (their circumcenters lay in it).
+    pub exempt: Vec<(TriangleId, [VertexId; 3])>,
 }
 
 /// All balls, and who has one.
@@ -58,7 +58,7 @@ impl Balls {
                     intruder: f64::INFINITY,
                     arcs: Vec::new(),
                     arc_pieces: Vec::new(),
-                    excused: Vec::new(),
+                    exempt: Vec::new(),
                 })
             });
             of_point.push(ball);

@@ -1,11 +1,11 @@
 //! The beginning: P, the points where curves leave the balls of their ends (splitball(p, 1)), and D of both.
 
 use super::balls::Balls;
-use super::{Origin, RefineError};
+use super::{RefineError, VertexOrigin};
 use crate::curve::End;
 use crate::domain::Domain;
 use crate::geometry::Point;
-use crate::ids::{CurveId, Id, IdVec, PieceId, VertexId};
+use crate::ids::{CurveId, Id, IdVec, SubcurveId, VertexId};
 use crate::plane::insert::{Degenerate, Kernel};
 use crate::plane::subcurves::{Carrier, Midpoint, Standing, Subcurves, split_parameter};
 
@@ -14,7 +14,7 @@ pub(super) struct Beginning<'a> {
     pub(super) domain: &'a Domain,
     pub(super) balls: Balls,
     points: Vec<Point>,
-    pub(super) origins: IdVec<VertexId, Origin>,
+    pub(super) origins: IdVec<VertexId, VertexOrigin>,
     pub(super) subcurves: Subcurves,
 }
 
@@ -24,12 +24,12 @@ impl<'a> Beginning<'a> {
             domain,
             balls,
             points: domain.points().iter().copied().collect(),
-            origins: domain.points().ids().map(Origin::Input).collect(),
+            origins: domain.points().ids().map(VertexOrigin::Input).collect(),
             subcurves: Subcurves::default(),
         }
     }
 
-    fn add(&mut self, at: Point, origin: Origin) -> VertexId {
+    fn add(&mut self, at: Point, origin: VertexOrigin) -> VertexId {
         self.points.push(at);
         self.origins.push(origin)
     }
@@ -45,7 +45,7 @@ impl<'a> Beginning<'a> {
                 let radius = self.balls.get(ball).radius;
                 // d(p) < lfs₀(p)/2 and the far end is farther than lfs₀(p): every curve at p leaves the ball.
                 let Some(leave) = curve.curve.leaves_ball(end, radius, 0.0, 1.0) else { continue };
-                let x = self.add(curve.curve.point(leave), Origin::OnCurve(id));
+                let x = self.add(curve.curve.point(leave), VertexOrigin::OnCurve(id));
                 let (spoke_t, spoke_ends) = match end {
                     End::Start => ([0.0, leave], [ends[0], x]),
                     End::Finish => ([leave, 1.0], [x, ends[1]]),
@@ -65,7 +65,7 @@ impl<'a> Beginning<'a> {
             let ball = self.balls.get(id);
             let star = self.domain.star(ball.corner);
             // Spokes come in ascending order of their curves, of which none ends twice at one point.
-            let curve_of = |&s: &PieceId| match self.subcurves.get(s).carrier {
+            let curve_of = |&s: &SubcurveId| match self.subcurves.get(s).carrier {
                 Carrier::Curve(curve) => curve,
                 Carrier::Arc(..) => unreachable!("no arc is a spoke"),
             };
@@ -93,28 +93,28 @@ impl<'a> Beginning<'a> {
     }
 
     fn split_bent(&mut self, midpoint: Midpoint) {
-        let pieces: Vec<PieceId> = self.subcurves.ids().collect();
+        let pieces: Vec<SubcurveId> = self.subcurves.ids().collect();
         for id in pieces {
-            let piece = *self.subcurves.get(id);
-            let Carrier::Curve(curve) = piece.carrier else { continue };
+            let subcurve = *self.subcurves.get(id);
+            let Carrier::Curve(curve) = subcurve.carrier else { continue };
             let shape = &self.domain.curves()[curve].curve;
-            if shape.is_straight() || piece.is_spoke() {
+            if shape.is_straight() || subcurve.is_spoke() {
                 continue;
             }
-            let m = split_parameter(shape, piece.t, None, midpoint);
-            let v = self.add(shape.point(m), Origin::OnCurve(curve));
+            let m = split_parameter(shape, subcurve.t, None, midpoint);
+            let v = self.add(shape.point(m), VertexOrigin::OnCurve(curve));
             self.subcurves.retire(id);
-            self.subcurves.add(piece.carrier, [piece.t[0], m], [piece.ends[0], v], Standing::Ordinary);
-            self.subcurves.add(piece.carrier, [m, piece.t[1]], [v, piece.ends[1]], Standing::Ordinary);
+            self.subcurves.add(subcurve.carrier, [subcurve.t[0], m], [subcurve.ends[0], v], Standing::Ordinary);
+            self.subcurves.add(subcurve.carrier, [m, subcurve.t[1]], [v, subcurve.ends[1]], Standing::Ordinary);
         }
     }
 
     fn coincident(&self, first: usize, second: usize) -> RefineError {
         let at = self.points[first];
         let describe = |i: usize| match self.origins[VertexId::from_index(i)] {
-            Origin::Input(p) => format!("input point {}", p.0),
-            Origin::OnCurve(c) => format!("a point of curve {} on the border of its corner's ball", c.0),
-            Origin::OnArc(_) | Origin::Free => format!("vertex {i}"),
+            VertexOrigin::Input(p) => format!("input point {}", p.0),
+            VertexOrigin::OnCurve(c) => format!("a point of curve {} on the border of its corner's ball", c.0),
+            VertexOrigin::OnArc(_) | VertexOrigin::Free => format!("vertex {i}"),
         };
         RefineError {
             what: format!("{} and {} coincide", describe(first), describe(second)),

@@ -1,9 +1,9 @@
 //! Rule 3, corner arcs (section 6): pseudo-input on the border of a ball, placed once there is room.
 
-use super::{Lopping, Origin};
+use super::{Lopping, VertexOrigin};
 use crate::curve::{Curve, End};
 use crate::geometry::{self, Point, Vec2};
-use crate::ids::{BallId, PieceId, VertexId};
+use crate::ids::{BallId, SubcurveId, VertexId};
 use crate::plane::insert::{self, Location};
 use crate::plane::subcurves::{Carrier, Standing};
 use crate::plane::triangulation::GHOST;
@@ -14,8 +14,8 @@ enum Room {
     Clear,
     /// The ball must shrink.
     Tight,
-    /// This piece must be split first.
-    Blocked(PieceId),
+    /// This subcurve must be split first.
+    Blocked(SubcurveId),
 }
 
 impl Lopping {
@@ -34,9 +34,9 @@ impl Lopping {
                     let at = self.balls.get(id).center;
                     return self.stop_too_near(at);
                 }
-                Room::Blocked(piece) => {
+                Room::Blocked(subcurve) => {
                     self.arcs_due.push_back(id);
-                    return self.split_piece(piece, None, "vertices_encroached");
+                    return self.split_piece(subcurve, None, "vertices_encroached");
                 }
                 Room::Clear if radius < born => return self.cut_ball(id, radius),
                 Room::Clear => return self.insert_arcs(id, arcs),
@@ -50,14 +50,14 @@ impl Lopping {
         let ball = self.balls.get(id);
         let star = self.state.domain.star(ball.corner);
         let leaving = |i: usize| -> (VertexId, Vec2) {
-            let piece = self.state.subcurves.get(ball.spokes[i]);
-            let (end, rim) = if piece.ends[0].0 == ball.corner.0 {
-                (End::Start, piece.ends[1])
+            let subcurve = self.state.subcurves.get(ball.spokes[i]);
+            let (end, rim) = if subcurve.ends[0].0 == ball.corner.0 {
+                (End::Start, subcurve.ends[1])
             } else {
-                (End::Finish, piece.ends[0])
+                (End::Finish, subcurve.ends[0])
             };
-            let shape = self.shape(piece.carrier);
-            let [t0, t1] = piece.t;
+            let shape = self.shape(subcurve.carrier);
+            let [t0, t1] = subcurve.t;
             let at = match shape.leaves_ball(end, radius, t0, t1) {
                 Some(t) if radius < ball.radius => shape.point(t),
                 _ => self.delaunay.point(rim),
@@ -99,8 +99,8 @@ impl Lopping {
             if self.is_crowded(id, radius, at) {
                 return Room::Tight;
             }
-            for (_, piece) in self.cavity_pieces() {
-                match self.room_beside(id, radius, at, piece) {
+            for (_, subcurve) in self.cavity_pieces() {
+                match self.room_beside(id, radius, at, subcurve) {
                     Room::Clear => {}
                     room => return room,
                 }
@@ -120,24 +120,24 @@ impl Lopping {
         let mut neighbours =
             self.state.cavity.triangles.iter().flat_map(|&t| topology.corners(t)).filter(|&v| v != GHOST);
         neighbours.any(|v| {
-            let apart = matches!(self.origins[v], Origin::OnArc(other) if other != id);
+            let apart = matches!(self.origins[v], VertexOrigin::OnArc(other) if other != id);
             !apart && self.delaunay.point(v).distance(at) < nearest
         })
     }
 
-    /// Whether a pseudo midpoint leaves a piece alone.
-    fn room_beside(&self, id: BallId, radius: f64, at: Point, piece: PieceId) -> Room {
-        let entry = self.state.subcurves.get(piece);
-        if entry.standing == Standing::Spoke(id) || !self.encroaches(at, piece) {
+    /// Whether a pseudo midpoint leaves a subcurve alone.
+    fn room_beside(&self, id: BallId, radius: f64, at: Point, subcurve: SubcurveId) -> Room {
+        let entry = self.state.subcurves.get(subcurve);
+        if entry.standing == Standing::Spoke(id) || !self.encroaches(at, subcurve) {
             return Room::Clear;
         }
-        // The curve strays up to half its chord times tan(λ/2) from it: with that, lfs(p) ≤ 1.5·d(p) of a piece that is
+        // The curve strays up to half its chord times tan(λ/2) from it: with that, lfs(p) ≤ 1.5·d(p) of a subcurve that is
         // short.
         let [x, y] = entry.ends.map(|v| self.delaunay.point(v));
         let lens = self.shape(entry.carrier).lens_angle(entry.t[0], entry.t[1]);
         let reach = x.distance(y) * (1.0 + libm::tan(0.5 * lens));
         let short = reach < radius && matches!(entry.carrier, Carrier::Curve(_));
-        if entry.is_spoke() || short { Room::Tight } else { Room::Blocked(piece) }
+        if entry.is_spoke() || short { Room::Tight } else { Room::Blocked(subcurve) }
     }
 
     fn insert_arcs(&mut self, id: BallId, sectors: Vec<Sector>) {
@@ -154,7 +154,7 @@ impl Lopping {
                         return;
                     }
                     self.disturb(at, None);
-                    self.act(at, Origin::OnArc(id), "vertices_arc")
+                    self.act(at, VertexOrigin::OnArc(id), "vertices_arc")
                 };
                 let ends = [from, to].map(|v| self.delaunay.point(v));
                 let start = sector.start + sector.sweep * i as f64 / f64::from(sector.count);
@@ -164,9 +164,9 @@ impl Lopping {
                 let ball = self.balls.get_mut(id);
                 let carrier = Carrier::Arc(id, ball.arcs.len() as u32);
                 ball.arcs.push(arc);
-                let piece = self.state.subcurves.add(carrier, [0.0, 1.0], [from, to], Standing::Ordinary);
-                self.balls.get_mut(id).arc_pieces.push(piece);
-                self.state.suspect(piece);
+                let subcurve = self.state.subcurves.add(carrier, [0.0, 1.0], [from, to], Standing::Ordinary);
+                self.balls.get_mut(id).arc_pieces.push(subcurve);
+                self.state.enqueue(subcurve);
                 from = to;
             }
         }

@@ -6,19 +6,19 @@
 //!
 //! 1. *splitball*: a vertex lies in the ball B(p) of an acute corner: d(p) shrinks by β, and each curve at p is cut
 //!    where it leaves the ball.
-//! 2. *splitcurve*: a vertex lies in the open diametral circle of a piece's chord, or the piece is larger than asked.
-//! 3. *corner arcs*: a ball whose arcs are due gets them, once they would neither crowd a vertex nor encroach a piece.
+//! 2. *splitcurve*: a vertex lies in the open diametral circle of a subcurve's chord, or the subcurve is larger than asked.
+//! 3. *corner arcs*: a ball whose arcs are due gets them, once they would neither crowd a vertex nor encroach a subcurve.
 //! 4. *splittri*: a triangle has an angle below κ, or is larger than asked: its circumcenter goes in, unless it
-//!    encroaches a piece, which is split instead.
+//!    encroaches a subcurve, which is split instead.
 //!
 //! Where this differs from the printed algorithm, and why:
 //!
 //! - *Order.* Section 6 looks for room for the arcs whenever a ball is cut; here the cut is made first, rules 1 and 2
-//!   run until neither applies, and only then are the arcs looked at. Every piece is an edge at that moment, so what an
+//!   run until neither applies, and only then are the arcs looked at. Every subcurve is an edge at that moment, so what an
 //!   arc's vertex would encroach is read off its cavity. The conditions are those of the corrected section 6: a pseudo
-//!   midpoint with a vertex nearer than d/2, or that encroaches a piece shorter than d, shrinks the ball; a longer
-//!   piece is split.
-//! - *Neighbouring arcs.* A vertex on the arc of another ball does not crowd a pseudo midpoint, and an arc piece that
+//!   midpoint with a vertex nearer than d/2, or that encroaches a subcurve shorter than d, shrinks the ball; a longer
+//!   subcurve is split.
+//! - *Neighbouring arcs.* A vertex on the arc of another ball does not crowd a pseudo midpoint, and an arc subcurve that
 //!   it encroaches is split, however short. Were they to shrink the ball, lfs(p) ≤ C₀·d(p) would fail: with |pq| =
 //!   lfs₀(p) and both balls at birth, the two arcs come within (√2−1)·d(p) < d(p)/2 of each other. Nothing is lost:
 //!   d(p) + d(q) ≤ 2(√2−1)|pq| keeps them at least (3−2√2)·|pq| apart at all times, and arc pieces shorter than twice
@@ -28,10 +28,10 @@
 //! - *Incident vertices.* Ball points are rounded. Lemma 3 says that only vertices of curves that do not end at p come
 //!   into B(p); so only those are looked for.
 //! - *Rounded circumcenters.* Each decision (ball, encroachment, cavity) is made on the rounded point. A circumcenter
-//!   outside its own cavity would not remove its triangle: it is not inserted, and the triangle is owed.
+//!   outside its own cavity would not remove its triangle: it is not inserted, and the triangle is unresolved.
 //!
 //! Termination is Corollary 3's for κ below [`guaranteed_angle`](crate::promise::guaranteed_angle); beyond it the
-//! vertex budget ends what does not end by itself. The result says which it was. A piece that coordinates cannot split
+//! vertex budget ends what does not end by itself. The result says which it was. A subcurve that coordinates cannot split
 //! any more ends the run with its place.
 
 mod balls;
@@ -41,15 +41,15 @@ mod splitball;
 mod splitcurve;
 pub(super) mod splittri;
 
-use super::harvest::Harvest;
+use super::extraction::Extraction;
 use super::insert::Kernel;
+use super::queue::{self, Candidate, DETAIL_RAD};
 pub use super::refined::{RefineError, Refined};
 use super::refinement::Refinement;
 use super::subcurves::Midpoint;
-use super::suspects::{self, DETAIL_RAD, Suspect};
 use crate::domain::Domain;
 use crate::geometry::Point;
-use crate::ids::{BallId, CurveId, IdVec, PieceId, PointId, TriangleId, VertexId};
+use crate::ids::{BallId, CurveId, IdVec, PointId, SubcurveId, TriangleId, VertexId};
 use crate::mesh::{Ball, Mesh};
 use crate::options::OutOfBounds;
 use crate::promise::{EnginePromise, LoppingPromise, Promise};
@@ -163,7 +163,7 @@ pub fn refine(domain: &Domain, options: &Options, until: Until, watch: &mut Watc
 
 /// Where a vertex came from.
 #[derive(Clone, Copy, PartialEq, Debug)]
-enum Origin {
+enum VertexOrigin {
     Input(PointId),
     OnCurve(CurveId),
     /// On a corner arc of a ball, now or once.
@@ -176,7 +176,7 @@ pub struct Lopping {
     state: Refinement,
     options: Options,
     delaunay: Kernel,
-    origins: IdVec<VertexId, Origin>,
+    origins: IdVec<VertexId, VertexOrigin>,
     balls: Balls,
     /// Balls that a vertex came into.
     intruded: VecDeque<BallId>,
@@ -184,16 +184,16 @@ pub struct Lopping {
     arcs_due: VecDeque<BallId>,
     /// Triangles made since regions were last given.
     fresh: Vec<TriangleId>,
-    carved: bool,
+    labelled: bool,
 }
 
 /// What a step works on; the first that applies.
 enum Rule {
     ShrinkBall(BallId),
-    Look(PieceId),
+    Look(SubcurveId),
     Carve,
     PlaceArcs(BallId),
-    Split(Suspect),
+    Split(Candidate),
     Rest,
 }
 
@@ -205,14 +205,14 @@ impl Lopping {
     /// range of exact signs.
     pub fn start(domain: &Domain, options: &Options) -> Result<Self, RefineError> {
         let [sin_min, sin_detail] = [options.angle_min_rad, DETAIL_RAD].map(libm::sin);
-        let patience = suspects::by_angle(1.0 - sin_detail * sin_detail / (sin_min * sin_min));
+        let patience = queue::by_angle(1.0 - sin_detail * sin_detail / (sin_min * sin_min));
         let mut state = Refinement::new(domain, &options.sizing, options.angle_min_rad, patience);
         let mut beginning = Beginning::new(&state.domain, Balls::at_birth(&state.domain, &state.field));
         beginning.cut_curves();
         let delaunay = beginning.triangulate(options.rules.midpoint).map_err(|e| e.scaled(1.0 / state.scale))?;
         let Beginning { origins, subcurves, balls, .. } = beginning;
         state.subcurves = subcurves;
-        state.subcurves.ids().collect::<Vec<_>>().into_iter().for_each(|piece| state.suspect(piece));
+        state.subcurves.ids().collect::<Vec<_>>().into_iter().for_each(|subcurve| state.enqueue(subcurve));
         let input = state.domain.points().len();
         state.counters.add("vertices_input", input as u64);
         state.counters.add("vertices_ball", (origins.len() - input) as u64);
@@ -221,7 +221,7 @@ impl Lopping {
             intruded: VecDeque::new(),
             arcs_due: if options.corner_arcs.is_some() { balls.ids().collect() } else { VecDeque::new() },
             fresh: Vec::new(),
-            carved: false,
+            labelled: false,
             options: options.clone(),
             delaunay,
             origins,
@@ -232,17 +232,17 @@ impl Lopping {
     fn first_rule(&mut self) -> Rule {
         // A run that is stopped before there was a valid mesh has nothing to make valid again.
         let hopeless =
-            self.state.reason == StopReason::Arithmetic || self.state.reason == StopReason::Cancelled && !self.carved;
+            self.state.reason == StopReason::Arithmetic || self.state.reason == StopReason::Cancelled && !self.labelled;
         if hopeless || self.origins.len() > self.most_vertices() {
             return Rule::Rest;
         }
         if let Some(ball) = self.intruded.pop_front() {
             return Rule::ShrinkBall(ball);
         }
-        if let Some(piece) = self.state.suspects.pop() {
-            return Rule::Look(piece);
+        if let Some(subcurve) = self.state.queue.pop() {
+            return Rule::Look(subcurve);
         }
-        if !self.carved || !self.fresh.is_empty() {
+        if !self.labelled || !self.fresh.is_empty() {
             return Rule::Carve;
         }
         if self.state.reason != StopReason::Done {
@@ -252,43 +252,43 @@ impl Lopping {
             return Rule::PlaceArcs(ball);
         }
         match self.state.bad.next(self.origins.len()) {
-            Some(suspect) => Rule::Split(suspect),
+            Some(candidate) => Rule::Split(candidate),
             None => Rule::Rest,
         }
     }
 
     /// The budget; once there was a valid mesh, twice as much, so that what is begun can be made valid again.
     fn most_vertices(&self) -> usize {
-        self.options.max_vertices.saturating_mul(if self.carved { 2 } else { 1 })
+        self.options.max_vertices.saturating_mul(if self.labelled { 2 } else { 1 })
     }
 
-    /// Whether every piece is an edge that nothing encroaches, and every triangle has its region.
+    /// Whether every subcurve is an edge that nothing encroaches, and every triangle has its region.
     fn is_conforming(&self) -> bool {
-        self.carved && self.intruded.is_empty() && self.state.suspects.is_empty() && self.fresh.is_empty()
+        self.labelled && self.intruded.is_empty() && self.state.queue.is_empty() && self.fresh.is_empty()
     }
 
     fn mesh(&self) -> Mesh {
-        let harvest =
-            Harvest { domain: &self.state.domain, delaunay: &self.delaunay, subcurves: &self.state.subcurves };
+        let extraction =
+            Extraction { domain: &self.state.domain, delaunay: &self.delaunay, subcurves: &self.state.subcurves };
         let balls = self.balls.ids().map(|id| self.balls.get(id));
         let balls = balls.map(|b| Ball { corner: b.corner, radius: b.radius, why: b.why }).collect();
-        Mesh { balls, ..harvest.mesh() }
+        Mesh { balls, ..extraction.mesh() }
     }
 
     /// Pieces and triangles that still miss a bound, and some of their places, the most crowded pieces first.
-    fn owed(&mut self) -> (usize, Vec<Point>) {
+    fn unresolved(&mut self) -> (usize, Vec<Point>) {
         const PLACES: usize = 16;
-        let mut pieces: Vec<(f64, Point)> = self.state.suspects.iter().map(|&id| self.length_and_place(id)).collect();
+        let mut pieces: Vec<(f64, Point)> = self.state.queue.iter().map(|&id| self.length_and_place(id)).collect();
         pieces.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
-        let mut owed = pieces.len();
+        let mut unresolved = pieces.len();
         let mut places: Vec<Point> = pieces.into_iter().map(|(_, at)| at).take(PLACES).collect();
-        let (triangles, more) = self.state.bad.owed(&self.delaunay, PLACES - places.len());
-        owed += triangles;
+        let (triangles, more) = self.state.bad.unresolved(&self.delaunay, PLACES - places.len());
+        unresolved += triangles;
         places.extend(more);
-        (owed, places)
+        (unresolved, places)
     }
 
-    fn length_and_place(&self, id: PieceId) -> (f64, Point) {
+    fn length_and_place(&self, id: SubcurveId) -> (f64, Point) {
         let [x, y] = self.state.subcurves.get(id).ends.map(|v| self.delaunay.point(v));
         (x.distance(y), x.midpoint(y))
     }
@@ -301,10 +301,10 @@ impl Engine for Lopping {
     fn step(&mut self) -> bool {
         match self.first_rule() {
             Rule::ShrinkBall(ball) => self.shrink_ball(ball),
-            Rule::Look(piece) => self.look_at_piece(piece),
-            Rule::Carve => self.carve(),
+            Rule::Look(subcurve) => self.look_at_piece(subcurve),
+            Rule::Carve => self.label(),
             Rule::PlaceArcs(ball) => self.place_arcs(ball),
-            Rule::Split(suspect) => self.split_triangle(suspect),
+            Rule::Split(candidate) => self.split_triangle(candidate),
             Rule::Rest => return false,
         }
         true
@@ -316,8 +316,8 @@ impl Engine for Lopping {
     }
 
     fn progress(&self) -> Progress {
-        let phase = if self.carved { "refining" } else { CONFORMING };
-        let queued = self.state.suspects.len() + self.state.bad.len();
+        let phase = if self.labelled { "refining" } else { CONFORMING };
+        let queued = self.state.queue.len() + self.state.bad.len();
         Progress { phase, vertices: self.origins.len(), queued }
     }
 
@@ -326,7 +326,7 @@ impl Engine for Lopping {
         if self.state.reason == StopReason::Arithmetic && !self.is_conforming() {
             return Err(self.state.too_near_error());
         }
-        let (owed, places) = self.owed();
+        let (unresolved, places) = self.unresolved();
         let reason = match self.state.reason {
             StopReason::Done if !self.is_conforming() => StopReason::VertexBudget,
             reason => reason,
@@ -335,7 +335,7 @@ impl Engine for Lopping {
         let kernel = self.delaunay.counters();
         self.state.counters.add("walk_steps", kernel.walk_steps);
         self.state.count_kernel(kernel);
-        let stop = self.state.stop(reason, owed, places);
+        let stop = self.state.stop(reason, unresolved, places);
         let vertices = self.origins.len();
         Ok(Refined { mesh, vertices, stop, counters: self.state.counters, insertions: Vec::new() })
     }

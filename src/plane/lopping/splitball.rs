@@ -2,7 +2,7 @@
 
 use super::{Lopping, Shrinking};
 use crate::curve::End;
-use crate::ids::{BallId, PieceId, VertexId};
+use crate::ids::{BallId, SubcurveId, VertexId};
 use crate::mesh::BallReason;
 use crate::plane::subcurves::Standing;
 
@@ -33,7 +33,7 @@ impl Lopping {
         let mut shorter = Vec::with_capacity(spokes.len());
         for spoke in spokes {
             match self.cut_spoke(id, spoke, radius) {
-                Some(piece) => shorter.push(piece),
+                Some(subcurve) => shorter.push(subcurve),
                 None => return,
             }
         }
@@ -41,9 +41,9 @@ impl Lopping {
         ball.spokes = shorter;
         ball.radius = radius;
         ball.why = BallReason::Encroached;
-        let excused = std::mem::take(&mut ball.excused);
-        for suspect in excused {
-            self.state.bad.push_skinny(suspect, 1.0);
+        let exempt = std::mem::take(&mut ball.exempt);
+        for candidate in exempt {
+            self.state.bad.push_skinny(candidate, 1.0);
         }
         if self.options.corner_arcs.is_some() {
             self.arcs_due.push_back(id);
@@ -51,12 +51,12 @@ impl Lopping {
     }
 
     /// Cuts a spoke at a smaller radius; the shorter spoke.
-    fn cut_spoke(&mut self, ball: BallId, spoke: PieceId, radius: f64) -> Option<PieceId> {
-        let piece = *self.state.subcurves.get(spoke);
+    fn cut_spoke(&mut self, ball: BallId, spoke: SubcurveId, radius: f64) -> Option<SubcurveId> {
+        let subcurve = *self.state.subcurves.get(spoke);
         let corner = VertexId(self.balls.get(ball).corner.0);
-        let end = if piece.ends[0] == corner { End::Start } else { End::Finish };
-        let shape = self.shape(piece.carrier);
-        let x = shape.leaves_ball(end, radius, piece.t[0], piece.t[1]).unwrap_or(f64::NAN);
+        let end = if subcurve.ends[0] == corner { End::Start } else { End::Finish };
+        let shape = self.shape(subcurve.carrier);
+        let x = shape.leaves_ball(end, radius, subcurve.t[0], subcurve.t[1]).unwrap_or(f64::NAN);
         let [head, tail] = self.split_piece_at(spoke, x, "vertices_ball")?;
         let inner = if end == End::Start { head } else { tail };
         self.state.subcurves.get_mut(inner).standing = Standing::Spoke(ball);
@@ -66,15 +66,15 @@ impl Lopping {
     /// Arcs are taken out of C′; their vertices stay.
     fn withdraw_arcs(&mut self, id: BallId) {
         self.balls.get_mut(id).arcs.clear();
-        for piece in std::mem::take(&mut self.balls.get_mut(id).arc_pieces) {
-            let Some(side) = self.side_of(piece) else {
-                self.state.subcurves.retire(piece);
+        for subcurve in std::mem::take(&mut self.balls.get_mut(id).arc_pieces) {
+            let Some(side) = self.side_of(subcurve) else {
+                self.state.subcurves.retire(subcurve);
                 continue;
             };
-            if self.delaunay.topology().piece(side) == Some(piece) {
+            if self.delaunay.topology().subcurve(side) == Some(subcurve) {
                 self.delaunay.topology_mut().set_piece(side, None);
             }
-            self.state.subcurves.retire(piece);
+            self.state.subcurves.retire(subcurve);
         }
     }
 }

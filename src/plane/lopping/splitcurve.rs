@@ -1,13 +1,13 @@
-//! Rule 2, splitcurve: who encroaches a piece, and where it is split.
+//! Rule 2, splitcurve: who encroaches a subcurve, and where it is split.
 
-use super::{Lopping, Origin};
+use super::{Lopping, VertexOrigin};
 use crate::curve::Curve;
 use crate::geometry::Point;
 use crate::geometry::exact::{CircleSide, Orientation, in_circle, in_diametral, orient};
-use crate::ids::{PieceId, TriangleId, VertexId};
+use crate::ids::{SubcurveId, TriangleId, VertexId};
 use crate::plane::insert::{self, Location};
 use crate::plane::subcurves::{Carrier, Standing, split_parameter};
-use crate::plane::triangulation::{GHOST, Side};
+use crate::plane::triangulation::{GHOST, HalfEdge};
 use crate::refine::StopReason;
 
 impl Lopping {
@@ -18,21 +18,21 @@ impl Lopping {
         }
     }
 
-    pub(super) fn side_of(&self, piece: PieceId) -> Option<Side> {
+    pub(super) fn side_of(&self, subcurve: SubcurveId) -> Option<HalfEdge> {
         // The rim of a spoke has a handful of neighbours, its corner as many as there are curves.
-        let piece = self.state.subcurves.get(piece);
-        let [x, y] = piece.ends;
-        if piece.is_spoke() && matches!(self.origins[x], Origin::Input(_)) {
+        let subcurve = self.state.subcurves.get(subcurve);
+        let [x, y] = subcurve.ends;
+        if subcurve.is_spoke() && matches!(self.origins[x], VertexOrigin::Input(_)) {
             return self.delaunay.topology().side_between(y, x).map(|s| self.delaunay.topology().twin(s));
         }
         self.delaunay.topology().side_between(x, y)
     }
 
-    /// Marks a piece as the edge that it is, or splits it where it is encroached or too large.
-    pub(super) fn look_at_piece(&mut self, id: PieceId) {
+    /// Marks a subcurve as the edge that it is, or splits it where it is encroached or too large.
+    pub(super) fn look_at_piece(&mut self, id: SubcurveId) {
         self.state.subcurves.get_mut(id).queued = false;
-        let piece = *self.state.subcurves.get(id);
-        if piece.is_gone() {
+        let subcurve = *self.state.subcurves.get(id);
+        if subcurve.is_gone() {
             return;
         }
         match self.encroacher(id) {
@@ -42,9 +42,9 @@ impl Lopping {
                     self.split_piece(id, None, "vertices_size");
                 }
             }
-            Look::Encroached(_) if piece.is_spoke() => {
+            Look::Encroached(_) if subcurve.is_spoke() => {
                 // The open ball holds no vertex but its corner: only rounding can hide the spoke.
-                let at = self.delaunay.point(piece.ends[0]);
+                let at = self.delaunay.point(subcurve.ends[0]);
                 self.stop_too_near(at);
             }
             Look::Encroached(z) => {
@@ -54,30 +54,32 @@ impl Lopping {
         }
     }
 
-    fn is_too_large(&self, id: PieceId) -> bool {
-        let piece = self.state.subcurves.get(id);
-        let Carrier::Curve(curve) = piece.carrier else { return false };
+    fn is_too_large(&self, id: SubcurveId) -> bool {
+        let subcurve = self.state.subcurves.get(id);
+        let Carrier::Curve(curve) = subcurve.carrier else { return false };
         let within_budget = self.origins.len() < self.options.max_vertices && self.state.reason == StopReason::Done;
-        let [t0, t1] = piece.t;
-        within_budget && !piece.is_spoke() && self.state.field.edge_too_large(curve, self.shape(piece.carrier), t0, t1)
+        let [t0, t1] = subcurve.t;
+        within_budget
+            && !subcurve.is_spoke()
+            && self.state.field.edge_too_large(curve, self.shape(subcurve.carrier), t0, t1)
     }
 
-    /// Whether a vertex lies in the open diametral circle of a piece.
+    /// Whether a vertex lies in the open diametral circle of a subcurve.
     ///
-    /// If the piece is an edge of D, one of the two apexes does if any vertex does. If it is not, look at the
-    /// quadrilateral of the piece `x y` and the first edge `a b` that crosses it: y lies not inside the circle of
+    /// If the subcurve is an edge of D, one of the two apexes does if any vertex does. If it is not, look at the
+    /// quadrilateral of the subcurve `x y` and the first edge `a b` that crosses it: y lies not inside the circle of
     /// `x a b`, so the angles at a and b sum up to at least 180°, and the larger is at least 90°; both are 90° only if
     /// all four are cocircular: then the edge is flipped.
-    fn encroacher(&mut self, id: PieceId) -> Look {
-        let piece = *self.state.subcurves.get(id);
-        let [x, y] = piece.ends;
+    fn encroacher(&mut self, id: SubcurveId) -> Look {
+        let subcurve = *self.state.subcurves.get(id);
+        let [x, y] = subcurve.ends;
         let (px, py) = (self.delaunay.point(x), self.delaunay.point(y));
         // Each flip gives x one more neighbour on the same circle, so the degree bounds the flips; the rest is a guard.
         for _ in 0..self.origins.len() {
             let Some(side) = self.side_of(id) else {
                 match self.crossing_side(x, py) {
                     Some(crossing) => {
-                        if let Some(z) = self.inside_diametral_of(px, py, crossing, piece.is_spoke()) {
+                        if let Some(z) = self.inside_diametral_of(px, py, crossing, subcurve.is_spoke()) {
                             return Look::Encroached(z);
                         }
                         if !self.flip_to_reach(crossing) {
@@ -89,7 +91,7 @@ impl Lopping {
                     None => return Look::Encroached(self.vertex_on_chord(x, py)),
                 }
             };
-            if piece.is_spoke() {
+            if subcurve.is_spoke() {
                 return Look::Free(side);
             }
             let topology = self.delaunay.topology();
@@ -106,7 +108,7 @@ impl Lopping {
 
     /// The side opposite to x, in the triangle that the segment from x to y enters; `None` where a vertex blocks the
     /// way.
-    fn crossing_side(&self, x: VertexId, y: Point) -> Option<Side> {
+    fn crossing_side(&self, x: VertexId, y: Point) -> Option<HalfEdge> {
         let topology = self.delaunay.topology();
         let px = self.delaunay.point(x);
         topology.sides_from(x).find_map(|s| {
@@ -134,18 +136,18 @@ impl Lopping {
 
     /// The end of a crossing side that lies inside the diametral circle of `x y`. Spokes are not encroached, only
     /// hidden by ties.
-    fn inside_diametral_of(&self, x: Point, y: Point, crossing: Side, spoke: bool) -> Option<VertexId> {
+    fn inside_diametral_of(&self, x: Point, y: Point, crossing: HalfEdge, spoke: bool) -> Option<VertexId> {
         let topology = self.delaunay.topology();
         let inside = |&v: &VertexId| in_diametral(x, y, self.delaunay.point(v)) == CircleSide::Inside;
         [topology.origin(crossing), topology.target(crossing)].into_iter().filter(|_| !spoke).find(inside)
     }
 
     /// Flips a side between cocircular triangles (both triangulations are Delaunay); `false` where they are not, or a
-    /// piece lies on it.
-    fn flip_to_reach(&mut self, side: Side) -> bool {
+    /// subcurve lies on it.
+    fn flip_to_reach(&mut self, side: HalfEdge) -> bool {
         let topology = self.delaunay.topology();
         let far = topology.apex(topology.twin(side));
-        if far == GHOST || topology.piece(side).is_some() {
+        if far == GHOST || topology.subcurve(side).is_some() {
             return false;
         }
         let [a, b, c] = topology.corners(side.triangle()).map(|v| self.delaunay.point(v));
@@ -159,29 +161,29 @@ impl Lopping {
     }
 
     /// splitcurve at the point that the midpoint rule chooses.
-    pub(super) fn split_piece(&mut self, id: PieceId, z: Option<Point>, why: &'static str) {
-        let piece = *self.state.subcurves.get(id);
-        let t = split_parameter(self.shape(piece.carrier), piece.t, z, self.options.rules.midpoint);
+    pub(super) fn split_piece(&mut self, id: SubcurveId, z: Option<Point>, why: &'static str) {
+        let subcurve = *self.state.subcurves.get(id);
+        let t = split_parameter(self.shape(subcurve.carrier), subcurve.t, z, self.options.rules.midpoint);
         self.split_piece_at(id, t, why);
     }
 
-    /// Splits a piece at a parameter: a vertex, two pieces. `None`, and the run is over, where coordinates cannot hold
+    /// Splits a subcurve at a parameter: a vertex, two pieces. `None`, and the run is over, where coordinates cannot hold
     /// it.
-    pub(super) fn split_piece_at(&mut self, id: PieceId, t: f64, why: &'static str) -> Option<[PieceId; 2]> {
-        let piece = *self.state.subcurves.get(id);
-        let at = self.shape(piece.carrier).point(t);
-        let [x, y] = piece.ends.map(|v| self.delaunay.point(v));
+    pub(super) fn split_piece_at(&mut self, id: SubcurveId, t: f64, why: &'static str) -> Option<[SubcurveId; 2]> {
+        let subcurve = *self.state.subcurves.get(id);
+        let at = self.shape(subcurve.carrier).point(t);
+        let [x, y] = subcurve.ends.map(|v| self.delaunay.point(v));
         let room = at.distance(x).min(at.distance(y));
-        if !(piece.t[0] < t && t < piece.t[1]) || room < self.state.resolution {
+        if !(subcurve.t[0] < t && t < subcurve.t[1]) || room < self.state.resolution {
             self.stop_too_near(x);
             return None;
         }
-        let origin = match piece.carrier {
-            Carrier::Curve(curve) => Origin::OnCurve(curve),
-            Carrier::Arc(ball, _) => Origin::OnArc(ball),
+        let origin = match subcurve.carrier {
+            Carrier::Curve(curve) => VertexOrigin::OnCurve(curve),
+            Carrier::Arc(ball, _) => VertexOrigin::OnArc(ball),
         };
         let side = self.side_of(id);
-        let near = side.map_or_else(|| self.triangle_at(piece.ends[0]), Side::triangle);
+        let near = side.map_or_else(|| self.triangle_at(subcurve.ends[0]), HalfEdge::triangle);
         self.look_at_cavity(at, near, x)?;
         if let Some(side) = side {
             self.delaunay.topology_mut().set_piece(side, None);
@@ -190,11 +192,11 @@ impl Lopping {
         self.disturb(at, Some(id));
         let v = self.act(at, origin, why);
         let standing = Standing::Ordinary;
-        let head = self.state.subcurves.add(piece.carrier, [piece.t[0], t], [piece.ends[0], v], standing);
-        let tail = self.state.subcurves.add(piece.carrier, [t, piece.t[1]], [v, piece.ends[1]], standing);
-        self.state.suspect(head);
-        self.state.suspect(tail);
-        if let Carrier::Arc(ball, _) = piece.carrier {
+        let head = self.state.subcurves.add(subcurve.carrier, [subcurve.t[0], t], [subcurve.ends[0], v], standing);
+        let tail = self.state.subcurves.add(subcurve.carrier, [t, subcurve.t[1]], [v, subcurve.ends[1]], standing);
+        self.state.enqueue(head);
+        self.state.enqueue(tail);
+        if let Carrier::Arc(ball, _) = subcurve.carrier {
             self.balls.get_mut(ball).arc_pieces.extend([head, tail]);
         }
         self.watch_balls(at, origin);
@@ -221,58 +223,58 @@ impl Lopping {
         Some(())
     }
 
-    /// Requeues every piece that a point is about to hide or encroach; `split`: the piece that it splits.
-    pub(super) fn disturb(&mut self, at: Point, split: Option<PieceId>) {
+    /// Requeues every subcurve that a point is about to hide or encroach; `split`: the subcurve that it splits.
+    pub(super) fn disturb(&mut self, at: Point, split: Option<SubcurveId>) {
         let border = self.sorted_border();
-        for (side, piece) in self.cavity_pieces() {
+        for (side, subcurve) in self.cavity_pieces() {
             let inner = border.binary_search(&side).is_err();
             if inner {
                 self.delaunay.topology_mut().set_piece(side, None);
             }
-            if Some(piece) != split && (inner || self.encroaches(at, piece)) {
-                self.state.suspect(piece);
+            if Some(subcurve) != split && (inner || self.encroaches(at, subcurve)) {
+                self.state.enqueue(subcurve);
             }
         }
     }
 
     /// The cavity's border to search in: within points on one circle it has as many sides as there are points, and as
     /// many pieces.
-    pub(super) fn sorted_border(&self) -> Vec<Side> {
+    pub(super) fn sorted_border(&self) -> Vec<HalfEdge> {
         let mut border = self.state.cavity.border.clone();
         border.sort_unstable();
         border
     }
 
     /// Pieces on the sides of the cavity's triangles, each once, with a side.
-    pub(super) fn cavity_pieces(&self) -> Vec<(Side, PieceId)> {
+    pub(super) fn cavity_pieces(&self) -> Vec<(HalfEdge, SubcurveId)> {
         let topology = self.delaunay.topology();
-        let mut found: Vec<(PieceId, Side)> = Vec::new();
+        let mut found: Vec<(SubcurveId, HalfEdge)> = Vec::new();
         for &t in &self.state.cavity.triangles {
-            found.extend((0..3).map(|i| t.side_of(i)).filter_map(|s| Some((topology.piece(s)?, s))));
+            found.extend((0..3).map(|i| t.side_of(i)).filter_map(|s| Some((topology.subcurve(s)?, s))));
         }
         found.sort_unstable();
-        found.dedup_by_key(|&mut (piece, _)| piece);
-        found.into_iter().map(|(piece, side)| (side, piece)).collect()
+        found.dedup_by_key(|&mut (subcurve, _)| subcurve);
+        found.into_iter().map(|(subcurve, side)| (side, subcurve)).collect()
     }
 
-    pub(super) fn encroaches(&self, at: Point, piece: PieceId) -> bool {
-        let [x, y] = self.state.subcurves.get(piece).ends.map(|v| self.delaunay.point(v));
+    pub(super) fn encroaches(&self, at: Point, subcurve: SubcurveId) -> bool {
+        let [x, y] = self.state.subcurves.get(subcurve).ends.map(|v| self.delaunay.point(v));
         in_diametral(x, y, at) == CircleSide::Inside
     }
 
     /// Acts: inserts a point whose cavity has been looked at, and notes the new triangles.
-    pub(super) fn act(&mut self, at: Point, origin: Origin, why: &'static str) -> VertexId {
+    pub(super) fn act(&mut self, at: Point, origin: VertexOrigin, why: &'static str) -> VertexId {
         let v = self.delaunay.fill(at, &self.state.cavity);
         self.origins.push(origin);
         self.state.counters.add(why, 1);
         let topology = self.delaunay.topology();
-        self.fresh.extend(topology.sides_from(v).map(Side::triangle));
+        self.fresh.extend(topology.sides_from(v).map(HalfEdge::triangle));
         v
     }
 
     /// A new vertex on a curve may lie in the ball of a corner that the curve does not end at.
-    fn watch_balls(&mut self, at: Point, origin: Origin) {
-        let Origin::OnCurve(curve) = origin else { return };
+    fn watch_balls(&mut self, at: Point, origin: VertexOrigin) {
+        let VertexOrigin::OnCurve(curve) = origin else { return };
         let Some((id, away)) = self.balls.holding(at) else { return };
         let ball = self.balls.get_mut(id);
         if self.state.domain.curves()[curve].ends.contains(&ball.corner) {
@@ -288,9 +290,9 @@ impl Lopping {
     }
 }
 
-/// What was seen at a piece.
+/// What was seen at a subcurve.
 enum Look {
     /// It is this side of D, and nothing encroaches it.
-    Free(Side),
+    Free(HalfEdge),
     Encroached(VertexId),
 }

@@ -1,25 +1,30 @@
 //! Rule 4, splittri: which triangles miss a bound, and the circumcenters that mend them.
 
-use super::{Lopping, Origin, Suspect, suspects};
+use super::{Candidate, Lopping, VertexOrigin, queue};
 use crate::geometry::Point;
 use crate::geometry::triangle::circumcircle;
-use crate::ids::{PieceId, TriangleId};
-use crate::plane::carve;
+use crate::ids::{SubcurveId, TriangleId};
 use crate::plane::insert::{self, Location};
+use crate::plane::labelling;
 use crate::plane::refinement::Flaw;
-use crate::plane::triangulation::Side;
+use crate::plane::triangulation::HalfEdge;
 use crate::refine::StopReason;
 
 impl Lopping {
-    /// Every piece is an edge: triangles made since the last time get their regions and are judged.
-    pub(super) fn carve(&mut self) {
-        if !self.carved {
-            self.fresh = carve::all_triangles(&self.delaunay);
-            self.carved = true;
+    /// Every subcurve is an edge: triangles made since the last time get their regions and are judged.
+    pub(super) fn label(&mut self) {
+        if !self.labelled {
+            self.fresh = labelling::all_triangles(&self.delaunay);
+            self.labelled = true;
         }
-        self.state.carver.carve(&mut self.delaunay, &self.state.subcurves, self.state.domain.curves(), &mut self.fresh);
+        self.state.labeller.label(
+            &mut self.delaunay,
+            &self.state.subcurves,
+            self.state.domain.curves(),
+            &mut self.fresh,
+        );
         for t in std::mem::take(&mut self.fresh) {
-            self.judge(t);
+            self.assess(t);
         }
     }
 
@@ -28,37 +33,37 @@ impl Lopping {
     }
 
     /// Queues a kept triangle that misses a bound.
-    fn judge(&mut self, t: TriangleId) {
+    fn assess(&mut self, t: TriangleId) {
         let Some(region) = self.delaunay.topology().region(t) else { return };
         let corners = self.corners(t);
-        let suspect = (t, self.delaunay.topology().corners(t));
+        let candidate = (t, self.delaunay.topology().corners(t));
         match self.state.flaw(region, corners) {
-            Some(Flaw::Skinny(sin2)) => self.state.bad.push_skinny(suspect, 1.0 - sin2 / self.state.sin2_min),
-            Some(Flaw::Oversized(excess)) => self.state.bad.push_oversized(suspect, excess),
+            Some(Flaw::Skinny(sin2)) => self.state.bad.push_skinny(candidate, 1.0 - sin2 / self.state.sin2_min),
+            Some(Flaw::Oversized(excess)) => self.state.bad.push_oversized(candidate, excess),
             None => {}
         }
     }
 
-    pub(super) fn is_stale(&self, suspect: &Suspect) -> bool {
-        suspects::is_stale(self.delaunay.topology(), suspect)
+    pub(super) fn is_stale(&self, candidate: &Candidate) -> bool {
+        queue::is_stale(self.delaunay.topology(), candidate)
     }
 }
 
 impl Lopping {
-    pub(super) fn split_triangle(&mut self, suspect: Suspect) {
-        if self.is_stale(&suspect) {
+    pub(super) fn split_triangle(&mut self, candidate: Candidate) {
+        if self.is_stale(&candidate) {
             return;
         }
-        let (t, _) = suspect;
+        let (t, _) = candidate;
         let Some(region) = self.delaunay.topology().region(t) else { return };
         let corners = self.corners(t);
         if self.origins.len() >= self.options.max_vertices {
             self.state.reason = StopReason::VertexBudget;
-            return self.state.bad.push_skinny(suspect, 1.0);
+            return self.state.bad.push_skinny(candidate, 1.0);
         }
         if self.state.bad.is_stuck() {
             self.state.reason = StopReason::NoProgress;
-            return self.state.bad.push_skinny(suspect, 1.0);
+            return self.state.bad.push_skinny(candidate, 1.0);
         }
         if self.options.corner_arcs.is_some() && self.balls.holding_all(corners, self.state.resolution).is_some() {
             return;
@@ -69,24 +74,24 @@ impl Lopping {
             return;
         }
         match self.balls.holding(center) {
-            // A ball excuses angles, not sizes: those it was capped for.
+            // A ball exempts angles, not sizes: those it was capped for.
             Some(_) if self.options.corner_arcs.is_none() && self.state.field.excess(region, corners) <= 1.0 => {
-                self.excuse(suspect, center);
+                self.exempt(candidate, center);
             }
-            _ => self.kill(suspect, center),
+            _ => self.kill(candidate, center),
         }
     }
 
     /// Remembers a triangle whose circumcenter lies in a ball, for when the ball shrinks.
-    fn excuse(&mut self, suspect: Suspect, center: Point) {
+    fn exempt(&mut self, candidate: Candidate, center: Point) {
         if let Some((ball, _)) = self.balls.holding(center) {
-            self.balls.get_mut(ball).excused.push(suspect);
+            self.balls.get_mut(ball).exempt.push(candidate);
         }
     }
 
-    /// Inserts a circumcenter, or splits a piece that it encroaches.
-    fn kill(&mut self, suspect: Suspect, center: Point) {
-        let (t, corners) = suspect;
+    /// Inserts a circumcenter, or splits a subcurve that it encroaches.
+    fn kill(&mut self, candidate: Candidate, center: Point) {
+        let (t, corners) = candidate;
         let place = self.delaunay.point(corners[0]);
         if !insert::in_range(center) {
             return self.state.too_near.push(place);
@@ -101,11 +106,11 @@ impl Lopping {
             return self.state.too_near.push(place);
         }
         let pieces = self.cavity_pieces();
-        if let Some(piece) = self.longest_encroached(center, &pieces) {
+        if let Some(subcurve) = self.longest_encroached(center, &pieces) {
             self.state.counters.add("rejected_circumcenters", 1);
-            self.split_piece(piece, None, "vertices_rejected_circumcenter");
-            if !self.is_stale(&suspect) {
-                self.state.bad.push_skinny(suspect, 0.0);
+            self.split_piece(subcurve, None, "vertices_rejected_circumcenter");
+            if !self.is_stale(&candidate) {
+                self.state.bad.push_skinny(candidate, 0.0);
             }
             return;
         }
@@ -115,27 +120,27 @@ impl Lopping {
         let hides_spoke = pieces.iter().any(|(side, _)| border.binary_search(side).is_err());
         let in_ball = self.balls.holding(center).is_some();
         if in_ball && self.options.corner_arcs.is_none() {
-            return self.excuse(suspect, center);
+            return self.exempt(candidate, center);
         }
         if hides_spoke || in_ball {
             return self.state.too_near.push(place);
         }
         let v = self.delaunay.fill(center, &self.state.cavity);
-        self.origins.push(Origin::Free);
+        self.origins.push(VertexOrigin::Free);
         self.state.counters.add("vertices_circumcenter", 1);
-        let star: Vec<TriangleId> = self.delaunay.topology().sides_from(v).map(Side::triangle).collect();
+        let star: Vec<TriangleId> = self.delaunay.topology().sides_from(v).map(HalfEdge::triangle).collect();
         for t in star {
-            self.judge(t);
+            self.assess(t);
         }
     }
 
-    /// The longest piece, spokes apart, that a point encroaches.
-    fn longest_encroached(&self, at: Point, pieces: &[(Side, PieceId)]) -> Option<PieceId> {
-        let length = |piece: PieceId| self.length_and_place(piece).0;
+    /// The longest subcurve, spokes apart, that a point encroaches.
+    fn longest_encroached(&self, at: Point, pieces: &[(HalfEdge, SubcurveId)]) -> Option<SubcurveId> {
+        let length = |subcurve: SubcurveId| self.length_and_place(subcurve).0;
         pieces
             .iter()
-            .map(|&(_, piece)| piece)
-            .filter(|&piece| !self.state.subcurves.get(piece).is_spoke() && self.encroaches(at, piece))
+            .map(|&(_, subcurve)| subcurve)
+            .filter(|&subcurve| !self.state.subcurves.get(subcurve).is_spoke() && self.encroaches(at, subcurve))
             .max_by(|&a, &b| length(a).total_cmp(&length(b)).then(b.cmp(&a)))
     }
 }

@@ -22,8 +22,8 @@ impl Plan {
         if vertices <= budget {
             return Ok(());
         }
-        let owed = (vertices - budget) as usize;
-        let stop = Stop { reason: StopReason::VertexBudget, owed, places: demand.places(), angle_deg: None };
+        let unresolved = (vertices - budget) as usize;
+        let stop = Stop { reason: StopReason::VertexBudget, unresolved, places: demand.places(), angle_deg: None };
         let (why, help) = if demand.by_size >= demand.by_slivers() {
             ("the sizes asked for", "ask for larger sizes, or give more by --max-vertices".to_owned())
         } else {

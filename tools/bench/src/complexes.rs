@@ -32,7 +32,7 @@ fn row(n: u64, tau: f64, kappa: f64, corner_arcs: Option<f64>) {
             Ok(r) => {
                 slowest = slowest.max(r.seconds.refine);
                 most = most.max(r.mesh.nodes.len());
-                if !r.verdict.kept() || r.stop.owed > 0 {
+                if !r.verdict.kept() || r.stop.unresolved > 0 {
                     complain(seed, &r);
                     continue;
                 }
@@ -53,7 +53,7 @@ fn row(n: u64, tau: f64, kappa: f64, corner_arcs: Option<f64>) {
 }
 
 fn complain(seed: u64, r: &Run) {
-    eprintln!("seed {seed}: {:?}, owed {}, broken {:?}", r.stop.reason, r.stop.owed, r.broken());
+    eprintln!("seed {seed}: {:?}, unresolved {}, broken {:?}", r.stop.reason, r.stop.unresolved, r.broken());
     for check in r.verdict.checks.iter().filter(|c| c.status == Status::Broken) {
         eprintln!("    {}: {}", check.name, check.flaws.first().map_or("", |f| f));
     }

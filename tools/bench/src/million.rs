@@ -8,7 +8,7 @@ use std::time::Instant;
 
 pub fn print() {
     let drawing = run::read("samples/plate.json").expect("the sample is there");
-    let measure = run::run(&drawing, 0.5, &run::unsized_options(0.36)).expect("the sample meshes").domain.measure();
+    let measure = run::run(&drawing, 0.5, &run::unsized_options(0.36)).expect("the sample meshes").domain.area();
     // Triangles of a uniformly refined mesh have about 0.6 of the largest area allowed.
     let sizing = Sizing { max_area: Some(measure / 1e6 / 0.62), ..Sizing::default() };
     let options = Options { sizing, ..run::unsized_options(20.7f64.to_radians()) };

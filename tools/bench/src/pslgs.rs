@@ -53,8 +53,8 @@ fn refined(drawing: &Drawing, degrees: f64, strategy: &str, seed: u64) -> Result
     let refined =
         gcdr::refine(&domain, &options, &mut *strategy, Until::End, &mut |_| true).map_err(|e| e.to_string())?;
     let mesh = refined.mesh.ok_or("no mesh")?;
-    if refined.stop.reason != StopReason::Done || refined.stop.owed > 0 {
-        return Err(format!("{:?}, {} owed", refined.stop.reason, refined.stop.owed));
+    if refined.stop.reason != StopReason::Done || refined.stop.unresolved > 0 {
+        return Err(format!("{:?}, {} unresolved", refined.stop.reason, refined.stop.unresolved));
     }
     let verdict = verify(Some(&domain), &mesh, &options.promise(strategy.is_free(), false));
     if verdict.kept() { Ok(mesh.triangles.len()) } else { Err("broken".into()) }

@@ -226,5 +226,5 @@ fn check_outcome(outcome: &Outcome, request: &Request) {
         border += part.start().distance(part.end());
     }
     let rounding = 16.0 * f64::EPSILON * magnitude(domain.bounds()) * border;
-    assert!((area - domain.measure()).abs() <= 1e-9 * gross + rounding, "area {area} instead of {}", domain.measure());
+    assert!((area - domain.area()).abs() <= 1e-9 * gross + rounding, "area {area} instead of {}", domain.area());
 }

@@ -9,9 +9,9 @@ use crate::refine::{Headway, Patience, WorstFirst};
 use std::f64::consts::PI;
 
 /// A triangle as it was when it was queued: a triangle's id may be another's by now.
-pub(super) type Suspect = (TriangleId, [VertexId; 3]);
+pub(super) type Candidate = (TriangleId, [VertexId; 3]);
 
-pub(super) fn is_stale(topology: &Triangulation, &(t, corners): &Suspect) -> bool {
+pub(super) fn is_stale(topology: &Triangulation, &(t, corners): &Candidate) -> bool {
     !topology.is_alive(t) || topology.corners(t) != corners
 }
 
@@ -34,31 +34,31 @@ pub(super) fn by_length(octave: f64) -> Patience {
 }
 
 #[derive(Default)]
-pub(super) struct Suspects {
-    skinny: WorstFirst<Suspect>,
-    oversized: WorstFirst<Suspect>,
+pub(super) struct RefinementQueue {
+    skinny: WorstFirst<Candidate>,
+    oversized: WorstFirst<Candidate>,
     headway: Option<Headway>,
     stuck: bool,
 }
 
-impl Suspects {
+impl RefinementQueue {
     /// A queue for a smallest angle, and how long that may take.
     pub(super) fn new(angle_min_rad: f64, patience: Patience) -> Self {
         let headway = (angle_min_rad > SURE_RAD + 1e-9).then(|| Headway::new(patience));
         Self { headway, ..Self::default() }
     }
 
-    pub(super) fn push_skinny(&mut self, suspect: Suspect, badness: f64) {
-        self.skinny.push(suspect, badness);
+    pub(super) fn push_skinny(&mut self, candidate: Candidate, badness: f64) {
+        self.skinny.push(candidate, badness);
     }
 
     /// `excess`: how many times it is over its limits. Badness by octaves: 2^32 is as bad as it gets.
-    pub(super) fn push_oversized(&mut self, suspect: Suspect, excess: f64) {
-        self.oversized.push(suspect, libm::log2(excess) / 32.0);
+    pub(super) fn push_oversized(&mut self, candidate: Candidate, excess: f64) {
+        self.oversized.push(candidate, libm::log2(excess) / 32.0);
     }
 
     /// The next triangle of a mesh with so many vertices.
-    pub(super) fn next(&mut self, vertices: usize) -> Option<Suspect> {
+    pub(super) fn next(&mut self, vertices: usize) -> Option<Candidate> {
         let skinny = self.skinny.pop();
         if let Some(headway) = &mut self.headway {
             match skinny {
@@ -74,7 +74,7 @@ impl Suspects {
         self.stuck
     }
 
-    fn pop(&mut self) -> Option<Suspect> {
+    fn pop(&mut self) -> Option<Candidate> {
         self.skinny.pop().or_else(|| self.oversized.pop())
     }
 
@@ -83,17 +83,17 @@ impl Suspects {
     }
 
     /// Empties the queue: how many still stand, and the places of at most some of them.
-    pub(super) fn owed(&mut self, delaunay: &Kernel, most: usize) -> (usize, Vec<Point>) {
-        let (mut owed, mut places) = (0, Vec::new());
-        while let Some(suspect) = self.pop() {
-            if is_stale(delaunay.topology(), &suspect) {
+    pub(super) fn unresolved(&mut self, delaunay: &Kernel, most: usize) -> (usize, Vec<Point>) {
+        let (mut unresolved, mut places) = (0, Vec::new());
+        while let Some(candidate) = self.pop() {
+            if is_stale(delaunay.topology(), &candidate) {
                 continue;
             }
-            owed += 1;
+            unresolved += 1;
             if places.len() < most {
-                places.push(delaunay.point(suspect.1[0]));
+                places.push(delaunay.point(candidate.1[0]));
             }
         }
-        (owed, places)
+        (unresolved, places)
     }
 }

@@ -1,29 +1,29 @@
-//! Which region each triangle belongs to. Carving is topological: a triangle takes its region from the side of the
+//! Which region each triangle belongs to. labelling is topological: a triangle takes its region from the side of the
 //! curve that it lies on, or from a neighbour with no curve between. Nothing is cut away: D(P′) stays whole, and
 //! triangles outside have no region.
 //!
-//! Regions are right whenever every piece is an edge and no piece is encroached: then no vertex lies between a piece
+//! Regions are right whenever every subcurve is an edge and no subcurve is encroached: then no vertex lies between a subcurve
 //! and its chord (the lens lies in the empty diametral disk), so chords bound what the curves bound. Between two such
 //! moments only triangles made since may need a new region; a triangle that was there before and still stands keeps its
-//! own (a piece that bulges over it would have destroyed it, since the split point lies in its circumdisk).
+//! own (a subcurve that bulges over it would have destroyed it, since the split point lies in its circumdisk).
 
 use super::insert::Kernel;
 use super::subcurves::{Carrier, Subcurves};
-use super::triangulation::Side;
+use super::triangulation::HalfEdge;
 use crate::domain::DomainCurve;
 use crate::ids::{CurveId, Id, IdVec, RegionId, TriangleId};
 
 /// Gives regions to triangles.
 #[derive(Default)]
-pub struct Carver {
-    /// Place of each triangle among the fresh ones, from 1; 0 of all others, between two carvings of all.
+pub struct RegionLabeller {
+    /// Place of each triangle among the fresh ones, from 1; 0 of all others, between two labellings of all.
     places: Vec<u32>,
 }
 
-impl Carver {
+impl RegionLabeller {
     /// Gives regions to triangles that were made since the last time; `fresh` is left with those that are alive, each
     /// once.
-    pub fn carve(
+    pub fn label(
         &mut self,
         delaunay: &mut Kernel,
         subcurves: &Subcurves,
@@ -93,18 +93,18 @@ impl Carver {
 }
 
 /// The curve on a side and whether it runs along it (`true`) or against it; `None` of a side that bounds nothing.
-fn bounded_by(delaunay: &Kernel, subcurves: &Subcurves, s: Side) -> Option<(CurveId, bool)> {
-    let piece = subcurves.get(delaunay.topology().piece(s)?);
-    let Carrier::Curve(curve) = piece.carrier else { return None };
-    Some((curve, delaunay.topology().origin(s) == piece.ends[0]))
+fn bounded_by(delaunay: &Kernel, subcurves: &Subcurves, s: HalfEdge) -> Option<(CurveId, bool)> {
+    let subcurve = subcurves.get(delaunay.topology().subcurve(s)?);
+    let Carrier::Curve(curve) = subcurve.carrier else { return None };
+    Some((curve, delaunay.topology().origin(s) == subcurve.ends[0]))
 }
 
-/// Every triangle, ghosts included, for the first carving.
+/// Every triangle, ghosts included, for the first labelling.
 pub fn all_triangles(delaunay: &Kernel) -> Vec<TriangleId> {
     let topology = delaunay.topology();
     (0..topology.triangle_capacity()).map(TriangleId::from_index).filter(|&t| topology.is_alive(t)).collect()
 }
 
-fn sides_of(t: TriangleId) -> [Side; 3] {
+fn sides_of(t: TriangleId) -> [HalfEdge; 3] {
     [0, 1, 2].map(|i| t.side_of(i))
 }

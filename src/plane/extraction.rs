@@ -4,17 +4,17 @@ use super::insert::Kernel;
 use super::subcurves::{Carrier, Subcurves};
 use crate::domain::Domain;
 use crate::geometry::{Point, order};
-use crate::ids::{CurveId, IdVec, PieceId, TriangleId, VertexId};
+use crate::ids::{CurveId, IdVec, SubcurveId, TriangleId, VertexId};
 use crate::mesh::{CurveEdge, CurveLink, Mesh};
 
 /// What a mesh is taken from: vertices 0, 1, … of the triangulation are the points of the domain.
-pub struct Harvest<'a> {
+pub struct Extraction<'a> {
     pub domain: &'a Domain,
     pub delaunay: &'a Kernel,
     pub subcurves: &'a Subcurves,
 }
 
-impl Harvest<'_> {
+impl Extraction<'_> {
     /// The kept triangles as plain data. Nodes are numbered along a Hilbert curve, triangles by their nodes: whoever
     /// walks through the mesh finds neighbours near each other in memory, and files compress better.
     pub fn mesh(&self) -> Mesh {
@@ -52,13 +52,13 @@ impl Harvest<'_> {
 
     /// Pieces of curves with a kept region on a side, by curve and along it.
     fn curve_edges(&self, node_of: &IdVec<VertexId, Option<VertexId>>) -> Vec<CurveEdge> {
-        let mut pieces: Vec<(CurveId, f64, PieceId)> = self
+        let mut pieces: Vec<(CurveId, f64, SubcurveId)> = self
             .subcurves
             .ids()
             .filter_map(|id| match self.subcurves.get(id) {
-                piece if piece.is_gone() => None,
-                piece => match piece.carrier {
-                    Carrier::Curve(curve) => Some((curve, piece.t[0], id)),
+                subcurve if subcurve.is_gone() => None,
+                subcurve => match subcurve.carrier {
+                    Carrier::Curve(curve) => Some((curve, subcurve.t[0], id)),
                     Carrier::Arc(..) => None,
                 },
             })
@@ -68,11 +68,11 @@ impl Harvest<'_> {
             .into_iter()
             .filter(|&(curve, ..)| self.domain.curves()[curve].sides.iter().any(Option::is_some))
             .map(|(curve, _, id)| {
-                let piece = self.subcurves.get(id);
+                let subcurve = self.subcurves.get(id);
                 CurveEdge {
-                    nodes: piece.ends.map(|v| node_of[v].expect("an edge of a kept triangle")),
+                    nodes: subcurve.ends.map(|v| node_of[v].expect("an edge of a kept triangle")),
                     name: self.domain.curves()[curve].name,
-                    link: Some(CurveLink { curve, t: piece.t }),
+                    link: Some(CurveLink { curve, t: subcurve.t }),
                 }
             })
             .collect()

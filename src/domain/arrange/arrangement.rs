@@ -1,9 +1,9 @@
-//! The network: nodes, and the pieces of drawn curves that run between them, on their way to a domain.
+//! The arrangement: nodes, and the edges of drawn curves that run between them, on their way to a domain.
 //!
 //! ```text
-//!   as drawn                          pieces a, b, c and nodes ●
+//!   as drawn                          edges a, b, c and nodes ●
 //!
-//!   p ──────────────                ●── a ──●══ b ══●── c ──●      Each piece is a part of a drawn curve, its `source`: a and b of p, c of q.
+//!   p ──────────────                ●── a ──●══ b ══●── c ──●      Each edge is a part of a drawn curve, its `source`: a and b of p, c of q.
 //!           ────────────── q                                       Along b runs q, too, which is `merged` with it.
 //! ```
 
@@ -18,7 +18,7 @@ use std::collections::BTreeMap;
 
 /// What a node or a cut is there for. Earlier ones win where nodes are welded: what was drawn is the truth.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
-pub(super) enum Origin {
+pub(super) enum NodeOrigin {
     /// An end or a break of a drawn curve.
     Curve(u32),
     /// A drawn point.
@@ -27,16 +27,16 @@ pub(super) enum Origin {
     Meeting(u32),
 }
 
-impl Origin {
+impl NodeOrigin {
     /// Drawn nodes first, curves and points alike.
     pub fn is_computed(self) -> bool {
-        matches!(self, Origin::Meeting(_))
+        matches!(self, NodeOrigin::Meeting(_))
     }
 
     pub fn text(self, drawing: &Drawing) -> &str {
         match self {
-            Origin::Curve(i) | Origin::Meeting(i) => &drawing.curves[i as usize].entity,
-            Origin::Point(i) => &drawing.points[i as usize].entity,
+            NodeOrigin::Curve(i) | NodeOrigin::Meeting(i) => &drawing.curves[i as usize].entity,
+            NodeOrigin::Point(i) => &drawing.points[i as usize].entity,
         }
     }
 }
@@ -45,7 +45,7 @@ impl Origin {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Node {
     pub at: Point,
-    pub origin: Origin,
+    pub origin: NodeOrigin,
     /// Not yet looked at for meetings.
     pub fresh: bool,
 }
@@ -80,7 +80,7 @@ impl Part {
 
 /// A part of a drawn curve, on its way between two nodes.
 #[derive(Clone, Debug)]
-pub(super) struct Piece {
+pub(super) struct Edge {
     pub curve: Curve,
     pub ends: [PointId; 2],
     pub bounds: Rect,
@@ -88,7 +88,7 @@ pub(super) struct Piece {
     pub source: u32,
     /// Between which of its parameters.
     pub range: [f64; 2],
-    /// Further drawn curves that run along the whole piece, and whether they run against it.
+    /// Further drawn curves that run along the whole edge, and whether they run against it.
     pub merged: Vec<(u32, bool)>,
     /// What is seen on its left and right, once hidden stretches are left out.
     pub paint: Option<[Option<SeenId>; 2]>,
@@ -96,7 +96,7 @@ pub(super) struct Piece {
     pub fresh: bool,
 }
 
-impl Piece {
+impl Edge {
     pub fn new(Part { curve, range }: Part, ends: [PointId; 2], source: u32) -> Self {
         Self { bounds: curve.bounds(), curve, ends, source, range, merged: Vec::new(), paint: None, fresh: true }
     }
@@ -124,12 +124,12 @@ impl Piece {
     }
 }
 
-/// Nodes and pieces on their way to a domain.
-pub(super) struct Network<'a> {
+/// Nodes and edges on their way to a domain.
+pub(super) struct Arrangement<'a> {
     pub drawing: &'a Drawing,
     pub tolerances: Tolerances,
     pub nodes: IdVec<PointId, Node>,
-    pub pieces: IdVec<CurveId, Piece>,
+    pub edges: IdVec<CurveId, Edge>,
     pub repairs: Vec<Repair>,
     /// Loops of a drawn curve that became lines: the curve, the place and the width. Itemised where some of the curve
     /// is left.
@@ -138,7 +138,7 @@ pub(super) struct Network<'a> {
     pub drawn_ends: Vec<Option<[PointId; 2]>>,
     /// The drawn points.
     pub drawn_points: Vec<PointId>,
-    /// What the paint of pieces refers to.
+    /// What the paint of edges refers to.
     pub seen: Seen,
 }
 
@@ -175,14 +175,14 @@ pub(super) fn is_spiral(curve: &Curve) -> bool {
     matches!(curve, Curve::Arc(arc) if arc.is_spiral())
 }
 
-impl<'a> Network<'a> {
-    /// Without nodes and pieces.
+impl<'a> Arrangement<'a> {
+    /// Without nodes and edges.
     pub fn empty(drawing: &'a Drawing, tolerances: Tolerances) -> Self {
         Self {
             drawing,
             tolerances,
             nodes: IdVec::new(),
-            pieces: IdVec::new(),
+            edges: IdVec::new(),
             repairs: Vec::new(),
             loops: Vec::new(),
             drawn_ends: Vec::new(),
@@ -196,7 +196,7 @@ impl<'a> Network<'a> {
         Progress { phase, vertices: self.nodes.len(), queued }
     }
 
-    pub fn add_node(&mut self, at: Point, origin: Origin) -> PointId {
+    pub fn add_node(&mut self, at: Point, origin: NodeOrigin) -> PointId {
         self.nodes.push(Node { at, origin, fresh: true })
     }
 
@@ -205,15 +205,15 @@ impl<'a> Network<'a> {
         &self.drawing.curves[source as usize].entity
     }
 
-    /// What the drawn curve of a piece is called.
+    /// What the drawn curve of an edge is called.
     pub fn text_of(&self, id: CurveId) -> &str {
-        &self.drawing.curves[self.pieces[id].source as usize].entity
+        &self.drawing.curves[self.edges[id].source as usize].entity
     }
 
-    /// The drawn curves that run along a piece, and whether each runs against it.
+    /// The drawn curves that run along an edge, and whether each runs against it.
     pub fn drawn_along(&self, id: CurveId) -> impl Iterator<Item = (u32, bool)> + use<'_> {
-        let piece = &self.pieces[id];
-        [(piece.source, false)].into_iter().chain(piece.merged.iter().copied())
+        let edge = &self.edges[id];
+        [(edge.source, false)].into_iter().chain(edge.merged.iter().copied())
     }
 
     /// Lists a repair.
@@ -224,14 +224,14 @@ impl<'a> Network<'a> {
     /// Drops nodes that nothing ends at; the order stays.
     pub fn renumber(&mut self) {
         let mut used: IdVec<PointId, bool> = vec![false; self.nodes.len()].into();
-        let ends = self.pieces.iter().flat_map(|p| p.ends);
+        let ends = self.edges.iter().flat_map(|p| p.ends);
         let drawn = self.drawn_ends.iter().flatten().flatten().copied().chain(self.drawn_points.iter().copied());
         ends.chain(drawn).for_each(|id| used[id] = true);
         let mut nodes: IdVec<PointId, Node> = IdVec::new();
         let renamed: IdVec<PointId, PointId> =
             (self.nodes.enumerate()).map(|(id, &node)| if used[id] { nodes.push(node) } else { id }).collect();
         self.nodes = nodes;
-        self.pieces.iter_mut().flat_map(|p| &mut p.ends).for_each(|end| *end = renamed[*end]);
+        self.edges.iter_mut().flat_map(|p| &mut p.ends).for_each(|end| *end = renamed[*end]);
         self.drawn_ends.iter_mut().flatten().flatten().for_each(|end| *end = renamed[*end]);
         self.drawn_points.iter_mut().for_each(|node| *node = renamed[*node]);
     }
