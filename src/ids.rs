@@ -42,6 +42,12 @@ ids! {
     PointId,
     /// A curve of a domain.
     CurveId,
+    /// A tetrahedron of a triangulation or a mesh.
+    TetId,
+    /// A segment of a solid: a straight edge between two of its points.
+    SegmentId,
+    /// A facet of a solid: a polygon, with holes, of one plane.
+    FacetId,
     /// A piece of a curve (or of a corner arc) in C′, the subcurves of a refinement.
     SubcurveId,
     /// A kept region of a domain.

@@ -50,6 +50,7 @@ pub mod refine;
 pub mod run;
 pub mod section;
 pub mod size;
+pub mod solid;
 pub mod threads;
 pub mod verify;
 pub mod watch;

@@ -3,6 +3,7 @@
 
 pub mod elevate;
 pub mod quality;
+pub mod solid;
 
 use crate::geometry::{Frame, Point};
 use crate::ids::{Colour, CurveId, IdVec, NameId, Names, PointId, RegionId, TriangleId, VertexId};
