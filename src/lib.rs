@@ -51,6 +51,7 @@ pub mod run;
 pub mod section;
 pub mod size;
 pub mod solid;
+pub mod space;
 pub mod threads;
 pub mod verify;
 pub mod watch;

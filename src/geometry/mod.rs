@@ -3,7 +3,10 @@
 
 pub mod boxes;
 pub mod exact;
+pub mod exact_space;
+mod expansion;
 pub mod order;
+pub mod order_space;
 pub mod rng;
 pub mod space;
 pub mod triangle;
