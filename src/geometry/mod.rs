@@ -4,12 +4,14 @@
 pub mod boxes;
 pub mod exact;
 pub mod order;
+mod place;
 pub mod rng;
 pub mod space;
 pub mod triangle;
 pub mod written;
 
 pub use kurbo::{Point, Rect, Vec2};
+pub use place::Place;
 
 /// The power of two that brings a coordinate magnitude to between ½ and 1.
 ///
