@@ -189,7 +189,11 @@ fn delaunay(ev: &Evidence, one: Side, two: Side, tally: &mut Tally) {
     if power_side(tetrahedron, weighted(far)) != within {
         return;
     }
-    tally.measure(depth(ev.corners(one.tetrahedron), ev.node(far)), ev.node(far));
+    // The test is the same from either side; the depth is not.
+    for (near, other) in [(one, two), (two, one)] {
+        let far = ev.node(ev.mesh.tetrahedra[other.tetrahedron][other.corner]);
+        tally.measure(depth(ev.corners(near.tetrahedron), far), far);
+    }
     if !ev.mesh.weights.is_empty() {
         tally.flaw(|| {
             let [one, two] = [one, two].map(|side| ev.tell(side.tetrahedron));

@@ -152,8 +152,9 @@ fn a_mesh_without_solid_or_links_or_weights_is_checked_as_far_as_it_goes() {
     let verdict = verify_solid(None, &mesh);
     let check = verdict.checks.iter().find(|c| c.name == "constrained_delaunay").unwrap();
     assert_eq!(check.status, Status::NotAsked);
-    let depth = 1.0 - 0.25 / 0.5;
-    assert!((check.worst.unwrap().value - depth).abs() < 1e-12 && check.worst.unwrap().at == [0.25; 3], "{check:?}");
+    // Deeper still is corner 7 within the sphere of corner 0 and the three between: (t, t, t) with t = 13/8.
+    let depth = 1.0 - 0.625 / 1.375;
+    assert!((check.worst.unwrap().value - depth).abs() < 1e-12 && check.worst.unwrap().at == [1.0; 3], "{check:?}");
     mesh.points.clear();
     mesh.triangles.iter_mut().for_each(|t| t.facet = None);
     mesh.edges.iter_mut().for_each(|e| e.segment = None);
