@@ -4,7 +4,7 @@ use super::cells::{Wall, within_facets};
 use super::evidence::{Evidence, distance, place, turn};
 use super::grouped::Grouped;
 use crate::geometry::space::{cross, dot, length, minus, times, unit};
-use crate::ids::{FacetId, Id, IdVec, PointId, SegmentId, VertexId};
+use crate::ids::{FacetId, Id, IdVec, PointId, SegmentId, TetId, VertexId};
 use crate::solid::{Facet, Solid};
 use crate::verify::tally::Tally;
 use crate::verify::{Check, Status};
@@ -287,9 +287,6 @@ fn edges_of_tetrahedra(ev: &Evidence) -> Vec<bool> {
     found
 }
 
-/// Points that nothing else holds are looked for in the tetrahedra: so many of them at most.
-const LONE_POINTS: usize = 64;
-
 /// Every point of a segment or facet is a node, at its very place; one that nothing holds, if a tetrahedron covers it.
 fn points(ev: &Evidence, solid: &Solid, tally: &mut Tally) {
     let mut held: IdVec<PointId, bool> = vec![false; solid.points().len()].into();
@@ -309,7 +306,6 @@ fn points(ev: &Evidence, solid: &Solid, tally: &mut Tally) {
             Some(_) => {}
         }
     }
-    lone.truncate(LONE_POINTS);
     for (p, at) in covered(ev, lone) {
         tally.flaw(|| format!("point {} at {} lies in a region, but is no node", p.0, place(at)));
     }
@@ -321,22 +317,25 @@ pub fn covered<T>(ev: &Evidence, places: Vec<(T, [f64; 3])>) -> Vec<(T, [f64; 3]
     places.into_iter().zip(within).filter(|(_, cell)| cell.is_some()).map(|(place, _)| place).collect()
 }
 
-/// The first tetrahedron that covers each of some places. Takes time in proportion to places and tetrahedra.
-pub fn cells_of(ev: &Evidence, places: &[[f64; 3]]) -> Vec<Option<crate::ids::TetId>> {
-    let scale = libm::sqrt(ev.weight_scale);
-    let places: Vec<[f64; 3]> = places.iter().map(|&at| times(at, scale)).collect();
+/// The first tetrahedron that covers each of some places. Places are taken by x, so that each tetrahedron is held against
+/// those of its own range alone.
+pub fn cells_of(ev: &Evidence, places: &[[f64; 3]]) -> Vec<Option<TetId>> {
     let mut found = vec![None; places.len()];
     if places.is_empty() {
         return found;
     }
+    let scale = libm::sqrt(ev.weight_scale);
+    let mut by_x: Vec<([f64; 3], usize)> = places.iter().map(|&at| times(at, scale)).zip(0..).collect();
+    by_x.sort_unstable_by(|a, b| a.0[0].total_cmp(&b.0[0]));
     for (t, nodes) in ev.mesh.tetrahedra.enumerate() {
         let corners = nodes.map(|v| ev.signs[v]);
         let low: [f64; 3] = std::array::from_fn(|k| corners.iter().fold(f64::INFINITY, |m, p| m.min(p[k])));
         let high: [f64; 3] = std::array::from_fn(|k| corners.iter().fold(f64::NEG_INFINITY, |m, p| m.max(p[k])));
-        for (at, found) in places.iter().zip(&mut found) {
-            let in_box = (0..3).all(|k| low[k] <= at[k] && at[k] <= high[k]);
-            if found.is_none() && in_box && covers(corners, *at) {
-                *found = Some(t);
+        let first = by_x.partition_point(|(at, _)| at[0] < low[0]);
+        for &(at, i) in by_x[first..].iter().take_while(|(at, _)| at[0] <= high[0]) {
+            let in_box = (1..3).all(|k| low[k] <= at[k] && at[k] <= high[k]);
+            if found[i].is_none() && in_box && covers(corners, at) {
+                found[i] = Some(t);
             }
         }
     }
