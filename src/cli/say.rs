@@ -6,6 +6,7 @@ use super::{Halt, Volume};
 use indicatif::{ProgressBar, ProgressStyle};
 use miette::{LabeledSpan, MietteDiagnostic, NamedSource};
 use squinch::domain::{Repair, RepairKind};
+use squinch::geometry::Place;
 use squinch::refine::StopReason;
 use squinch::run::report::{FailureReport, InputReport, Report};
 use squinch::run::{Exit, Outcome};
@@ -236,8 +237,9 @@ pub fn number(x: f64, digits: usize) -> String {
 }
 
 /// A place to nine significant digits.
-pub fn place([x, y]: [f64; 2]) -> String {
-    format!("({}, {})", number(x, 9), number(y, 9))
+pub fn place(at: impl Into<Place>) -> String {
+    let coordinates: Vec<String> = at.into().coordinates().iter().map(|&x| number(x, 9)).collect();
+    format!("({})", coordinates.join(", "))
 }
 
 /// "1 region", "2 regions".

@@ -7,12 +7,14 @@ pub mod exact_space;
 mod expansion;
 pub mod order;
 pub mod order_space;
+mod place;
 pub mod rng;
 pub mod space;
 pub mod triangle;
 pub mod written;
 
 pub use kurbo::{Point, Rect, Vec2};
+pub use place::Place;
 
 /// The power of two that brings a coordinate magnitude to between ½ and 1.
 ///

@@ -17,6 +17,7 @@ mod losses;
 mod msh;
 mod names;
 mod obj;
+pub mod solid;
 mod stl;
 mod su2;
 mod triangle;

@@ -230,7 +230,7 @@ impl StopReport {
     pub fn with_unresolved_angles(mut self, verdict: &Verdict) -> Self {
         if let Some(check) = verdict.checks.iter().find(|check| check.name == "min_angle") {
             self.unresolved = check.broken;
-            self.places = check.worst.iter().map(|worst| worst.at).collect();
+            self.places = check.worst.iter().filter_map(|worst| worst.at.in_plane()).collect();
         }
         self
     }

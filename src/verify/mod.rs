@@ -27,12 +27,14 @@ mod edges;
 mod elevation;
 mod evidence;
 mod measures;
+pub mod solid;
 mod tally;
 mod topology;
 
 pub use densities::densities;
 
 use crate::domain::Domain;
+use crate::geometry::Place;
 use crate::ids::TriangleId;
 use crate::mesh::Mesh;
 use crate::promise::Promise;
@@ -84,8 +86,8 @@ pub struct Worst {
     /// The value, in the unit of the check: degrees for angles of triangles, radians for turning, units of the drawing
     /// for lengths, their square for areas, else a ratio.
     pub value: f64,
-    /// The place where it was met, in the drawing's coordinates: [x, y].
-    pub at: [f64; 2],
+    /// The place where it was met, in the coordinates of the drawing or the solid.
+    pub at: Place,
 }
 
 /// Triangles below the angle that a corner exempts.

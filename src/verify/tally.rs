@@ -1,7 +1,7 @@
 //! Counting while a check goes on.
 
 use super::{Check, Status, Worst};
-use crate::geometry::Point;
+use crate::geometry::Place;
 
 /// Sentences kept of one check: enough to see what is wrong, few enough to read.
 const SENTENCES: usize = 10;
@@ -42,9 +42,9 @@ impl Tally {
 
     /// A value met at a place; the worst is kept.
     #[inline]
-    pub fn measure(&mut self, value: f64, at: Point) {
+    pub fn measure(&mut self, value: f64, at: impl Into<Place>) {
         if self.check.worst.is_none_or(|w| (value - w.value) * self.sense > 0.0) {
-            self.check.worst = Some(Worst { value, at: [at.x, at.y] });
+            self.check.worst = Some(Worst { value, at: at.into() });
         }
     }
 
@@ -53,6 +53,18 @@ impl Tally {
         self.check.broken += 1;
         if self.check.flaws.len() < SENTENCES {
             self.check.flaws.push(sentence());
+        }
+    }
+
+    /// Adds what was found elsewhere for the same check.
+    pub fn append(&mut self, other: Self) {
+        self.check.checked += other.check.checked;
+        self.check.broken += other.check.broken;
+        self.check.exempt += other.check.exempt;
+        let room = SENTENCES.saturating_sub(self.check.flaws.len());
+        self.check.flaws.extend(other.check.flaws.into_iter().take(room));
+        if let Some(worst) = other.check.worst {
+            self.measure(worst.value, worst.at);
         }
     }
 

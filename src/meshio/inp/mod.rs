@@ -1,7 +1,7 @@
 //! Abaqus' and CalculiX's input deck.
 
 mod read;
-mod write;
+pub(super) mod write;
 
 use super::losses::Losses;
 use super::{Facts, Reading, begins, one_file};

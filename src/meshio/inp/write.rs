@@ -20,7 +20,7 @@ use crate::meshio::names::{identifier, legal_names, name_comment};
 use std::collections::BTreeSet;
 use std::io::{self, Write};
 
-const LONGEST_NAME: usize = 80;
+pub const LONGEST_NAME: usize = 80;
 const LONGEST_NUMBER: usize = 20;
 
 /// # Errors
@@ -97,7 +97,7 @@ fn write_boundaries(mesh: &Mesh, groups: &Groups, names: &[String], out: &mut im
 }
 
 /// A number in at most [`LONGEST_NUMBER`] characters: exact where it fits, else rounded to as many digits as do.
-fn number(v: f64) -> String {
+pub fn number(v: f64) -> String {
     let exact = format!("{v:?}");
     if exact.len() <= LONGEST_NUMBER {
         return exact;

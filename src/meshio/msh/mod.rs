@@ -1,7 +1,7 @@
 //! Gmsh's MSH: written as 4.1 or 2.2, read from both.
 
 mod read;
-mod write;
+pub(super) mod write;
 
 use super::losses::Losses;
 use super::{Facts, Reading, begins, one_file};

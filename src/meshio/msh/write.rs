@@ -20,7 +20,7 @@ use crate::meshio::names::legal_names;
 use std::io::{self, Write};
 
 /// Gmsh cuts longer names short.
-const LONGEST_NAME: usize = 127;
+pub const LONGEST_NAME: usize = 127;
 
 /// Writes MSH 4.1 in binary, little-endian.
 ///
@@ -92,23 +92,25 @@ fn types(mesh: &Mesh) -> (u32, u32) {
     if mesh.order() == 1 { (1, 2) } else { (8, 9) }
 }
 
+/// A name that can stand between quotation marks, on one line.
+pub fn quotable(name: &str) -> String {
+    let legal: String = name.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
+    legal.replace('"', "'")
+}
+
 fn write_names(groups: &Groups, out: &mut impl Write) -> io::Result<()> {
-    let legal = |name: &str| {
-        let legal: String = name.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
-        legal.replace('"', "'")
-    };
     let (regions, boundaries, points) = (&groups.regions, &groups.boundaries, &groups.points);
     let names = [(0, regions.len() + boundaries.len(), points), (1, regions.len(), boundaries), (2, 0, regions)];
     writeln!(out, "$PhysicalNames\n{}", regions.len() + boundaries.len() + points.len())?;
     for (dimension, before, names) in names {
-        for (i, name) in legal_names(names, LONGEST_NAME, legal).iter().enumerate() {
+        for (i, name) in legal_names(names, LONGEST_NAME, quotable).iter().enumerate() {
             writeln!(out, "{dimension} {} \"{name}\"", before + i + 1)?;
         }
     }
     writeln!(out, "$EndPhysicalNames")
 }
 
-fn section(name: &str, bytes: &Bytes, out: &mut impl Write) -> io::Result<()> {
+pub fn section(name: &str, bytes: &Bytes, out: &mut impl Write) -> io::Result<()> {
     writeln!(out, "${name}")?;
     out.write_all(&bytes.0)?;
     writeln!(out, "\n$End{name}")
@@ -116,19 +118,19 @@ fn section(name: &str, bytes: &Bytes, out: &mut impl Write) -> io::Result<()> {
 
 /// Words as MSH 4.1 has them in binary: `int` of 4, `size_t` and `double` of 8 bytes.
 #[derive(Default)]
-struct Bytes(Vec<u8>);
+pub struct Bytes(pub Vec<u8>);
 
 impl Bytes {
-    fn ints(&mut self, values: impl IntoIterator<Item = usize>) {
+    pub fn ints(&mut self, values: impl IntoIterator<Item = usize>) {
         // Tags and types: below 2³² as ids are, and as tags below 2³¹ for as many names and regions.
         self.0.extend(values.into_iter().flat_map(|v| (v as i32).to_le_bytes()));
     }
 
-    fn sizes(&mut self, values: impl IntoIterator<Item = usize>) {
+    pub fn sizes(&mut self, values: impl IntoIterator<Item = usize>) {
         self.0.extend(values.into_iter().flat_map(|v| (v as u64).to_le_bytes()));
     }
 
-    fn doubles(&mut self, values: impl IntoIterator<Item = f64>) {
+    pub fn doubles(&mut self, values: impl IntoIterator<Item = f64>) {
         self.0.extend(values.into_iter().flat_map(f64::to_le_bytes));
     }
 }

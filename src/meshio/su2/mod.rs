@@ -1,7 +1,7 @@
 //! SU2's native mesh, in two dimensions.
 
 mod read;
-mod write;
+pub(super) mod write;
 
 use super::losses::Losses;
 use super::{Facts, Reading, begins, one_file};

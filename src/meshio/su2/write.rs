@@ -49,7 +49,7 @@ pub fn write(mesh: &Mesh, out: &mut impl Write) -> io::Result<()> {
 }
 
 /// A name as a marker's tag that a configuration can hold.
-fn tag(name: &str) -> String {
+pub fn tag(name: &str) -> String {
     let cut = |c: char| matches!(c, '(' | ')' | '{' | '}' | ':' | ',' | '=' | ';' | '%' | '\\' | '|');
     let tag = word(name).replace(cut, "_");
     if tag.eq_ignore_ascii_case("NONE") { format!("{tag}_") } else { tag }

@@ -1,5 +1,6 @@
 //! VTK XML unstructured grids: our own format, which holds all that a mesh has.
 
+pub(super) mod array;
 mod read;
 mod unpack;
 mod write;

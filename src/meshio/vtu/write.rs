@@ -28,21 +28,13 @@
 //! compresses one block after the other; here each array is made, compressed in parallel blocks and written before
 //! the next.
 
+use super::array::{Array, begin, boundary_numbers, write_names, write_stamps};
 use crate::geometry::Frame;
-use crate::ids::{Id, NameId, RegionId};
+use crate::ids::{NameId, RegionId};
 use crate::mesh::{BallReason, CurveEdge, Mesh};
 use crate::meshio::groups;
-use crate::meshio::names::xml_attribute;
-use crate::threads;
-use base64::Engine;
-use flate2::{Compress, Compression, FlushCompress, Status};
-use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::io::{self, Write};
-
-/// Bytes of a compressed block: a multiple of every word, large enough to compress well, small enough to share among
-/// threads.
-const BLOCK: usize = 1 << 17;
 
 /// Writes a mesh, with stamps (key and value) that say how it was made. The same mesh gives the same bytes.
 ///
@@ -54,7 +46,7 @@ pub fn write(mesh: &Mesh, stamps: &[(String, String)], out: &mut impl Write) -> 
     check(mesh)?;
     begin(out)?;
     writeln!(out, "<FieldData>")?;
-    write_fields(mesh, stamps, &boundary_numbers(mesh), out)?;
+    write_fields(mesh, stamps, &boundary_numbers(mesh.edges.iter().map(|e| e.name)), out)?;
     writeln!(out, "</FieldData>")?;
     write_piece(mesh, false, out)
 }
@@ -70,15 +62,6 @@ pub fn write_plain(mesh: &Mesh, lines: bool, out: &mut impl Write) -> io::Result
         return write_piece(mesh, true, out);
     }
     write_piece(&Mesh { edges: Vec::new(), edge_mids: Vec::new(), ..mesh.clone() }, true, out)
-}
-
-fn begin(out: &mut impl Write) -> io::Result<()> {
-    writeln!(out, "<?xml version=\"1.0\"?>")?;
-    writeln!(
-        out,
-        "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\" \
-         compressor=\"vtkZLibDataCompressor\">\n<UnstructuredGrid>"
-    )
 }
 
 /// The piece and the end of the file; `material`: with the regions as MFEM takes them.
@@ -99,7 +82,7 @@ fn write_piece(mesh: &Mesh, material: bool, out: &mut impl Write) -> io::Result<
     if material {
         Array::of_i32("material", region_numbers(mesh)).write(out)?;
     }
-    write_cell_data(mesh, &boundary_numbers(mesh), out)?;
+    write_cell_data(mesh, &boundary_numbers(mesh.edges.iter().map(|e| e.name)), out)?;
     writeln!(out, "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>")
 }
 
@@ -112,50 +95,17 @@ fn check(mesh: &Mesh) -> io::Result<()> {
     groups::check(mesh)
 }
 
-/// Boundary names numbered from 1 in the order of first use, which a reader recovers.
-fn boundary_numbers(mesh: &Mesh) -> BTreeMap<NameId, i32> {
-    let mut numbers = BTreeMap::new();
-    for edge in &mesh.edges {
-        let next = numbers.len() as i32 + 1;
-        numbers.entry(edge.name).or_insert(next);
-    }
-    numbers
-}
-
 fn write_fields(
     mesh: &Mesh,
     stamps: &[(String, String)],
     boundaries: &BTreeMap<NameId, i32>,
     out: &mut impl Write,
 ) -> io::Result<()> {
-    for (key, value) in stamps {
-        let name = format!("squinch:{key}");
-        match value.parse::<f64>() {
-            Ok(number) if number.to_string() == *value => Array::of_f64(&name, 1, [number]),
-            _ => Array::of_u8(&name, value.as_bytes().to_vec()),
-        }
-        .write_field(out)?;
-    }
-    if let Some(unit) = &mesh.unit {
-        Array::of_u8("unit", unit.as_bytes().to_vec()).write_field(out)?;
-    }
+    write_stamps(stamps, mesh.unit.as_deref(), out)?;
     if let Some(Frame { origin, x, y }) = mesh.frame {
         Array::of_f64("frame", 9, [origin, x, y].concat()).write_field(out)?;
     }
-    // In the order of first use, so that the file is the same whatever the order of the table of names.
-    let mut numbers: BTreeMap<NameId, Vec<i32>> = BTreeMap::new();
-    for (region, &name) in mesh.regions.enumerate() {
-        numbers.entry(name).or_default().push(region.index() as i32 + 1);
-    }
-    for name in mesh.regions.iter() {
-        let Some(numbers) = numbers.remove(name) else { continue };
-        Array::of_i32(&format!("region:{}", mesh.names.text(*name)), numbers).write_field(out)?;
-    }
-    let mut by_number: Vec<(i32, NameId)> = boundaries.iter().map(|(&name, &number)| (number, name)).collect();
-    by_number.sort_unstable();
-    for (number, name) in by_number {
-        Array::of_i32(&format!("boundary:{}", mesh.names.text(name)), [number]).write_field(out)?;
-    }
+    write_names(&mesh.names, &mesh.regions, boundaries, out)?;
     Array::of_i32("point_id", mesh.points.iter().map(|(p, _)| p.0 as i32)).write_field(out)?;
     Array::of_i32("point_node", mesh.points.iter().map(|(_, v)| v.0 as i32)).write_field(out)?;
     Array::of_i32("ball_corner_point", mesh.balls.iter().map(|b| b.corner.0 as i32)).write_field(out)?;
@@ -199,93 +149,10 @@ fn write_cell_data(mesh: &Mesh, boundaries: &BTreeMap<NameId, i32>, out: &mut im
     if !mesh.colours.is_empty() {
         let drawn = |region: &RegionId| mesh.colours.get(&mesh.regions[*region]).map_or([0; 4], |colour| colour.0);
         let bytes: Vec<u8> = mesh.triangle_regions.iter().flat_map(drawn).chain(vec![0; 4 * lines]).collect();
-        Array { components: 4, ..Array::of_u8("colour", bytes) }.write(out)?;
+        Array::of_u8("colour", bytes).in_tuples(4).write(out)?;
     }
     let curve = |e: &CurveEdge| e.link.map_or(-1, |link| link.curve.0 as i32);
     Array::of_i32("curve", no(-1, triangles).chain(mesh.edges.iter().map(curve))).write(out)?;
     let t = mesh.edges.iter().flat_map(|e| e.link.map_or([0.0; 2], |link| link.t));
     Array::of_f64("t", 2, std::iter::repeat_n(0.0, 2 * triangles).chain(t)).write(out)
-}
-
-/// One `DataArray`, its values as little-endian bytes.
-struct Array<'a> {
-    name: &'a str,
-    kind: &'static str,
-    components: usize,
-    values: usize,
-    bytes: Vec<u8>,
-}
-
-impl<'a> Array<'a> {
-    fn of_i32(name: &'a str, values: impl IntoIterator<Item = i32>) -> Self {
-        let bytes: Vec<u8> = values.into_iter().flat_map(i32::to_le_bytes).collect();
-        Self { name, kind: "Int32", components: 1, values: bytes.len() / 4, bytes }
-    }
-
-    fn of_f64(name: &'a str, components: usize, values: impl IntoIterator<Item = f64>) -> Self {
-        let bytes: Vec<u8> = values.into_iter().flat_map(f64::to_le_bytes).collect();
-        Self { name, kind: "Float64", components, values: bytes.len() / 8, bytes }
-    }
-
-    fn of_u8(name: &'a str, bytes: Vec<u8>) -> Self {
-        Self { name, kind: "UInt8", components: 1, values: bytes.len(), bytes }
-    }
-
-    /// A field array also says how many tuples it has: VTK cannot know otherwise. An empty list is left out; an empty
-    /// text is kept.
-    fn write_field(&self, out: &mut impl Write) -> io::Result<()> {
-        if self.values == 0 && !self.name.starts_with("squinch:") {
-            return Ok(());
-        }
-        self.write_with(&format!(" NumberOfTuples=\"{}\"", self.values / self.components), out)
-    }
-
-    fn write(&self, out: &mut impl Write) -> io::Result<()> {
-        self.write_with("", out)
-    }
-
-    fn write_with(&self, more: &str, out: &mut impl Write) -> io::Result<()> {
-        let name = xml_attribute(self.name);
-        let components =
-            if self.components == 1 { String::new() } else { format!(" NumberOfComponents=\"{}\"", self.components) };
-        let format = if self.bytes.is_empty() { "ascii" } else { "binary" };
-        writeln!(out, "<DataArray type=\"{}\" Name=\"{name}\"{components}{more} format=\"{format}\">", self.kind)?;
-        if !self.bytes.is_empty() {
-            write_compressed(&self.bytes, out)?;
-        }
-        writeln!(out, "\n</DataArray>")
-    }
-}
-
-/// Header (number of blocks, block size, size of a last partial block, compressed sizes) and blocks, each as base64.
-fn write_compressed(bytes: &[u8], out: &mut impl Write) -> io::Result<()> {
-    let blocks: Vec<&[u8]> = bytes.chunks(BLOCK).collect();
-    let blocks: Vec<Vec<u8>> =
-        threads::map(&blocks, |block| compressed(block)).into_iter().collect::<io::Result<_>>()?;
-    let mut header = vec![blocks.len() as u64, BLOCK as u64, (bytes.len() % BLOCK) as u64];
-    header.extend(blocks.iter().map(|b| b.len() as u64));
-    let header: Vec<u8> = header.into_iter().flat_map(u64::to_le_bytes).collect();
-    let base64 = &base64::engine::general_purpose::STANDARD;
-    out.write_all(base64.encode(header).as_bytes())?;
-    out.write_all(base64.encode(blocks.concat()).as_bytes())
-}
-
-thread_local! {
-    /// Each thread keeps its compressor: to make one, a third of a megabyte has to be cleared.
-    static DEFLATE: RefCell<Compress> = RefCell::new(Compress::new(Compression::fast(), true));
-}
-
-/// A block as a zlib stream.
-fn compressed(block: &[u8]) -> io::Result<Vec<u8>> {
-    DEFLATE.with_borrow_mut(|deflate| {
-        deflate.reset();
-        let mut out = Vec::with_capacity(BLOCK / 4);
-        loop {
-            let done = deflate.total_in() as usize;
-            match deflate.compress_vec(&block[done..], &mut out, FlushCompress::Finish)? {
-                Status::StreamEnd => return Ok(out),
-                Status::Ok | Status::BufError => out.reserve(BLOCK / 4),
-            }
-        }
-    })
 }
