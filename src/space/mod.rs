@@ -28,7 +28,7 @@ use insert::{Kernel, Refusal};
 
 /// A vertex' weight is at most this part of the squared distance to the nearest vertex, when it is inserted. Vertices that
 /// are inserted later may be seven times nearer before the bound of 1e-6 on the finished mesh is reached.
-const WEIGHT: f64 = 2e-8;
+const WEIGHT: f64 = 1e-7;
 
 /// The vertices of the far tetrahedron.
 const FAR: usize = 4;
