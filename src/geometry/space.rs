@@ -3,26 +3,31 @@
 use super::{Frame, Point, Vec2};
 
 /// The vector sum a + b.
+#[inline]
 pub fn plus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     std::array::from_fn(|k| a[k] + b[k])
 }
 
 /// The difference a − b.
+#[inline]
 pub fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     std::array::from_fn(|k| a[k] - b[k])
 }
 
 /// The vector `a` times a number.
+#[inline]
 pub fn times(a: [f64; 3], factor: f64) -> [f64; 3] {
     a.map(|x| x * factor)
 }
 
 /// The dot product a · b.
+#[inline]
 pub fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 /// The cross product a × b.
+#[inline]
 pub fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }

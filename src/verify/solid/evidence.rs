@@ -63,6 +63,7 @@ impl<'a> Evidence<'a> {
         }
     }
 
+    #[inline]
     pub fn node(&self, v: VertexId) -> [f64; 3] {
         self.mesh.nodes[v]
     }

@@ -11,6 +11,7 @@
 //! same. A filter decides most signs; the rest are whole numbers, since a finite `f64` is one times a power of two. No
 //! range is excluded: [`Int`] is as long as the numbers ask for.
 
+use crate::geometry::space::{dot, minus};
 use std::cmp::Ordering;
 
 /// A point and its weight.
@@ -29,12 +30,13 @@ pub fn power_side(tetrahedron: [Weighted; 4], e: Weighted) -> Ordering {
 /// product of both by 15ε, the sum of four by 17ε. Terms in ε² and the rounding of the bound itself are within the 20ε
 /// that it has.
 fn filtered(tetrahedron: &[Weighted; 4], (e, w): Weighted) -> Option<Ordering> {
-    let [a, b, c, d] = tetrahedron.map(|(p, _)| [p[0] - e[0], p[1] - e[1], p[2] - e[2]]);
-    let lifts = tetrahedron.map(|(p, v)| {
-        let square = [0, 1, 2].map(|k| (p[k] - e[k]) * (p[k] - e[k]));
-        let square = square[0] + square[1] + square[2];
+    let [a, b, c, d] = tetrahedron.map(|(p, _)| minus(p, e));
+    let lift = |p: [f64; 3], v: f64| {
+        let square = dot(p, p);
         (square - (v - w), square + (v - w).abs())
-    });
+    };
+    let [(_, wa), (_, wb), (_, wc), (_, wd)] = *tetrahedron;
+    let lifts = [lift(a, wa), lift(b, wb), lift(c, wc), lift(d, wd)];
     let minors = [minor(b, c, d), minor(a, c, d), minor(a, b, d), minor(a, b, c)];
     let term = |i: usize| lifts[i].0 * minors[i].0;
     let det = (term(3) - term(2)) + (term(1) - term(0));
@@ -51,6 +53,7 @@ fn filtered(tetrahedron: &[Weighted; 4], (e, w): Weighted) -> Option<Ordering> {
 }
 
 /// A determinant of three rows, and the same sum with absolute values.
+#[inline]
 fn minor(u: [f64; 3], v: [f64; 3], w: [f64; 3]) -> (f64, f64) {
     let part = |k: usize, i: usize, j: usize| {
         let (left, right) = (v[i] * w[j], v[j] * w[i]);
@@ -147,26 +150,29 @@ impl<const N: usize> Int<N> {
         if x < 0.0 { Self([0; N]).less(size) } else { size }
     }
 
-    fn plus(self, other: Self) -> Self {
+    #[inline]
+    fn plus(mut self, other: Self) -> Self {
         let mut carry = false;
-        Self(std::array::from_fn(|i| {
-            let (sum, over) = self.0[i].overflowing_add(other.0[i]);
+        for (word, more) in self.0.iter_mut().zip(other.0) {
+            let (sum, over) = word.overflowing_add(more);
             let (sum, again) = sum.overflowing_add(u64::from(carry));
-            carry = over || again;
-            sum
-        }))
+            (*word, carry) = (sum, over || again);
+        }
+        self
     }
 
-    fn less(self, other: Self) -> Self {
+    #[inline]
+    fn less(mut self, other: Self) -> Self {
         let mut borrow = false;
-        Self(std::array::from_fn(|i| {
-            let (rest, under) = self.0[i].overflowing_sub(other.0[i]);
+        for (word, less) in self.0.iter_mut().zip(other.0) {
+            let (rest, under) = word.overflowing_sub(less);
             let (rest, again) = rest.overflowing_sub(u64::from(borrow));
-            borrow = under || again;
-            rest
-        }))
+            (*word, borrow) = (rest, under || again);
+        }
+        self
     }
 
+    #[inline]
     fn times(self, other: Self) -> Self {
         let mut product = [0u64; N];
         for i in 0..N {
