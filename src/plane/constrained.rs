@@ -137,11 +137,11 @@ impl Constrained {
     /// The first vertex on the segment, or the first subcurve that crosses it; nothing is changed then.
     ///
     /// ```text
-    ///         p─────r                      p─────r          p q, p s and r s cross a b. One whose triangles are strictly
-    ///      .´ │╲    │ `.                .´ .-´     `.       convex is flipped to the diagonal c d: here to a s, a r, a b.
-    ///   a┄┄┄┄┄│┄┄╲┄┄│┄┄┄┄┄b    ─▶    a─────────────────b    The others, and a c d that still crosses a b, wait in the queue.
-    ///      `. │    ╲│ .´                `. `-.     .´
-    ///         q─────s                      q─────s
+    ///        p─────r                      p─────r          p q, p s, r s cross a b. If its two triangles are strictly
+    ///     .´ │╲    │ `.                .´ .-´     `.       convex, one is flipped to its diagonal c d: a s, a r, a b.
+    ///  a┄┄┄┄┄│┄┄╲┄┄│┄┄┄┄┄b    ─▶    a─────────────────b    Else, or if c d still crosses a b, it goes to the end.
+    ///     `. │    ╲│ .´                `. `-.     .´
+    ///        q─────s                      q─────s
     /// ```
     pub fn join(&mut self, a: VertexId, b: VertexId, subcurve: SubcurveId) -> Result<HalfEdge, Obstacle> {
         let mut crossing: VecDeque<[VertexId; 2]> = self.crossings(a, b)?.into();
