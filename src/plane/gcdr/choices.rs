@@ -1,4 +1,4 @@
-//! What a user can choose of the engine: its parameters, and who chooses points.
+//! The options of the engine: its parameters, and the strategy that chooses points.
 
 use super::SteinerStrategy;
 use super::parameters::{Regions, radius_edge_of};
@@ -15,8 +15,8 @@ use std::fmt;
 #[serde(rename_all = "kebab-case", default)]
 pub struct Choices {
     /// With gcdr: points in triangles lie within r(1 - delta2) of the circumcenter, off-centres and optimal points
-    /// within r - delta2 l/(2 sin angle), where l is the shortest edge
-    /// [default: 1; with strategies that choose within disks that are alike the least that the angle allows]
+    /// within r - delta2 l/(2 sin angle), where l is the shortest edge [default: 1; with strategies that choose within
+    /// disks that are alike the least that the angle allows]
     #[schemars(extend("group" = "gcdr", "value" = "D", "rare" = true))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub delta2: Option<f64>,
@@ -24,7 +24,8 @@ pub struct Choices {
     #[schemars(extend("group" = "gcdr", "value" = "D", "rare" = true))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub delta1: Option<f64>,
-    /// With gcdr: so do those with a vertex of another segment nearby, for |s|(1 - mu) [default: 1]
+    /// With gcdr: points on segments that have a vertex of another segment nearby lie in the middle part of length
+    /// |s|(1 - mu) [default: 1]
     #[schemars(extend("group" = "gcdr", "value" = "M", "rare" = true))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mu: Option<f64>,
@@ -79,8 +80,8 @@ impl Choices {
         }
     }
 
-    /// δ₂, δ₁ and μ as given; where not: 1, but the widest disks that the angle leaves to a strategy whose disks are
-    /// alike and that would not take centres.
+    /// δ₂, δ₁ and μ as given. Those not given are 1; but for a strategy with equal disks that does not choose centres,
+    /// δ₂ is the least that the angle (radians) allows.
     pub fn regions(&self, angle_min_rad: f64) -> Regions {
         let default = match self.steiner {
             Steiner::Center | Steiner::Offcenter | Steiner::Optimal | Steiner::OffcenterFree | Steiner::OptimalFree => {
@@ -97,7 +98,7 @@ impl Choices {
         }
     }
 
-    /// Who chooses the points, for a smallest angle.
+    /// The strategy, for a smallest angle in radians.
     pub fn strategy(&self, angle_min_rad: f64) -> Box<dyn SteinerStrategy> {
         match self.steiner {
             Steiner::Center => Box::new(steiner::Center),
@@ -158,7 +159,7 @@ impl Steiner {
         Self::OptimalFree,
     ];
 
-    /// Whether its points are taken wherever they lie, as [`SteinerStrategy::is_free`] says: nothing is promised then.
+    /// Whether its points are taken wherever they lie ([`SteinerStrategy::is_free`]). Then nothing is guaranteed.
     pub fn is_free(self) -> bool {
         match self {
             Self::OffcenterFree | Self::OptimalFree => true,

@@ -73,10 +73,10 @@ impl Lopping {
     /// 180°, and the larger is at least 90°. Both are 90° only if all four are cocircular; then a b is flipped.
     ///
     /// ```text
-    ///        . - ~ - .     z lies in the open diametral          b        x y is no edge: a b crosses it. ∠xay + ∠ybx ≥ 180°.
-    ///      .´    z    `.   circle of x y: it encroaches        ╱ │ ╲      So a or b lies in the circle of x y, or all four
-    ///     x ─────────── y  the subcurve.                     ╱   │   ╲    are cocircular and a b is flipped.
-    ///      `.         .´                                   x ┄┄┄┄┼┄┄┄┄ y
+    ///        . - ~ - .     z lies in the open diametral          b        x y is no edge: a b crosses it.
+    ///      .´    z    `.   circle of x y: it encroaches        ╱ │ ╲      ∠xay + ∠ybx ≥ 180°: a or b lies in
+    ///     x ─────────── y  the subcurve.                     ╱   │   ╲    the circle of x y, or all four are
+    ///      `.         .´                                   x ┄┄┄┄┼┄┄┄┄ y  cocircular, and a b is flipped.
     ///        ` - ~ - ´                                       ╲   │   ╱
     ///                                                          ╲ │ ╱
     ///                                                            a
