@@ -1,10 +1,18 @@
 //! Order 2: a node within every edge, on the true curve where the edge lies on one, and every cell valid.
 //!
 //! A cell is valid where its Jacobian determinant is positive throughout ([`quality::is_valid`] proves it by Bézier
-//! bounds). The node of a curved side is where the curve crosses the bisector of its chord, which keeps the map even.
-//! Where a cell is not valid so, other places on the curve are tried; where none will do, as in the cell between two
-//! tangent curves, a side is straightened and listed. Sides only ever go from one place to the next and at last
-//! straight, and a cell with straight sides is valid: the search ends.
+//! bounds). The node of a curved side lies where the curve crosses the bisector of its chord, which keeps the map even.
+//! If a cell is not valid with it, other places on the curve are tried. If none makes it valid, as in the cell between
+//! two tangent curves, a side is straightened and listed. A straightened side stays straight, and a cell with straight
+//! sides is valid: so the search ends.
+//!
+//! ```text
+//!             b       The curved side a b has its chord ┆ and its node m on the curve:
+//!           ╱ ┆`.     1. where the curve crosses the bisector of the chord,
+//!         m₂  ┆  m    2. else at the parameter share 0.5, 0.45, 0.55, …,
+//!       ╱     ┆  :    3. else at the midpoint of the chord: the side is straightened.
+//!     c ──m₁──a.´
+//! ```
 
 use super::{Mesh, quality};
 use crate::curve::Curve;
@@ -12,8 +20,7 @@ use crate::domain::Domain;
 use crate::geometry::Point;
 use crate::ids::{Id, IdVec, TriangleId, VertexId};
 
-/// Places tried after the bisector, as shares of the way from one end to the other in the curve's parameter: middle
-/// first.
+/// The places tried after the bisector, as shares of the parameter range from one end to the other: the middle first.
 const PLACES: [f64; 7] = [0.5, 0.45, 0.55, 0.4, 0.6, 0.33, 0.67];
 
 /// An edge of the mesh and what lies within it.
@@ -22,14 +29,14 @@ struct Edge {
     mid: VertexId,
     /// The cells beside it.
     cells: [Option<TriangleId>; 2],
-    /// The place in `Mesh::edges`, of an edge on a curve that is not straight.
+    /// The place in `Mesh::edges`, for an edge on a curve that is not straight.
     curved: Option<usize>,
 }
 
-/// Makes a mesh of order 1 one of order 2. Returns the curved edges (places in `Mesh::edges`) that had to be
+/// Elevates a mesh from order 1 to order 2. Returns the curved edges (places in `Mesh::edges`) that had to be
 /// straightened, ascending.
 ///
-/// Edges are linked to the curves of `domain`; its cells run counter-clockwise.
+/// The edges of the mesh must be linked to the curves of `domain`, and its cells run counter-clockwise.
 pub fn elevate(mesh: &mut Mesh, domain: &Domain) -> Vec<usize> {
     let edges = edges(mesh, domain);
     let mut sides: IdVec<TriangleId, [u32; 3]> = vec![[0; 3]; mesh.triangles.len()].into();
@@ -99,7 +106,7 @@ struct Elevation<'a> {
 }
 
 impl Elevation<'_> {
-    /// The curve of a curved edge and the parameters of its ends.
+    /// The curve of a curved edge and the parameters of its ends; `None` where the edge is not curved.
     fn stretch(&self, edge: usize) -> Option<(&Curve, [f64; 2])> {
         let link = self.mesh.edges[self.edges[edge].curved?].link?;
         Some((&self.domain.curves()[link.curve].curve, link.t))
@@ -148,8 +155,8 @@ impl Elevation<'_> {
         self.sides[t].into_iter().map(|e| e as usize).filter(|&e| self.edges[e].curved.is_some())
     }
 
-    /// Moves the node of one curved side along its curve until the cells on both sides are valid; `false`, and nothing
-    /// moved, where no place will do.
+    /// Moves the node of one curved side along its curve until the cells on both sides are valid. `false`, and nothing
+    /// moved, where there is no such place.
     fn move_a_node(&mut self, t: TriangleId) -> bool {
         let sides: Vec<usize> = self.curved_sides(t).collect();
         for edge in sides {

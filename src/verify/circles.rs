@@ -1,8 +1,18 @@
-//! What lies in the diametral circles of the curves' edges: nodes that encroach, and edges that cross.
+//! The diametral circles of the edges on curves: nodes that encroach them, and edges that cross.
 //!
-//! Two segments that cross are the diagonals of a quadrilateral, one of whose angles is 90° or more: that corner lies
-//! in the closed diametral circle of the diagonal that faces it. So whoever looks at the nodes in every circle has met
-//! every crossing.
+//! Two segments that cross are the diagonals of a quadrilateral. One of its angles is 90° or more, and that corner lies
+//! in the closed diametral circle of the diagonal that faces it. So a test of the nodes in every circle finds every
+//! crossing.
+//!
+//! ```text
+//!             v
+//!          .´ │ `.        x y and v w cross. The angles of x w y v add up to 360°:
+//!        .´   │   `.      one of them, here that at v, is 90° or more.
+//!      x ─────┼───── y    So v lies in the closed diametral circle of x y,
+//!        `.   │   .´      where it is found, and v w is tested against x y.
+//!          `. │ .´
+//!             w
+//! ```
 
 use super::evidence::{CurvePart, Evidence, place};
 use super::tally::Tally;
@@ -15,17 +25,17 @@ use crate::ids::{Id, VertexId};
 use crate::threads;
 use std::sync::atomic::{AtomicU32, Ordering};
 
-/// No such node or piece.
+/// No such node or curve part.
 const NONE: u32 = u32::MAX;
 
-/// By piece: the first node in its open diametral circle, and the first piece that crosses it.
+/// By curve part: the first node in its open diametral circle, and the first curve part whose edge crosses its edge.
 pub struct Circles {
     intruder: Vec<AtomicU32>,
     crossing: Vec<AtomicU32>,
 }
 
 impl Circles {
-    /// Looks into every circle by a hierarchy over their boxes.
+    /// Tests all nodes against all circles, by a hierarchy over their boxes.
     pub fn look(ev: &Evidence, domain: &Domain) -> Self {
         let none = || ev.pieces.iter().map(|_| AtomicU32::new(NONE)).collect();
         let circles = Self { intruder: none(), crossing: none() };
@@ -46,7 +56,8 @@ impl Circles {
         circles
     }
 
-    /// Takes down what a node near a piece means. The smallest ids win, in whatever order nodes are looked at.
+    /// Notes whether the node `v` encroaches the curve part `i`, and whether an edge at `v` crosses it. The smallest
+    /// ids are kept, so the order of the nodes does not matter.
     fn note(&self, ev: &Evidence, balls: &[(VertexId, f64)], at_node: &PiecesAtNodes, i: usize, v: VertexId) {
         let piece = &ev.pieces[i];
         if piece.nodes.contains(&v) {
@@ -72,7 +83,7 @@ impl Circles {
         }
     }
 
-    /// Chords that cross although their curves do not: the triangles beside them would overlap.
+    /// Reports chords that cross although their curves do not: the triangles beside them overlap.
     pub fn tell_crossings(&self, ev: &Evidence, tally: &mut Tally) {
         if ev.promise.is_constrained() {
             self.tell_nodes_on_chords(ev, tally);
@@ -86,7 +97,7 @@ impl Circles {
         }
     }
 
-    /// Of a constrained mesh: an open circle counts only for the nodes on the chord itself.
+    /// Reports nodes on a chord: in a constrained mesh only these count as intruders.
     fn tell_nodes_on_chords(&self, ev: &Evidence, tally: &mut Tally) {
         for (piece, intruder) in ev.pieces.iter().zip(&self.intruder) {
             let intruder = intruder.load(Ordering::Relaxed);
@@ -96,10 +107,10 @@ impl Circles {
         }
     }
 
-    /// No node lies inside the diametral circle of a curve's edge (Lemma 6). A spoke's circle lies in its ball and
-    /// touches the rim, on which nodes are rounded: where curves leave a corner close to each other, a neighbour on the
-    /// rim does not count. Checked: edges. Worst: the smallest distance of a node from the circle's centre, in radii,
-    /// of those that encroach and those across from an edge.
+    /// No node lies inside the diametral circle of an edge on a curve (Lemma 6). The circle of a spoke lies in its ball
+    /// and touches the rim, on which nodes are rounded. So where curves leave a corner close to each other, a neighbour
+    /// on the rim does not count. Checked: edges. Worst: the smallest distance of a node from the circle's centre, in
+    /// radii, of those that encroach and those across from an edge.
     pub fn empty(&self, ev: &Evidence, domain: &Domain) -> Check {
         let mut tally = Tally::lowest("empty_diametral");
         for (piece, intruder) in ev.pieces.iter().zip(&self.intruder) {
@@ -119,7 +130,7 @@ impl Circles {
     }
 }
 
-/// The pieces that end at each node.
+/// The curve parts that end at each node.
 struct PiecesAtNodes {
     first: Vec<u32>,
     pieces: Vec<u32>,
@@ -174,7 +185,7 @@ fn ball_at_nodes(ev: &Evidence, domain: &Domain) -> Vec<(VertexId, f64)> {
     balls
 }
 
-/// Whether a piece is a spoke, from a corner to the rim of its ball, and a node lies on that rim too, or outside.
+/// Whether a curve part is a spoke, from a corner to the rim of its ball, and a node lies on that rim too, or outside.
 fn is_on_rim(ev: &Evidence, balls: &[(VertexId, f64)], piece: &CurvePart, v: VertexId) -> bool {
     let [x, y] = piece.nodes;
     [(x, y), (y, x)].into_iter().any(|(corner, end)| {

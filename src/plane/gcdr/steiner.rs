@@ -116,9 +116,9 @@ impl SteinerStrategy for Center {
     }
 }
 
-/// The off-centre (Üngör 2004): on the way to the circumcenter, as far from the shortest edge as its triangle with that
-/// edge is not skinny. It is at least 0.95cos²(κ/2)/sin κ > ρ̄ edge lengths from that edge, so it lies in its
-/// [disk](Disks::ByShape) as long as δ₂ ≤ 1.
+/// The off-centre (Üngör 2004): the place on the way to the circumcenter that is farthest from the shortest edge while
+/// its triangle with that edge is not skinny. It is at least 0.95cos²(κ/2)/sin κ > ρ̄ edge lengths from that edge, so
+/// it lies in its [disk](Disks::ByShape) as long as δ₂ ≤ 1.
 #[derive(Clone, Copy, Debug)]
 pub struct OffCenter {
     /// Distance from the shortest edge, in lengths of that edge.
