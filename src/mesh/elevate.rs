@@ -23,7 +23,7 @@ use crate::ids::{Id, IdVec, TriangleId, VertexId};
 /// The places tried after the bisector, as shares of the parameter range from one end to the other: the middle first.
 const PLACES: [f64; 7] = [0.5, 0.45, 0.55, 0.4, 0.6, 0.33, 0.67];
 
-/// An edge of the mesh and what lies within it.
+/// An edge of the mesh, with the node within it.
 struct Edge {
     ends: [VertexId; 2],
     mid: VertexId,
@@ -91,7 +91,7 @@ fn edges(mesh: &Mesh, domain: &Domain) -> Vec<Edge> {
     edges
 }
 
-/// The edges that the mesh lists, and their places among all.
+/// The edges listed in the mesh, by place in `Mesh::edges`, with their places among all edges.
 fn listed(mesh: &Mesh, edges: &[Edge]) -> Vec<(usize, usize)> {
     let place = |ends| edges.binary_search_by_key(&ascending(ends), |e: &Edge| e.ends).ok();
     mesh.edges.iter().enumerate().filter_map(|(i, e)| Some((i, place(e.nodes)?))).collect()
@@ -112,7 +112,7 @@ impl Elevation<'_> {
         Some((&self.domain.curves()[link.curve].curve, link.t))
     }
 
-    /// Moves the node of every curved edge to its curve's crossing with the bisector.
+    /// Moves the node of every curved edge to the crossing of its curve with the bisector of its chord.
     fn bend(&mut self) {
         for edge in 0..self.edges.len() {
             if let Some((curve, [t0, t1])) = self.stretch(edge) {
@@ -174,7 +174,8 @@ impl Elevation<'_> {
         false
     }
 
-    /// The flattest curved side of a cell that, straight, makes it valid; where none does, the most bent one.
+    /// The curved side of a cell to straighten: the flattest one that makes the cell valid once it is straight; where
+    /// none does, the most bent one.
     fn edge_to_straighten(&mut self, t: TriangleId) -> Option<usize> {
         let mut sides: Vec<(f64, usize)> = self.curved_sides(t).map(|e| (self.sagitta(e), e)).collect();
         sides.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));

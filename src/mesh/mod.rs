@@ -25,7 +25,7 @@ pub struct Mesh {
     pub names: Names,
     /// The colours of regions, by name, where the drawing has some.
     pub colours: std::collections::BTreeMap<NameId, Colour>,
-    /// For each node that is a point of P: which (sorted by point).
+    /// The points of P that are nodes, each with its node; sorted by point.
     pub points: Vec<(PointId, VertexId)>,
     /// Nodes that have a name of their own, by node.
     pub named_nodes: Vec<(VertexId, NameId)>,
@@ -53,7 +53,7 @@ pub struct CurveEdge {
     pub link: Option<CurveLink>,
 }
 
-/// The part of a curve of the domain that a mesh edge stands for.
+/// The part of a curve of the domain that a mesh edge approximates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CurveLink {
     /// The curve in the domain.
@@ -151,7 +151,7 @@ impl Mesh {
         self
     }
 
-    /// All coordinates and radii times a power of two: exact.
+    /// The mesh with all coordinates and radii multiplied by `factor`, a power of two: exact.
     pub fn scaled(mut self, factor: f64) -> Self {
         for p in self.nodes.iter_mut() {
             *p = crate::geometry::scaled(*p, factor);

@@ -586,7 +586,7 @@ mod tests {
 
     #[test]
     fn two_spheres_or_a_pinched_star_are_no_triangulation() {
-        // The same wheel once more, over the same vertices: every side is sound, no star is whole.
+        // The same wheel once more, over the same vertices: every half-edge is sound, no star is whole.
         let twice = |t: &mut Triangulation| {
             let shift = t.net.len() as u32;
             let copy: Vec<Record> = t.net.records.clone();

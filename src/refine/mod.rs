@@ -216,9 +216,9 @@ pub struct Stop {
     pub reason: StopReason,
     /// Cells that still miss a bound.
     pub unresolved: usize,
-    /// Some of the places where refinement is unresolved.
+    /// The places of some of them.
     pub places: Vec<Point>,
-    /// The smallest angle that the mesh was refined to, in degrees, where it is another than was asked for.
+    /// The smallest angle to which the mesh was refined, in degrees, where it is not the one asked for.
     pub angle_deg: Option<f64>,
 }
 

@@ -47,7 +47,7 @@ pub struct Evidence<'a> {
     pub edges: EdgeTable,
     /// Parts of curves in the mesh's order; in a foreign mesh as the verifier found them, by curve and parameter.
     pub pieces: Vec<CurvePart>,
-    /// Listed edges whose link is missing or leads off its curve.
+    /// Listed edges without a link, or with a parameter outside 0..1.
     pub unlinked: Vec<usize>,
     /// The classes of regions.
     pub classes: Classes,

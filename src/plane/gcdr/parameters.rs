@@ -37,7 +37,7 @@ pub fn radius_edge_of(angle_rad: f64) -> f64 {
 }
 
 impl Regions {
-    /// All regions are their centres: Chew's second algorithm (1993), where disks are alike.
+    /// All regions are their centres: with equal disks Chew's second algorithm (1993).
     pub const CENTERS: Self = Self { delta2: 1.0, delta1: 1.0, mu: 1.0 };
 
     /// The largest disks for points in triangles that ρ̄ allows (3.1); midpoints on segments.

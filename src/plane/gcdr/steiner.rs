@@ -64,13 +64,13 @@ pub enum Order {
 pub enum Disks {
     /// r(1−δ₂), as printed (Definition 3.1).
     Alike,
-    /// r − δ₂ρ̄l: the skinnier the triangle, the larger a part of its circle, as in the second kind of disk of
-    /// Chernikov & Chrisochoides (2009).
+    /// r − δ₂ρ̄l: a larger part of the circle for a skinnier triangle, as in the second kind of disk of Chernikov &
+    /// Chrisochoides (2009).
     ///
-    /// That is Definition 3.1 with a δ₂ of the triangle's own, δ = δ₂ρ̄l/r, and Theorem 4.6 holds with the constants
-    /// printed: case (1) since R(p) ≥ δr = C₁l; case (2) since Lemma 4.5 needs no more than δ ≥ l/r, and δ₂ρ̄ ≥ 1 by
-    /// (3.1); case (3) since half the segment, √(r² − (r − δ₂ρ̄l)²) at least, grows with r, and for r = ρ̄l is what
-    /// (4.5) says. So insertion radii are bounded, and refinement ends, where C₁C₂ > 1. Densities are not bounded so:
+    /// That is Definition 3.1 with δ = δ₂ρ̄l/r in place of δ₂, a value for each triangle. Theorem 4.6 holds with the
+    /// constants as printed. Case (1): R(p) ≥ δr = C₁l. Case (2): Lemma 4.5 needs only δ ≥ l/r, and δ₂ρ̄ ≥ 1 by (3.1).
+    /// Case (3): half the segment is at least √(r² − (r − δ₂ρ̄l)²). That grows with r, and at r = ρ̄l it is the value
+    /// of (4.5). So insertion radii are bounded, and refinement terminates, where C₁C₂ > 1. Densities are not bounded:
     /// B₁ = (2−δ)/δ has no largest value.
     ByShape,
 }
@@ -238,7 +238,8 @@ fn leaves_disk(a: Point, b: Point, center: Point, radius: f64) -> Option<Point> 
         .map(|t| a + d * t)
 }
 
-/// The border of every region, as near to a corner or an end as may be (experiment 1 of the paper).
+/// The place on the border of the region that is nearest to a corner of the triangle or an end of the segment
+/// (experiment 1 of the paper).
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Extreme;
 
@@ -275,7 +276,7 @@ impl SteinerStrategy for Random {
     }
 }
 
-/// The point of a square grid nearest to the centre, where the region has one; else the centre.
+/// The point of a square grid nearest to the centre, if it lies in the region; else the centre.
 #[derive(Clone, Copy, Debug)]
 pub struct Grid {
     /// The distance between neighbouring grid points; the origin is one of them.
@@ -290,7 +291,7 @@ impl SteinerStrategy for Grid {
     }
 }
 
-/// The given place nearest to the centre, where the region has one; else the centre.
+/// The given place nearest to the centre, if it lies in the region; else the centre.
 pub struct Places {
     places: Vec<Point>,
     boxes: BoxHierarchy,
