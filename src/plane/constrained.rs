@@ -107,6 +107,14 @@ impl Constrained {
 
     /// Looks: finds the triangles that have `p` inside their circle and visible from their inside, given where `p`
     /// lies. Empty where `p` is a vertex.
+    ///
+    /// ```text
+    ///         d          a d is constrained: the cavity of p is (d, a, b) and (b, c, d).
+    ///      .´┃ ╲`.       (d, e, a) is kept although its circle holds p: p is not visible
+    ///   e   ┃ p ╲   c    from its inside.
+    ///    ╲ ┃     ╲ ╱
+    ///     a───────b
+    /// ```
     pub fn cavity(&self, p: Point, at: Location, cavity: &mut Cavity) {
         self.delaunay.cavity_within(|s| self.is_piece(s), p, at, cavity);
     }

@@ -1,8 +1,8 @@
 //! Corner lopping (Pav & Walkington 2005, *Delaunay Refinement by Corner Lopping*, Algorithm 1, with the corner arcs of
 //! section 6).
 //!
-//! The engine keeps P′ ⊇ P, the subcurves C′ and D(P′), the whole Delaunay triangulation. It applies the first rule
-//! that applies:
+//! The engine keeps P′ ⊇ P, the subcurves C′ and D(P′), the whole Delaunay triangulation. A step applies the first of
+//! these rules whose condition holds:
 //!
 //! 1. *splitball*: a vertex lies in the ball B(p) of an acute corner. d(p) shrinks by β, and each curve at p is split
 //!    where it leaves the ball.
@@ -301,7 +301,7 @@ impl Lopping {
 impl Engine for Lopping {
     type Outcome = Result<Refined, RefineError>;
 
-    /// Applies the first rule that applies. `false`: none does, or the run is over.
+    /// Applies the first rule whose condition holds. `false`: none holds, or the run is over.
     fn step(&mut self) -> bool {
         match self.first_rule() {
             Rule::ShrinkBall(ball) => self.shrink_ball(ball),

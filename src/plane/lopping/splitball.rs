@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!              x.       z, a vertex of a curve that does not end at p, lies in B(p), at the distance intruder < d(p).
-//!            ╱   `.     d(p) ← β·d(p), until z is outside. Each spoke is split where its curve leaves the new ball.
+//!            ╱   `.     d(p) ← β·d(p), until z is outside (Literal: once). Each spoke is split at the new border.
 //!          x′  z   `.   p x′ and p y′ are the new spokes; x′ x and y′ y are ordinary subcurves.
 //!        ╱   `.     :   The corner arcs are withdrawn; their vertices stay.
 //!      ╱      :     :
