@@ -241,7 +241,8 @@ pub(super) fn curve_of(subcurve: &Subcurve) -> CurveId {
 
 /// The shell on which a subcurve is split, if its curve ends at a sharp corner: the end, and the distance from it. The
 /// distance is the roundest binary number in the middle third. Next to the corner it is a power of two (Ruppert's
-/// concentric shells). So the two curves of a narrow corner are split at the same distances.
+/// concentric shells). So the two curves of a narrow corner are split at the same distances. `None` where the subcurve
+/// does not run away from the corner: far − near is at most half its chord.
 ///
 /// ```text
 ///   p ●───────── x ─────┤░░░░░│░░░░░├───── y        near = |px|, far = |py|, third = (far − near)/3

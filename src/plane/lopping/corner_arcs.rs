@@ -149,6 +149,7 @@ impl Lopping {
         if entry.is_spoke() || short { Room::Tight } else { Room::Blocked(subcurve) }
     }
 
+    /// Inserts the pseudo midpoints of all sectors and adds the arcs between them to C′.
     fn insert_arcs(&mut self, id: BallId, sectors: Vec<Sector>) {
         let (center, radius) = (self.balls.get(id).center, self.balls.get(id).radius);
         for sector in sectors {
@@ -184,20 +185,26 @@ impl Lopping {
 
 /// A kept sector of a ball, from one spoke counter-clockwise to the next; directions in radians.
 struct Sector {
+    /// The end of the first spoke.
     from: VertexId,
+    /// The end of the next spoke.
     to: VertexId,
+    /// Direction of `from` from the corner.
     start: f64,
+    /// Angle from `from` to `to`, counter-clockwise, above 0.
     sweep: f64,
     /// Number of equal arcs.
     count: u32,
 }
 
 impl Sector {
+    /// The place where arc `i` begins, on the border of the ball.
     fn inner_point(&self, center: Point, radius: f64, i: u32) -> Point {
         let angle = self.start + self.sweep * f64::from(i) / f64::from(self.count);
         center + Vec2::new(libm::cos(angle), libm::sin(angle)) * radius
     }
 
+    /// The pseudo midpoints.
     fn inner_points(&self, center: Point, radius: f64) -> impl Iterator<Item = Point> + '_ {
         (1..self.count).map(move |i| self.inner_point(center, radius, i))
     }
