@@ -58,7 +58,9 @@ pub(super) struct Node {
 /// A curve, and between which parameters of a drawn one it runs.
 #[derive(Clone, Debug)]
 pub(super) struct Part {
+    /// The geometry, which may have been moved within the tolerance.
     pub curve: Curve,
+    /// The two parameters.
     pub range: [f64; 2],
 }
 
@@ -88,6 +90,7 @@ impl Part {
 /// A part of a drawn curve between two nodes.
 #[derive(Clone, Debug)]
 pub(super) struct Edge {
+    /// Its geometry, from the first of its nodes to the second.
     pub curve: Curve,
     /// The nodes at its start and end.
     pub ends: [PointId; 2],

@@ -3,9 +3,9 @@
 //! note names the option that leaves them out.
 //!
 //! ```text
-//!   ┌─────────────────────────────┐         By the odd-even rule the sheet around the part is inside, the part itself outside, and
-//!   │  ╭───────────────╮          │         its holes ○ inside. A frame holds outlines that hold others in turn; the boxes of a
-//!   │  │ ○   part    ○ │  ┌────┐  │         title block hold none.
+//!   ┌─────────────────────────────┐         By the odd-even rule the sheet around the part is inside, the part itself
+//!   │  ╭───────────────╮          │         outside, and its holes ○ inside. A frame holds outlines that hold others
+//!   │  │ ○   part    ○ │  ┌────┐  │         in turn; the boxes of a title block hold none.
 //!   │  ╰───────────────╯  └────┘  │
 //!   └─────────────────────────────┘
 //! ```

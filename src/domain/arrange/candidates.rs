@@ -31,9 +31,9 @@ const HUB: usize = 16;
 /// neighbours by angle only.
 ///
 /// ```text
-///             ╱ other        The far end of the spoke `id` can lie within the tolerance w of another spoke only where the
-///           ╱                angle between the two is small:
-///   hub ●─────────────● far(id)      |other − angle| ≤ 2w / |arm(id)|
+///             ╱ other              The far end of the spoke `id` can lie within the tolerance w of another spoke only
+///           ╱                      where the angle between the two is small: |other − angle| ≤ 2w / |arm(id)|.
+///   hub ●───────────● far(id)
 ///           ╲
 /// ```
 struct Hubs {
@@ -195,9 +195,9 @@ impl Arrangement<'_> {
     /// nested rings and fans of arcs nearly all pairs of boxes meet, so this test saves most of the work.
     ///
     /// ```text
-    ///         at ●              The circles p and q cross at the common end `at`, and once more at `other`, its mirror image in
-    ///   p ·──────┼──────· q     the line of their centers. Where one of the arcs does not pass `other`, they meet only at `at`.
-    ///      other ●
+    ///         at ●              The circles p and q cross at the common end `at`, and once more at `other`, its mirror
+    ///   p ·──────┼──────· q     image in the line of their centers. Where one of the arcs does not pass `other`, they
+    ///      other ●              meet only at `at`.
     /// ```
     fn are_circles_apart(&self, a: CurveId, b: CurveId) -> bool {
         let [first, second] = [a, b].map(|id| &self.edges[id]);

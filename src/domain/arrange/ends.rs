@@ -1,8 +1,8 @@
 //! Free ends, and the gaps between them and to open lines.
 //!
 //! ```text
-//!   ●───── e₁ ─────●───── e₂ ─────┬─────      A free end is a node at which a single edge ends. Its chain leads along edges of
-//!                                 │           nodes of degree 2 to the next free end or branch: here e₁, e₂.
+//!   ●───── e₁ ─────●───── e₂ ─────┬─────      A free end is a node at which a single edge ends. Its chain leads along
+//!                                 │           edges of nodes of degree 2 to the next free end or branch: here e₁, e₂.
 //! ```
 
 use super::arrangement::{Arrangement, Edge};

@@ -1,9 +1,9 @@
 //! Faces, and in which face each component lies.
 //!
 //! ```text
-//!      ╭──────────────────────╮       A level line through B crosses C next to its left, at a side of C that bounds a face: B
-//!      │ C   ╭─────╮   ╭───╮  │       lies in that face. A level line through A crosses B next, at B's outer cycle: A lies in
-//!   ───┼─────┼─ B ─┼───┼ A ┼──┼──     the same face as B.
+//!      ╭──────────────────────╮       A level line through B crosses C next to its left, at a side of C that bounds a
+//!      │ C   ╭─────╮   ╭───╮  │       face: B lies in that face. A level line through A crosses B next, at B's outer
+//!   ───┼─────┼─ B ─┼───┼ A ┼──┼──     cycle: A lies in the same face as B.
 //!      │     ╰─────╯   ╰───╯  │
 //!      ╰──────────────────────╯
 //! ```
@@ -174,10 +174,13 @@ impl<'a> View<'a> {
     /// each of them sees. The replacement may close a further ring, with further components.
     ///
     /// ```text
-    ///      ╭───╮
-    ///   ───┼───┼──╭─────╮─      On the upper line B sees A, on the lower line A sees B: a ring. The line through one of them goes on
-    ///      │ A │  │  B  │       to the left of both, and shows what lies around the two.
-    ///      │   ╰──┼──╮  │
+    ///         ┌───┐     ┌───┐
+    ///   ──────┼───┼─────┼───┼── 1      On line 1 B sees A, on line 2 A sees B: a ring. Line 1 crosses A first, of both. What
+    ///    ┌─┐  │ A │     │   │          it meets before A, here nothing, is what A and B both see from now on.
+    ///   ─┼─┼──┼───┼─────┼───┼── 2
+    ///    │ │  └───┘     │ B │
+    ///    │ └────────────┘   │
+    ///    └──────────────────┘
     /// ```
     fn part_rings(&mut self, watch: &mut Watch) -> Result<(), Unarranged> {
         // By component: the representative of the rings that it was part of.

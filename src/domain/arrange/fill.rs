@@ -132,9 +132,9 @@ impl Windings<'_> {
     /// copy counts; if everything is drawn an even number of times, the count is halved.
     ///
     /// ```text
-    ///   ╭─────┬─────╮      Two rooms, each drawn whole: the wall is drawn twice. Counted once, three curves would end at each
-    ///   │  1  ║  1  │      end of the wall, and no winding number would fit. Counted twice, both rooms are inside.
-    ///   ╰─────┴─────╯
+    ///   ╭─────┬─────╮      Two rooms, each drawn whole: the wall is drawn twice. Counted once, three curves would end
+    ///   │  1  ║  1  │      at each end of the wall, and no winding number would fit. Counted twice, both rooms are
+    ///   ╰─────┴─────╯      inside.
     /// ```
     fn counts(&self, curves: &[CurveId]) -> Vec<Count> {
         if !by_parity(self.rule) {
@@ -171,8 +171,9 @@ impl Windings<'_> {
     /// Computes the winding numbers of a component's faces, from the face around it across one curve after another.
     ///
     /// ```text
-    ///       winding + weight │ winding           the curve upwards: the winding number on its left is greater by its weight
-    ///                        ▲
+    ///                      ▲
+    ///     winding + weight │ winding       The winding number on the left of a curve is greater by the curve's weight.
+    ///                      │
     /// ```
     fn spread(&mut self, outer: usize, around: i32, count: &Count) {
         let mut stack = vec![(outer, around)];

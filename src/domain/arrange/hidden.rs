@@ -99,8 +99,9 @@ impl Arrangement<'_> {
     /// Rebuilds the edges from those that are left. Runs of edges that only hidden stretches had separated become one.
     ///
     /// ```text
-    ///   ●──── a ────●──── b ────●            ●───────── ab ─────────●       h is left out. a and b are parts of one drawn curve,
-    ///               │ h               ▶                                     without a corner between them: they become one.
+    ///   ●──── a ────●──── b ────●            ●───────── ab ─────────●   h is left out. a and b are parts of one drawn
+    ///               │ h               ▶                                 curve, without a corner between them: they
+    ///                                                                   become one.
     /// ```
     fn rejoin(&mut self, left: IdVec<CurveId, Edge>) {
         let mut at_node: IdVec<PointId, Vec<CurveId>> = vec![Vec::new(); self.nodes.len()].into();

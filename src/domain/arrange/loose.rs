@@ -3,10 +3,10 @@
 //! A *free end* is a node at which a single edge ends; its *chain* leads from there to the next free end or branch.
 //!
 //! ```text
-//!   a ────────────── b     b and c are each other's nearest free ends. They are joined at the corner of their lines where the last
-//!   │                c     decimal of the file explains the gap, or within `close`. Otherwise, where such gaps close chains into a
-//!   │                │     ring and each gap is short compared with its chains, the drawing is refused (`rings`). All other free
-//!   └────────────────┘     ends are those of open lines.
+//!   a ────────────── b     b and c are each other's nearest free ends. They are joined at the corner of their lines
+//!   │                c     where the last decimal of the file explains the gap, or within `close`. Otherwise, where
+//!   │                │     such gaps close chains into a ring and each gap is short compared with its chains, the
+//!   └────────────────┘     drawing is refused (`rings`). All other free ends are those of open lines.
 //! ```
 
 use super::Loose;
@@ -190,8 +190,8 @@ impl Arrangement<'_> {
 /// first end.
 ///
 /// ```text
-///   ────────── a · · · corner       a, b: the free ends, with the directions of their lines. `width` is their distance.
-///                      ·
+///   ────────── a · · · corner       a, b: the free ends, with the directions of their lines. `width` is their
+///                      ·            distance.
 ///                      b
 ///                      │
 /// ```

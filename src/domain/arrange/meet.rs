@@ -102,9 +102,10 @@ impl Arrangement<'_> {
     /// Nodes that lie on edges without being their ends: T-junctions, collinear overlaps, drawn points on curves.
     ///
     /// ```text
-    ///               │                 The node `id` lies within the tolerance of `edge` and is no end of it. t is the parameter
-    ///               ● id              nearest to it: the edge is cut at t, and both parts will end at `id`. Where t lies within
-    ///   ────────────t─────── edge     the tolerance of an end of the edge, that end and `id` are linked instead.
+    ///               │               The node `id` lies within the tolerance of `edge` and is no end of it. t is the
+    ///               ● id            parameter nearest to it: the edge is cut at t, and both parts will end at `id`.
+    ///   ────────────t─────── edge   Where t lies within the tolerance of an end of the edge, that end and `id` are
+    ///                               linked instead.
     /// ```
     fn nodes_on_pieces(&self, boxes: &BoxHierarchy, found: &mut Found, watch: &mut Watch) -> Result<(), Unarranged> {
         for (id, edge) in self.nodes_near_pieces(boxes, watch)? {
@@ -122,8 +123,8 @@ impl Arrangement<'_> {
     /// other.
     ///
     /// ```text
-    ///    q0 ╲   ╱ p1        orient is exact: q0 and q1 lie on different sides of p0 p1, and p0 and p1 on different sides of
-    ///        ╲ ╱            q0 q1. The crossing is p0 + t (p1 − p0) = q0 + u (q1 − q0).
+    ///    q0 ╲   ╱ p1        orient is exact: q0 and q1 lie on different sides of p0 p1, and p0 and p1 on different
+    ///        ╲ ╱            sides of q0 q1. The crossing is p0 + t (p1 − p0) = q0 + u (q1 − q0).
     ///        ╱ ╲
     ///    p0 ╱   ╲ q1
     /// ```
@@ -172,9 +173,9 @@ impl Arrangement<'_> {
     ///
     /// ```text
     ///         t[0]              t[1]
-    ///   p ─────╮                 ╭─────       Between t[0] and t[1] the curve p lies within the tolerance of q. It bends away from q:
-    ///          ╰───╮         ╭───╯            in the middle the distance is at most BENT times the widest one, which is at an end
-    ///              ╰─────────╯                of the contact.
+    ///   p ─────╮                 ╭─────       Between t[0] and t[1] the curve p lies within the tolerance of q. It
+    ///          ╰───╮         ╭───╯            bends away from q: in the middle the distance is at most BENT times the
+    ///              ╰─────────╯                widest one, which is at an end of the contact.
     ///   q ─────────────────────────────
     /// ```
     fn part_slowly(&self, ids: [CurveId; 2], meeting: &Meeting) -> bool {
@@ -199,9 +200,9 @@ impl Arrangement<'_> {
     ///
     /// ```text
     ///    p ╲   ╱ q
-    ///       ╲ ╱         p and q leave m, and cross once more at x. Where x is farther from m than the tolerance, they are
-    ///        x          cut there. Else the stretches from m to x are left out, and the ends of the rest, at x or somewhat
-    ///       ╱ ╲         beyond it, are moved to m.
+    ///       ╲ ╱         p and q leave m, and cross once more at x. Where x is farther from m than the tolerance, they
+    ///        x          are cut there. Else the stretches from m to x are left out, and the ends of the rest, at x or
+    ///       ╱ ╲         somewhat beyond it, are moved to m.
     ///       ╲ ╱
     ///        m
     /// ```

@@ -192,8 +192,8 @@ fn painters_beside(arrangement: &Arrangement, faces: &Faces) -> Vec<Option<SeenI
 /// The result of `of` for every bounded face. It is called with the cycles that bound the face and the face's paint.
 ///
 /// ```text
-///    ╭──── A ────────╮       A tour of the faces, by crossing edges and returning. From the unbounded face 1 into 2: A is
-///    │ 2  ╭── B ──╮  │   1   added. Into 3: B is added. Back into 2: B is taken off. Back into 1: A is taken off.
+///    ╭──── A ────────╮       A tour of the faces, by crossing edges and returning. From the unbounded face 1 into 2: A
+///    │ 2  ╭── B ──╮  │   1   is added. Into 3: B is added. Back into 2: B is taken off. Back into 1: A is taken off.
 ///    │    │   3   │  │
 ///    │    ╰───────╯  │
 ///    ╰───────────────╯

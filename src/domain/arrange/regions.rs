@@ -1,8 +1,8 @@
 //! Regions: which faces are kept, which seeds and labels lie in them, and their names.
 //!
 //! ```text
-//!   ╭──────────────────╮       A seed × belongs to the face in which it lies: the one on the visible side of a curve next to
-//!   │ × steel  ╭─────╮ │       it. × steel names the outer face; ○ makes the inner one a hole.
+//!   ╭──────────────────╮       A seed × belongs to the face in which it lies: the one on the visible side of a curve
+//!   │ × steel  ╭─────╮ │       next to it. × steel names the outer face; ○ makes the inner one a hole.
 //!   │          │  ○  │ │
 //!   │          ╰─────╯ │
 //!   ╰──────────────────╯

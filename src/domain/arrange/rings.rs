@@ -2,10 +2,10 @@
 //! compared with the chains.
 //!
 //! ```text
-//!    ┌──────────┐       Each free end is linked with its nearest one where the gap is below a twentieth of both chains. A link
-//!    │          │       between places that are already connected closes a ring: the way from one end to the other, along
-//!    └─────── ──┘       edges and earlier links. A ring hardly wider than its gaps is a pair of parallel lines, and no outline.
-//!           gap
+//!    ┌──────────┐       Each free end is linked with its nearest one where the gap is below a twentieth of both
+//!    │          │       chains. A link between places that are already connected closes a ring: the way from one end
+//!    └─────── ──┘       to the other, along edges and earlier links. A ring hardly wider than its gaps is a pair of
+//!           gap         parallel lines, and no outline.
 //! ```
 //!
 //! A free end without such a link may stop short of the inside of another open line, which goes on beyond that point.
@@ -225,13 +225,13 @@ impl<'n, 'a> Ways<'n, 'a> {
 /// The error of a drawing whose outlines miss closing; `None` where none do.
 ///
 /// ```text
-///   ╭──── · 1 ─────╮      Links are added one after the other, the narrowest gaps first. Link 1 joins two parts. Link 2
-///   │              │      is between places that are connected by then, so it closes a ring, by the way through 1. Both
-///   ╰──── · 2 ─────╯      gaps are reported.
+///   ╭──── · 1 ─────╮      Links are added one after the other, the narrowest gaps first. Link 1 joins two parts. Link
+///   │              │      2 is between places that are connected by then, so it closes a ring, by the way through 1.
+///   ╰──── · 2 ─────╯      Both gaps are reported.
 ///
-///   ╭──────────────╮      Link 3 is from an end that stops short of an open line to its foot, the nearest point there. The
-///   │              · 3    part of the line up to the foot belongs to the ring; the part beyond it does not.
-///   ╰──────────────·──────
+///   ╭──────────────╮           Link 3 is from an end that stops short of an open line to its foot, the nearest point
+///   │              · 3         there. The part of the line up to the foot belongs to the ring; the part beyond it does
+///   ╰──────────────·──────     not.
 /// ```
 pub(super) fn missed_rings(arrangement: &Arrangement, ends: &[FreeEnd]) -> Option<ArrangeError> {
     let gaps = missed_gaps(ends);

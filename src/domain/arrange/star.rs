@@ -90,12 +90,12 @@ fn order_tied(
 /// in which they lie, whatever its radius. The largest circle that all of them leave separates them best.
 ///
 /// ```text
-///    ╭───c────b────a───╮      a, b and c leave the point `at` in the direction `ahead`, here upwards. Where they leave
-///    │    ╲   │   ╱    │      the circle of `radius` they are apart: their exits, from right to left, are a, b, c.
+///    ╭───c────b────a───╮      a, b and c leave the point `at` in the direction `ahead`, here upwards. On the circle of
+///    │    ╲   │   ╱    │      `radius` they are apart: their exits, from right to left, are a, b, c.
 ///    │     ╲  │  ╱     │
-///    │       ╲│╱       │
-///    │        at       │
-///    ╰─────────────────╯
+///    │      ╰╮│╭╯      │
+///    │        │        │
+///    ╰────── at ───────╯
 /// ```
 fn part(
     at: Point,

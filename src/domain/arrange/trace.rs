@@ -1,8 +1,8 @@
 //! Cycles of directed edges, and the components that they go around.
 //!
 //! ```text
-//!    q ◀───────── p      A directed edge is a curve travelled in one of its two directions, with a face on its left. Its
-//!    │╲  face            cycle goes on with the next curve clockwise in the star of q: after p → q comes b, not a.
+//!    q ◀───────── p      A directed edge is a curve travelled in one of its two directions, with a face on its left.
+//!    │╲  face            Its cycle goes on with the next curve clockwise in the star of q: after p → q comes b, not a.
 //!  a │  ╲ b
 //!    │    ╲
 //! ```

@@ -57,9 +57,10 @@ impl Arrangement<'_> {
     /// repeated or have no length.
     ///
     /// ```text
-    ///   p ────── a  b ────── q          p ─────╲ ╱───── q      a and b lie within the tolerance of each other, and so does
-    ///                             ▶             a              r. They become one node, the one that was drawn first. r is
-    ///  r₀ ────────────────── r₁        r₀ ─────╱ ╲───── r₁     cut there, and the ends of all edges are moved to it.
+    ///   p ────── a  b ────── q          p ─────╲ ╱───── q    a and b lie within the tolerance of each other, and so
+    ///                             ▶             a            does r. They become one node, the one that was drawn
+    ///  r₀ ────────────────── r₁        r₀ ─────╱ ╲───── r₁   first. r is cut there, and the ends of all edges are
+    ///                                                        moved to it.
     /// ```
     fn weld(&mut self, found: Found) {
         let cuts = self.cuts_by_piece(found.cuts);
@@ -107,9 +108,9 @@ impl Arrangement<'_> {
     /// cluster is wider than two tolerances, however near its neighbours are.
     ///
     /// ```text
-    ///       ╭───────╮ ╭───────╮       Leaders ● are more than `weld` apart, so a square cell as wide as `weld` holds at most
-    ///       │ ∘ ● ∘ │ │   ●  ∘│       four. Nodes ∘ join the nearest leader; a chain of near nodes makes several clusters.
-    ///       ╰───────╯ ╰───────╯
+    ///       ╭───────╮ ╭───────╮       Leaders ● are more than `weld` apart, so a square cell as wide as `weld` holds
+    ///       │ ∘ ● ∘ │ │   ●  ∘│       at most four. Nodes ∘ join the nearest leader; a chain of near nodes makes
+    ///       ╰───────╯ ╰───────╯       several clusters.
     /// ```
     fn join_near(&self, order: &[PointId], forest: &mut Forest) {
         let weld = self.tolerances.weld;
@@ -194,9 +195,9 @@ impl Arrangement<'_> {
     /// the move would distort it.
     ///
     /// ```text
-    ///           ╭────╮                 A part whose chord ab is short beside its size: to move a or b by `moved` turns and
-    ///           │    │                 stretches the whole loop, by moved · size / chord. Halved at m, each half has a long
-    ///           │    m                 chord, and is hardly distorted.
+    ///           ╭────╮                 A part whose chord ab is short beside its size: to move a or b by `moved` turns
+    ///           │    │                 and stretches the whole loop, by moved · size / chord. Halved at m, each half
+    ///           │    m                 has a long chord, and is hardly distorted.
     ///           a b──╯
     /// ```
     pub fn place_part(&mut self, part: Edge) {
