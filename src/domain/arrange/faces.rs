@@ -175,8 +175,8 @@ impl<'a> View<'a> {
     ///
     /// ```text
     ///         ┌───┐     ┌───┐
-    ///   ──────┼───┼─────┼───┼── 1      On line 1 B sees A, on line 2 A sees B: a ring. Line 1 crosses A first, of both. What
-    ///    ┌─┐  │ A │     │   │          it meets before A, here nothing, is what A and B both see from now on.
+    ///   ──────┼───┼─────┼───┼── 1      On line 1 B sees A, on line 2 A sees B: a ring. Of both, line 1 crosses A
+    ///    ┌─┐  │ A │     │   │          first. What it meets before A, here nothing, both A and B see from now on.
     ///   ─┼─┼──┼───┼─────┼───┼── 2
     ///    │ │  └───┘     │ B │
     ///    │ └────────────┘   │
