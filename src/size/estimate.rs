@@ -115,7 +115,7 @@ impl Demand {
     /// The demand of a domain whose curves turn by at most π/3.
     ///
     /// # Errors
-    /// [`Stopped`] where the watch says so.
+    /// [`Stopped`] where the watch ends the work.
     pub fn of(domain: &Domain, asked: Asked, watch: &mut Watch) -> Result<Self, Stopped> {
         let mut demand = Self::default();
         demand.add_sizes(domain, &SizeField::new(asked.sizing, domain));
@@ -272,7 +272,7 @@ impl Price<'_> {
 /// the rest are probably similar. Exempt slivers outside of balls count, too: they need not be refined, but they are.
 ///
 /// # Errors
-/// [`Stopped`] where the watch says so.
+/// [`Stopped`] where the watch ends the work.
 pub fn costly_slivers(
     domain: &Domain,
     kappa_rad: f64,
