@@ -101,10 +101,9 @@ impl Shape {
     /// The parameter at which it has turned by `turned` ≥ 0 from the start.
     ///
     /// ```text
-    ///   κ ▲       ╱│
-    ///     │      ╱ │      Without an inflection |κ₀|t ± |κ′|t²/2 = turned; the root without cancellation.
-    ///   ──│─────*──│─▶ t  Behind the inflection *, at t*, the turning since then is |κ′|(t − t*)²/2.
-    ///     │   ╱    t
+    ///   κ ▲       ╱
+    ///     │     ╱         Without an inflection |κ₀|t ± |κ′|t²/2 = turned; the root without cancellation.
+    ///   ──│───*─────▶ t   Behind the inflection *, at t*, the turning since then is |κ′|(t − t*)²/2.
     ///     │ ╱
     /// ```
     fn at_turning(&self, turned: f64) -> f64 {

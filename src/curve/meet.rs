@@ -16,13 +16,13 @@
 //! ([`circles`]).
 //!
 //! ```text
-//!   boxes apart     strips apart       cones apart      straight       else
-//!   ┌───┐             ╱  ╱ p             q ╲  ╱ p      p ──────────       ╭───╮ p
-//!   │ p │           ╱p ╱ ╱  ╱               ╲╱         q ──────────    ╭──┼─q─╯
-//!   └───┘ ┌───┐    ╱ ╱ ╱ q╱                 ╱╲                         ╰──╯
-//!         │ q │      ╱  ╱                  ╱  ╲
+//!   boxes apart     strips apart     cones apart     straight        else
+//!   ┌───┐               ╱╱   ╱╱      q ╲   ╱ p       p ────────        ╭───╮ p
+//!   │ p │              ╱╱   ╱╱          ╲ ╱                          ╭─┼───╯
+//!   └───┘ ┌───┐     p ╱╱ q ╱╱            ╳           q ────────      ╰─╯ q
+//!         │ q │                         ╱ ╲
 //!         └───┘
-//!     dropped         dropped             Newton          its ends       halved
+//!   dropped         dropped          Newton          ends            halved
 //! ```
 //!
 //! **Invariant.** Whenever a pair is taken from the stack, every meeting of the curves is in a contact already

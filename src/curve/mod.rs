@@ -501,9 +501,9 @@ impl Curve {
     /// and circular arcs: half the turning.
     ///
     /// ```text
-    ///                                                                  z ●───╮             λ is the largest angle by
-    ///          ╭───╯    ╰──╮         the points with ∠xzy ≥ π − λ.     which the way x → z → y turns at z. The part
-    ///       x ●─── chord ───● y                                        lies in the lens of
+    ///             z ●───╮           λ is the largest angle by which the way x → z → y turns at z. So the part lies in the
+    ///         ╭─────╯   ╰─╮         lens of the points with ∠xzy ≥ π − λ.
+    ///       x ●── chord ──● y
     /// ```
     pub fn lens_angle(&self, t0: f64, t1: f64) -> f64 {
         self.as_kind().lens_angle(t0, t1)

@@ -4,11 +4,11 @@
 //! meet a box, and the item nearest to a point, in about O(log n). The depth is O(log n) for every input.
 //!
 //! ```text
-//!   ┌──────────────────────────┐
-//!   │ ┌──────┐  ┌────────────┐ │     order   a b c d e f            The boxes of a node are sorted along the longer
-//!   │ │ a  b │  │  d    e    │ │     nodes   side of its 0 [whole]              bounds, and halved in the middle. The
-//!   │ │  c   │  │     f      │ │             left child is the next 1 [a b c]  2 [d e f]   node; `first` of an inner
-//!   │ └──────┘  └────────────┘ │             node is its right child.
+//!   ┌──────────────────────────┐     order  a b c d e f
+//!   │ ┌──────┐  ┌────────────┐ │     nodes  0: whole, 1: a b c, 2: d e f
+//!   │ │ a  b │  │  d    e    │ │
+//!   │ │  c   │  │     f      │ │     The items of a node are halved along the longer side of its bounds.
+//!   │ └──────┘  └────────────┘ │     The left child is the next node, `first` the right child.
 //!   └──────────────────────────┘
 //! ```
 

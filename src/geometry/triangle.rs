@@ -5,10 +5,11 @@ use super::{Point, Vec2};
 /// The circumcenter and the circumradius of a triangle; not finite where the corners are collinear.
 ///
 /// ```text
-///                             c ●                 The center m = a + offset is equally far from a, b and c: it lies on
-///                             the bisectors of ab ╱   ╲               and ac, so offset·ab = ½ ab² and offset·ac = ½
-///            ╱  · m  ╲        ac².
-///         a ●─────────● b
+///               ● c
+///              ╱ ╲           The center m = a + offset is equally far from a, b and c. It lies on the bisectors of ab and
+///             ╱ m ╲          ac, so offset·ab = ½ ab² and offset·ac = ½ ac².
+///            ╱  ·  ╲
+///         a ●───────● b
 /// ```
 pub fn circumcircle([a, b, c]: [Point; 3]) -> (Point, f64) {
     let (ab, ac) = (b - a, c - a);

@@ -49,8 +49,9 @@ pub fn refuse_text(samples: &[Sample], cut: Option<usize>, wide: f64) -> Result<
 /// Joins two surfaces that run in the same direction to one contour from the trailing edge to the nose and back.
 ///
 /// ```text
-///     ● ─ a ─▶                 ◀─ a ─╮        One of the two is reversed. If both have the nose, it is kept once.
-///     ● ─ b ─▶        ▶        ─ b ─▶╯ nose
+///   nose ●── a ──▶          ╭── a ◀──      The contour runs against a to the nose, and then along b. If both surfaces
+///        ●── b ──▶    ▶     ●              have the nose, it is kept once.
+///                           ╰── b ──▶
 /// ```
 pub fn join(mut a: Vec<Point>, mut b: Vec<Point>) -> Vec<Point> {
     if a[a.len() - 1].x > a[0].x {

@@ -6,10 +6,10 @@
 //! of length L takes L/(w·(cot κ + tan κ)) vertices on either side.
 //!
 //! ```text
-//!   ───────────── apex ●──────────      The apex has no more than 90°, so if one angle at the edge e is κ, the other
-//!               ╱    ╱    w             is 90° − κ or more: e ≤ w·(cot κ + tan κ).
-//!          κ ╱      ╱ 90° − κ
-//!   ───────●── e ──●──────────────
+//!   ─────────────── apex ●───────────      The angle at the apex is at most 90°. So if one angle at the edge e is κ, the
+//!                  ╱      ╲     w          other is at least 90° − κ, and e ≤ w·(cot κ + tan κ).
+//!             κ ╱          ╲ 90° − κ
+//!   ───────●─────── e ──────●────────
 //! ```
 //!
 //! The shape of the sliver does not matter: a strip with free ends, a thin region in another, a ring. A needle of angle

@@ -8,10 +8,10 @@
 //! piece is halved only once, whatever it is compared with.
 //!
 //! ```text
-//!             group                       A piece:      p₁ ●────────● p₂        hull: p₀ … p₃
-//!            ╱     ╲                                     ╱╭────────╮ ╲          spread: the strip along the chord
-//!       span 0     span 1                              ╱╭─╯        ╰──╮╲        that contains the hull
-//!       ╱    ╲     ╱    ╲                          p₀ ●─────chord──────● p₃     cone: of the legs p₀p₁, p₁p₂, p₂p₃
+//!             group                  A piece:   p₁ ●────────● p₂       hull    p₀ … p₃
+//!            ╱     ╲                             ╱╭────────╮ ╲         spread  the strip along the chord that
+//!       span 0     span 1                      ╱╭─╯        ╰──╮╲               contains the hull
+//!       ╱    ╲     ╱    ╲                  p₀ ●───── chord ─────● p₃   cone    of the legs p₀p₁, p₁p₂ and p₂p₃
 //!    halves  …    …     …
 //! ```
 
