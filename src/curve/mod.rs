@@ -279,7 +279,7 @@ impl Curve {
             circle.ends = [start, start];
             return Ok(Curve::Arc(circle));
         }
-        // The turn at any point between the two chords equals half the sweep (inscribed angle).
+        // The turn at `through`, between the chords before and after it, is half the sweep (inscribed angle).
         let turn = crate::geometry::turn_from(through - start, end - through);
         if turn == 0.0 {
             return Self::line(start, end);
@@ -501,8 +501,8 @@ impl Curve {
     /// and circular arcs: half the turning.
     ///
     /// ```text
-    ///             z ●───╮           λ is the largest angle by which the way x → z → y turns at z. So the part lies in the
-    ///         ╭─────╯   ╰─╮         lens of the points with ∠xzy ≥ π − λ.
+    ///             z ●───╮       λ is the largest angle by which the way x → z → y turns at z. The part lies in the
+    ///         ╭─────╯   ╰─╮     lens of the points with ∠xzy ≥ π − λ.
     ///       x ●── chord ──● y
     /// ```
     pub fn lens_angle(&self, t0: f64, t1: f64) -> f64 {

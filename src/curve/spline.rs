@@ -1,9 +1,9 @@
 //! B-splines and NURBS as their exact Bézier spans, and interpolating cubic splines.
 //!
 //! ```text
-//!   knots    0        0.3            0.6       1      The distinct knots are mapped to 0..1. Between two neighbours lies a
-//!            ●─────────●──────────────●────────●      span: a Bézier curve with its own parameter from 0 to 1. It begins at
-//!   spans         0            1           2          the point where the span before it ends.
+//!   knots    0        0.3            0.6       1      The distinct knots are mapped to 0..1. Between two neighbours
+//!            ●─────────●──────────────●────────●      lies a span: a Bézier curve with its own parameter from 0 to 1.
+//!   spans         0            1           2          It begins where the span before it ends.
 //! ```
 
 use super::bezier::{check_weights, set_ends};

@@ -17,7 +17,7 @@ use std::str::FromStr;
 pub struct NameBy {
     /// The name.
     pub name: String,
-    /// What is given the name.
+    /// What gets the name.
     pub target: Target,
 }
 
@@ -32,7 +32,7 @@ pub enum Target {
     Handle(u64),
 }
 
-/// What has a name of its own.
+/// What gets a name of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Naming {

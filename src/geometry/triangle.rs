@@ -6,8 +6,8 @@ use super::{Point, Vec2};
 ///
 /// ```text
 ///               ● c
-///              ╱ ╲           The center m = a + offset is equally far from a, b and c. It lies on the bisectors of ab and
-///             ╱ m ╲          ac, so offset·ab = ½ ab² and offset·ac = ½ ac².
+///              ╱ ╲        The center m = a + offset is equally far from a, b and c. It lies on the bisectors of ab and
+///             ╱ m ╲       ac, so offset·ab = ½ ab² and offset·ac = ½ ac².
 ///            ╱  ·  ╲
 ///         a ●───────● b
 /// ```

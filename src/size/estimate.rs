@@ -6,8 +6,8 @@
 //! of length L takes L/(w·(cot κ + tan κ)) vertices on either side.
 //!
 //! ```text
-//!   ─────────────── apex ●───────────      The angle at the apex is at most 90°. So if one angle at the edge e is κ, the
-//!                  ╱      ╲     w          other is at least 90° − κ, and e ≤ w·(cot κ + tan κ).
+//!   ─────────────── apex ●───────────      The angle at the apex is at most 90°. So if one angle at the edge e is
+//!                  ╱      ╲     w          κ, the other is at least 90° − κ, and e ≤ w·(cot κ + tan κ).
 //!             κ ╱          ╲ 90° − κ
 //!   ───────●─────── e ──────●────────
 //! ```

@@ -14,11 +14,10 @@ use std::f64::consts::TAU;
 /// Every contact contains a crossing, a place where the circles are nearest (on the line of centers), or an end.
 ///
 /// ```text
-///          ● crossing
-///          │                   ● the crossings of the circles p and q, at the ends of their common chord; ○ where each
-///   p ·─○──┼──○─· q            circle passes the line of centers, nearest to the other.
-///          │
-///          ● crossing
+///                ● crossing
+///    ○──────· p ─┼─○───· q       ● the crossings of the circles p and q, at the ends of their common chord; ○ the points
+///                │               of p on the line of centers, where the circles are nearest.
+///                ● crossing
 /// ```
 pub(super) fn guesses(contacts: &Contacts) -> Option<Vec<Guess>> {
     let (a, b) = (contacts.a.curve, contacts.b.curve);

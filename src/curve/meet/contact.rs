@@ -24,8 +24,8 @@ use crate::geometry::{Point, Vec2};
 /// Newton's method doubles the correct digits each step. The fallback, bisection, needs at most as many steps as a
 /// double has bits.
 const NEWTON_STEPS: usize = 53;
-/// The steps of a walk on each span, for each degree of the curves. Up to degree eight, the samples on a span are then
-/// more than the crossings that two curves of the degree can have (Bézout).
+/// The least number of steps of a walk on a span, for each degree of the curves. Up to degree eight, a span then has at
+/// least as many samples as two curves of the degree can have crossings (Bézout).
 const SAMPLES_PER_DEGREE: f64 = 8.0;
 
 /// One of the two curves, with what the walks need.

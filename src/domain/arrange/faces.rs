@@ -238,7 +238,7 @@ impl<'a> View<'a> {
         Err(self.untold(component))
     }
 
-    /// The cycle on the far side of a crossing, as seen from behind it on the line.
+    /// The cycle on the side of a crossing at larger coordinates.
     fn cycle_beyond(&self, hit: &Hit) -> usize {
         self.cycles.cycle_of[DirectedEdge { curve: hit.curve, side: hit.before.other() }.index()]
     }

@@ -106,8 +106,8 @@ impl Windings<'_> {
         let sides = bounded.iter().chain([&outer]).flat_map(|&cycle| &self.faces.cycles[cycle].edges);
         let closed = bounded.is_empty() || sides.clone().any(|half| counted[half.curve.index()]);
         if !closed {
-            // The component has only open curves, which enclose a face because they cross. It is filled unless the face
-            // around it is.
+            // The component has only open curves, which enclose faces because they cross. These faces are inside: with
+            // the winding number around them if that is inside, else with one more.
             let within = if is_inside(self.rule, around) { around } else { around + 1 };
             bounded.iter().for_each(|&face| self.winding[face] = Some(within));
             return;

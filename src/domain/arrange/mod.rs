@@ -105,7 +105,7 @@ pub struct ArrangeOptions {
     /// Free ends that are each other's nearest, or that stop short of an open line, are joined up to this far, and
     /// nothing else is welded by it.
     pub close: Option<f64>,
-    /// What becomes of lines that bound no region.
+    /// How lines that bound no region are treated.
     pub loose: Loose,
     /// Whether `tolerance` was chosen for the user: ends that meet nothing else are joined as by default then.
     pub raised: bool,
@@ -132,7 +132,7 @@ impl Drawing {
     /// # Errors
     ///
     /// Where there is nothing to mesh, a coordinate is not a finite number, or curves run so near to each other that
-    /// rounded arithmetic cannot tell how they lie: with the place and the way out.
+    /// rounded arithmetic cannot tell their order: with the place and a remedy.
     pub fn arrange(&self, options: &ArrangeOptions) -> Result<Domain, ArrangeError> {
         self.arrange_watched(options, &mut |_| true).map_err(|why| match why {
             Unarranged::Invalid(error) => error,

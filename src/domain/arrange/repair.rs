@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 /// the gap was between curves that became one, or how large the lost feature was; 0 where nothing moved.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, schemars::JsonSchema)]
 pub struct Repair {
-    /// What was mended.
+    /// What was repaired.
     pub kind: RepairKind,
     /// The place, in the drawing's coordinates: [x, y].
     pub at: [f64; 2],

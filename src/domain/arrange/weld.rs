@@ -1,5 +1,5 @@
-//! Welding: nodes within the tolerance become one, edges are cut and moved to end at their nodes, repeated edges
-//! become one.
+//! Welding: nodes within the tolerance become one, edges are cut and moved to end at their nodes, repeated edges become
+//! one.
 
 use super::arrangement::{Arrangement, Edge, NodeOrigin};
 use super::candidates::CUTS_MAX;
