@@ -15,8 +15,8 @@ use std::f64::consts::TAU;
 ///
 /// ```text
 ///                ● crossing
-///    ○──────· p ─┼─○───· q       ● the crossings of the circles p and q, at the ends of their common chord; ○ the points
-///                │               of p on the line of centers, where the circles are nearest.
+///    ○──────· p ─┼─○───· q      ● the crossings of the circles p and q, at the ends of their common chord; ○ the
+///                │              points of p on the line of centers, where the circles are nearest.
 ///                ● crossing
 /// ```
 pub(super) fn guesses(contacts: &Contacts) -> Option<Vec<Guess>> {
