@@ -402,14 +402,14 @@ fn inp_names_are_legal_and_faces_are_right() {
 fn a_mesh_is_no_drawing() {
     let refused = |name: &str, bytes: &[u8]| import::tell_format(name.as_ref(), bytes).expect_err("no drawing").help;
     for format in Format::ALL {
-        let way = if format.reading().is_some() { "meshes are judged" } else { "Gmsh or meshio" };
+        let way = if format.reading().is_some() { "verifies meshes" } else { "Gmsh or meshio" };
         let suffix = format.reading().map_or(format.suffixes()[0], |reading| reading.suffix);
         assert!(refused(&format!("mesh.{suffix}"), b"").contains(way), ".{suffix} is not in import/foreign.rs");
         let file = encode(&strip(2, PLAIN), &[], format, &WriteOptions::default()).expect("written").remove(0);
         if let Some(told) = Format::sniff(&file) {
             assert_eq!(told.reading().map(|reading| reading.suffix), Some(suffix), "{format:?}");
             assert!(
-                refused("mesh", &file).contains("meshes are judged"),
+                refused("mesh", &file).contains("verifies meshes"),
                 "{format:?} is not among the signs of import/foreign.rs"
             );
         }
@@ -663,7 +663,7 @@ fn what_cannot_be_read_is_said() {
         ("v 0 0 0\nf 1 2 3\n", Format::Obj, "a cell has the node 1, but there are 1"),
         ("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\n", Format::Obj, "the mesh is not flat: node 3 lies"),
         ("1 3 0\n1 1 2 3\n", Format::Triangle, "there is no .node file beside the .ele file"),
-        ("hello", Format::Stl, "this is no STL"),
+        ("hello", Format::Stl, "this is not STL"),
     ] {
         let error = read(bytes.as_bytes(), format, &[]).expect_err(what);
         assert!(error.what.starts_with(what), "{} is not {what}", error.what);

@@ -159,7 +159,7 @@ impl Batch {
             Ok(Ok(line)) => line,
             Ok(Err(failure)) => Line::failed(job.shown(), failure),
             Err(panic) => {
-                let what = format!("squinch broke down: {panic}");
+                let what = format!("squinch failed by a bug of its own: {panic}");
                 self.keep_case(job, request, format, &format!("panic: {panic}"));
                 let help = "please send us the case file beside the outputs";
                 Line::failed(job.shown(), FailureReport::new(FailureKind::Bug, what, help))
@@ -228,12 +228,12 @@ impl Batch {
 fn open(job: &Job, format: Option<import::Format>) -> Result<Input, FailureReport> {
     Input::open(&job.input, format).map_err(|halt| match halt {
         Halt::Unreadable(what) => {
-            FailureReport::new(FailureKind::Unreadable, what, "look at the name and who may read it")
+            FailureReport::new(FailureKind::Unreadable, what, "check the file name and the permission to read it")
         }
         _ => FailureReport::new(
             FailureKind::Unreadable,
             "the file cannot be read",
-            "look at the name and who may read it",
+            "check the file name and the permission to read it",
         ),
     })
 }

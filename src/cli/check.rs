@@ -63,7 +63,7 @@ pub const REQUEST_STAMP: &str = "request";
 
 /// Said of a mesh whose links are missing or do not fit.
 const BY_PLACE: &str =
-    "The mesh does not say, or not rightly, which curves its edges lie on: it was judged by where its nodes lie.";
+    "The mesh does not say, or says wrongly, on which curves its edges lie: the verifier went by the places of its nodes.";
 
 impl Check {
     pub fn run(self, volume: Volume) -> Result<Exit, Halt> {
@@ -91,7 +91,7 @@ impl Check {
         }
         if volume > Volume::Quiet {
             let ink = say::Ink::stderr();
-            say::line(&format!("{} {path}: {}", ink.bold("squinch"), say::promise(&verdict, ink)));
+            say::line(&format!("{} {path}: {}", ink.bold("squinch"), say::guarantees(&verdict, ink)));
             report.input.notes.iter().for_each(|note| say::line(&format!("    {} {note}", ink.dim("note:"))));
             let shown = verdict.checks.iter().filter(|c| volume == Volume::Verbose || c.status != Status::NotAsked);
             shown.flat_map(|check| say::check_lines(check, ink)).for_each(|text| say::line(&text));

@@ -71,7 +71,7 @@ squinch VERB -h shows the options of a verb; --help shows all of them, and the e
 
 const EXIT_CODES: &str = "\
 Exit codes:
-  0    done, every promise kept
+  0    done, every guarantee holds
   1    batch: an input ended otherwise
   2    usage
   3    input unreadable
@@ -85,7 +85,7 @@ Exit codes:
 enum Verb {
     /// Read, arrange, mesh, verify, write
     Mesh(Box<mesh::Mesh>),
-    /// The judge's verdict on a mesh file
+    /// Verify a mesh file, ours or not
     Check(Box<check::Check>),
     /// Many drawings, in parallel, each for itself
     Batch(Box<batch::Batch>),
@@ -144,7 +144,7 @@ pub fn run() -> ExitCode {
         Ok(Err(halt)) => say::halt(halt),
         Err(panic) => {
             files::remove_temporaries();
-            say::error(&format!("squinch broke down: {panic}"));
+            say::error(&format!("squinch failed by a bug of its own: {panic}"));
             write_case(&format!("panic: {panic}"), "panic");
             Exit::Bug
         }

@@ -14,7 +14,7 @@ pub struct Replay {
     /// A case file; - for standard input
     #[arg(value_name = "CASE")]
     case: PathBuf,
-    /// Stop after this many steps of the engine, and judge what there is
+    /// Stop after this many steps of the engine, and verify the mesh as it is then
     #[arg(long, value_name = "N")]
     until: Option<u64>,
 }

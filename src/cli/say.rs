@@ -279,11 +279,11 @@ fn repair_line(repair: &Repair) -> String {
 /// How a batch ended: how many inputs with each exit code, `earlier` of them in an earlier run.
 pub fn batch(exits: &BTreeMap<u8, usize>, earlier: usize, seconds: f64) {
     let inputs: usize = exits.values().sum();
-    let before = if earlier > 0 { format!(", {} of them earlier", count(earlier)) } else { String::new() };
+    let before = if earlier > 0 { format!(", {} of them in an earlier run", count(earlier)) } else { String::new() };
     line(&format!("{} {}{before}, {seconds:.1} s", Ink::stderr().bold("squinch"), plural(inputs, "input", "inputs")));
     for (exit, n) in exits {
         let what = match exit {
-            0 => "done, every promise kept",
+            0 => "done, every guarantee holds",
             2 => "with options that do not fit",
             3 => "unreadable",
             4 => "geometry invalid",
@@ -316,10 +316,10 @@ pub fn summary(outcome: &Outcome, wrote: &[String], volume: Volume) {
                 plural(mesh.boundary_edges, "edge", "edges"),
             ),
         );
-        row("angles", &format!("{:.2}° to {:.2}°{}", quality.min_angle_deg, quality.max_angle_deg, excused(report)));
+        row("angles", &format!("{:.2}° to {:.2}°{}", quality.min_angle_deg, quality.max_angle_deg, exemptions(report)));
     }
     if let Some(verdict) = &outcome.verdict {
-        row("promise", &promise(verdict, ink));
+        row("checks", &guarantees(verdict, ink));
         let shown = verdict.checks.iter().filter(|c| volume == Volume::Verbose || c.status == Status::Broken);
         shown.for_each(|check| check_lines(check, ink).iter().for_each(|text| line(text)));
     }
@@ -374,18 +374,19 @@ pub fn repair_rows(repairs: &[Repair], unhealed: &[Repair], volume: Volume, row:
     }
 }
 
-fn excused(report: &Report) -> String {
+/// How many triangles are exempt from the smallest angle, and the smallest angle of the others.
+fn exemptions(report: &Report) -> String {
     let (Some(quality), Some(promise)) = (&report.quality, &report.promise) else { return String::new() };
     let triangles = |n: usize| plural(n, "triangle", "triangles");
     let (by_size, corners): (Vec<_>, Vec<_>) = promise.excused.by_corner.iter().partition(|e| e.why == "min_edge");
-    let cells = |excuses: &[&Exemption]| excuses.iter().map(|e| e.cells.len()).sum::<usize>();
+    let cells = |exempt: &[&Exemption]| exempt.iter().map(|e| e.cells.len()).sum::<usize>();
     let mut parts = Vec::new();
     if !corners.is_empty() {
         let places = plural(corners.len(), "sharp corner", "sharp corners");
         parts.push(format!("{} at {places}", triangles(cells(&corners))));
     }
     if !by_size.is_empty() {
-        parts.push(format!("{} left alone for --min-edge", triangles(cells(&by_size))));
+        parts.push(format!("{} not refined because of --min-edge", triangles(cells(&by_size))));
     }
     match parts.is_empty() {
         true => String::new(),
@@ -394,7 +395,7 @@ fn excused(report: &Report) -> String {
 }
 
 /// "kept (3 proven, 2 reached)" or what is broken.
-pub fn promise(verdict: &Verdict, ink: Ink) -> String {
+pub fn guarantees(verdict: &Verdict, ink: Ink) -> String {
     let names = |status: Status| -> Vec<&str> {
         verdict.checks.iter().filter(|c| c.status == status).map(|c| c.name).collect()
     };
@@ -406,7 +407,7 @@ pub fn promise(verdict: &Verdict, ink: Ink) -> String {
     let proven = names(Status::Proven).len();
     let rest =
         if reached.is_empty() { String::new() } else { format!("; reached, not proven: {}", reached.join(", ")) };
-    format!("{}, {proven} proven{rest}", ink.green("kept"))
+    format!("{}, {proven} proven{rest}", ink.green("every guarantee holds"))
 }
 
 /// A check with its worst value and the first of its flaws.
@@ -435,15 +436,15 @@ fn stop_row(report: &Report, row: &dyn Fn(&str, &str)) {
         StopReason::VertexBudget => "the vertex budget ran out",
         StopReason::Cancelled => "it was cancelled",
         StopReason::TimedOut => "the time ran out",
-        StopReason::Arithmetic => "coordinates cannot be told apart any more",
+        StopReason::Arithmetic => "the coordinates cannot hold a finer mesh",
         StopReason::NoProgress => "the angles got no larger",
     };
     let place = stop.places.first().map_or_else(String::new, |at| format!(", one at {}", place(*at)));
     row("stopped", &format!("{reason}; {} unresolved{place}", plural(stop.unresolved, "cell", "cells")));
     let held = report.quality.as_ref().map(|quality| quality.min_unexcused_angle_deg);
     if let (Some(angle), Some(held)) = (stop.angle_deg, held) {
-        let held = format!("the mesh holds {:.2}° outside of excused places", (held * 100.0).floor() / 100.0);
-        row("", &format!("{held}: --min-angle {angle} asks for no more, and is kept"));
+        let held = format!("the mesh has {:.2}° or more outside of exempt places", (held * 100.0).floor() / 100.0);
+        row("", &format!("{held}; --min-angle {angle} asks for no more than that"));
     }
 }
 

@@ -27,10 +27,10 @@ impl Way {
     fn help(self) -> &'static str {
         match self {
             Self::Mesh => {
-                "meshes are judged by `squinch check` and rewritten by `squinch convert`; to mesh, give the drawing"
+                "`squinch check` verifies meshes and `squinch convert` rewrites them; to make a mesh, give the drawing"
             }
             Self::OtherMesh => {
-                "convert it with Gmsh or meshio to .msh or .vtu for `squinch check` and `squinch convert`; to mesh, give the drawing"
+                "convert it with Gmsh or meshio to .msh or .vtu for `squinch check` and `squinch convert`; to make a mesh, give the drawing"
             }
             Self::Pixels => "trace it first: Inkscape (Path > Trace Bitmap) or potrace make an SVG of it",
             Self::Page => "save it as SVG: Inkscape, or `pdftocairo -svg` for PDF, does that",
@@ -56,22 +56,22 @@ enum Sign {
 }
 
 const SIGNS: &[(&str, Way, Sign)] = &[
-    ("a PNG picture", Way::Pixels, Sign::Bytes(&[(0, b"\x89PNG")])),
-    ("a JPEG picture", Way::Pixels, Sign::Bytes(&[(0, b"\xff\xd8\xff")])),
-    ("a GIF picture", Way::Pixels, Sign::Bytes(&[(0, b"GIF8"), (5, b"a")])),
-    ("a TIFF picture", Way::Pixels, Sign::Bytes(&[(0, b"II*\0")])),
-    ("a TIFF picture", Way::Pixels, Sign::Bytes(&[(0, b"MM\0*")])),
-    ("a WebP picture", Way::Pixels, Sign::Bytes(&[(0, b"RIFF"), (8, b"WEBP")])),
-    ("a BMP picture", Way::Pixels, Sign::Bytes(&[(0, b"BM"), (6, b"\0\0\0\0")])),
-    ("a HEIC or AVIF picture, or a film", Way::Pixels, Sign::Bytes(&[(4, b"ftyp")])),
-    ("a Photoshop picture", Way::Pixels, Sign::Bytes(&[(0, b"8BPS")])),
-    ("a GIMP picture", Way::Pixels, Sign::Bytes(&[(0, b"gimp xcf")])),
+    ("a PNG image", Way::Pixels, Sign::Bytes(&[(0, b"\x89PNG")])),
+    ("a JPEG image", Way::Pixels, Sign::Bytes(&[(0, b"\xff\xd8\xff")])),
+    ("a GIF image", Way::Pixels, Sign::Bytes(&[(0, b"GIF8"), (5, b"a")])),
+    ("a TIFF image", Way::Pixels, Sign::Bytes(&[(0, b"II*\0")])),
+    ("a TIFF image", Way::Pixels, Sign::Bytes(&[(0, b"MM\0*")])),
+    ("a WebP image", Way::Pixels, Sign::Bytes(&[(0, b"RIFF"), (8, b"WEBP")])),
+    ("a BMP image", Way::Pixels, Sign::Bytes(&[(0, b"BM"), (6, b"\0\0\0\0")])),
+    ("a HEIC or AVIF image, or a film", Way::Pixels, Sign::Bytes(&[(4, b"ftyp")])),
+    ("a Photoshop image", Way::Pixels, Sign::Bytes(&[(0, b"8BPS")])),
+    ("a GIMP image", Way::Pixels, Sign::Bytes(&[(0, b"gimp xcf")])),
     ("a PDF document", Way::Page, Sign::Bytes(&[(0, b"%PDF-")])),
     ("a PostScript file (EPS, AI)", Way::Page, Sign::Bytes(&[(0, b"%!PS")])),
     ("a PostScript file (EPS, AI)", Way::Page, Sign::Bytes(&[(0, b"\xc5\xd0\xd3\xc6")])),
     ("a CorelDRAW drawing", Way::Page, Sign::Bytes(&[(0, b"RIFF"), (8, b"CDR")])),
-    ("an EMF picture", Way::Page, Sign::Bytes(&[(40, b" EMF")])),
-    ("a WMF picture", Way::Page, Sign::Bytes(&[(0, b"\xd7\xcd\xc6\x9a")])),
+    ("an EMF image", Way::Page, Sign::Bytes(&[(40, b" EMF")])),
+    ("a WMF image", Way::Page, Sign::Bytes(&[(0, b"\xd7\xcd\xc6\x9a")])),
     ("an Xfig drawing", Way::Page, Sign::Bytes(&[(0, b"#FIG ")])),
     ("an AutoCAD drawing (DWG)", Way::Cad, Sign::Bytes(&[(0, b"AC1"), (6, b"\0")])),
     ("a DWF drawing", Way::Cad, Sign::Bytes(&[(0, b"(DWF V")])),
@@ -113,7 +113,7 @@ const SIGNS: &[(&str, Way, Sign)] = &[
         Sign::Test(|head| !head.is_svg && (head.starts("<!doctype html") || head.starts("<html"))),
     ),
     (
-        "an XML document and no SVG",
+        "an XML document that is not SVG",
         Way::Other,
         Sign::Test(|head| !head.is_svg && (head.starts("<?xml") || head.starts("<!"))),
     ),
@@ -129,7 +129,7 @@ const SIGNS: &[(&str, Way, Sign)] = &[
 
 /// Suffixes of files that nothing above may be found in.
 const SUFFIXES: &[(&[&str], &str, Way)] = &[
-    (&["png", "jpg", "jpeg", "gif", "tif", "tiff", "webp", "bmp", "heic"], "a picture of pixels", Way::Pixels),
+    (&["png", "jpg", "jpeg", "gif", "tif", "tiff", "webp", "bmp", "heic"], "a raster image", Way::Pixels),
     (&["pdf", "ps", "eps", "ai", "cdr", "emf", "wmf", "fig", "odg", "vsd", "vsdx"], "a document", Way::Page),
     (
         &["dwg", "dwf", "iges", "igs", "3dm", "sldprt", "sldasm", "ipt", "f3d", "fcstd", "x_t", "x_b", "sat"],
@@ -147,7 +147,7 @@ const SUFFIXES: &[(&[&str], &str, Way)] = &[
         Way::OtherMesh,
     ),
     (&["gcode", "nc", "ngc", "tap", "cnc", "gbr", "ger", "drl", "plt", "hpgl"], "a file for a machine", Way::Machine),
-    (&["html", "htm", "xml", "doc", "docx", "xls", "xlsx", "md", "py", "tex"], "no drawing by its suffix", Way::Other),
+    (&["html", "htm", "xml", "doc", "docx", "xls", "xlsx", "md", "py", "tex"], "not a drawing by its suffix", Way::Other),
 ];
 
 /// The refusal of a file whose first bytes are those of a format that is not read here.
@@ -159,14 +159,14 @@ pub(super) fn by_content(bytes: &[u8]) -> Option<ImportError> {
         Sign::Line(word) => head.has_line(word),
         Sign::Test(test) => test(&head),
     })?;
-    Some(ImportError::new(format!("this is {what}, and no drawing"), way.help()))
+    Some(ImportError::new(format!("this is {what}, not a drawing"), way.help()))
 }
 
 /// The refusal of a file whose suffix is that of a format that is not read here.
 pub(super) fn by_suffix(path: &Path) -> Option<ImportError> {
     let suffix = path.extension()?.to_str()?.to_ascii_lowercase();
     let (_, what, way) = SUFFIXES.iter().find(|(suffixes, _, _)| suffixes.contains(&suffix.as_str()))?;
-    Some(ImportError::new(format!("a .{suffix} file is {what}, and no drawing"), way.help()))
+    Some(ImportError::new(format!("a .{suffix} file is {what}, not a drawing"), way.help()))
 }
 
 /// The start of a file.

@@ -193,7 +193,7 @@ fn refuse_other(bytes: &[u8], format: Format) -> Result<(), ImportError> {
         Some(Format::Svg) if bytes.starts_with(b"\x1f\x8b") => {
             let help =
                 "unpack it; a compressed drawing is read as SVG alone, by the suffix .svgz or --input-format svg";
-            Err(ImportError::new("this is a gzip archive, and no drawing", help))
+            Err(ImportError::new("this is a gzip archive, not a drawing", help))
         }
         Some(other) => {
             let help = format!("say --input-format {}, or give the file the suffix of what it is", other.name());

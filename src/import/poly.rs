@@ -103,7 +103,7 @@ impl<'a> Row<'a> {
         if value >= 0.0 && value < f64::from(u32::MAX) && value == value.trunc() {
             Ok(value as usize)
         } else {
-            Err(self.error(format!("{value} is no count of {what}")))
+            Err(self.error(format!("{value} is not a count of {what}")))
         }
     }
 }
@@ -163,7 +163,7 @@ fn read_vertices(rows: &mut Rows, header: Row, notes: &mut Vec<String>) -> Resul
     for i in 0..count {
         let row = expect(rows, header, "vertices", i, count)?;
         let ([n, x, y], mut rest) = row.take("a vertex (number, x, y)")?;
-        given.push((whole(n).ok_or_else(|| row.error(format!("{n} is no vertex number")))?, row.line));
+        given.push((whole(n).ok_or_else(|| row.error(format!("{n} is not a vertex number")))?, row.line));
         points.push(Point::new(x, y));
         let marker = if marked { rest.nth(attributes) } else { None };
         markers.push(as_marker(marker));
@@ -189,8 +189,8 @@ fn numbering(given: &[(i64, usize)], notes: &mut Vec<String>) -> Result<Numberin
 /// The next row of a section, or an error that says which promise of the header is not kept.
 fn expect<'a>(rows: &mut Rows<'a>, header: Row, what: &str, i: usize, count: usize) -> Result<Row<'a>, ImportError> {
     rows.next().ok_or_else(|| {
-        let promised = format!("line {} promises {count} {what}, but the file ends after {i}", header.line);
-        ImportError::at(rows.line, promised, "the file may be cut off; mend the count or add the missing lines")
+        let missing = format!("line {} announces {count} {what}, but the file ends after {i}", header.line);
+        ImportError::at(rows.line, missing, "the file may be cut off; correct the count or add the missing lines")
     })
 }
 

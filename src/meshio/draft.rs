@@ -102,7 +102,7 @@ impl Draft {
         }
         for (nodes, _) in self.edges.iter_mut().filter(|(nodes, _)| nodes.len() == 2) {
             let mid = mids.get(&(nodes[0].min(nodes[1]), nodes[0].max(nodes[1])));
-            nodes.push(*mid.ok_or_else(|| broken("a straight line is no side of a triangle of second order"))?);
+            nodes.push(*mid.ok_or_else(|| broken("a straight line is not a side of a triangle of second order"))?);
         }
         Ok(())
     }

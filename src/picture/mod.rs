@@ -133,7 +133,7 @@ impl std::str::FromStr for MeshColour {
             "region" => Ok(Self::Region),
             "paint" => Ok(Self::Paint),
             "size" => Ok(Self::Size),
-            _ => Err(format!("'{text}' is no colouring: quality, region, paint or size")),
+            _ => Err(format!("'{text}' is not a colouring: quality, region, paint or size")),
         }
     }
 }

@@ -54,10 +54,10 @@ enum Content {
 #[derive(Debug, thiserror::Error)]
 pub enum CaseError {
     /// The text is no TOML, or not the TOML of a case.
-    #[error("no case file: {0}")]
+    #[error("not a case file: {0}")]
     Shape(#[from] toml::de::Error),
     /// The recorded bytes are not valid base64.
-    #[error("the input recorded in the case is no base64: {0}")]
+    #[error("the input recorded in the case is not base64: {0}")]
     Bytes(#[from] base64::DecodeError),
 }
 
@@ -175,7 +175,7 @@ pub fn caught<T>(work: impl FnOnce() -> T) -> Result<T, Panic> {
 
 fn message(payload: &dyn Any) -> String {
     let text = payload.downcast_ref::<&str>().copied().or_else(|| payload.downcast_ref::<String>().map(String::as_str));
-    text.unwrap_or("a panic without words").to_owned()
+    text.unwrap_or("a panic without a message").to_owned()
 }
 
 #[cfg(test)]

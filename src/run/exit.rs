@@ -158,10 +158,10 @@ impl From<RefineError> for FailureReport {
 pub fn no_mesh(stop: &Stop, more: &str) -> FailureReport {
     let (what, help) = match stop.reason {
         StopReason::VertexBudget => {
-            ("the vertex budget ended before there was a valid mesh", "give more by --max-vertices".into())
+            ("the vertex budget ended before there was a valid mesh", "allow more by --max-vertices".into())
         }
         StopReason::Cancelled | StopReason::TimedOut => {
-            ("the run was stopped before there was a valid mesh", format!("give more by {more}"))
+            ("the run was stopped before there was a valid mesh", format!("allow more by {more}"))
         }
         StopReason::Done | StopReason::Arithmetic | StopReason::NoProgress => (
             "features are nearer to each other than the coordinates can tell apart",

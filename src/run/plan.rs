@@ -58,7 +58,7 @@ impl Gcdr {
     fn check(&self, domain: &Domain) -> Result<(), FailureReport> {
         let rho = radius_edge_of(self.options.angle_min_rad);
         self.options.regions.check(rho, gcdr::least_angle(domain)).map_err(|violation| {
-            let help = "give more by --delta2, --delta1 or --mu, or a smaller --min-angle";
+            let help = "use larger --delta2, --delta1 or --mu, or a smaller --min-angle";
             FailureReport::new(FailureKind::Request, violation.to_string(), help)
         })
     }
@@ -200,7 +200,7 @@ fn split_to_turning(
         let failure = no_mesh(&stop, "--max-vertices");
         FailureReport {
             what: format!("pieces that turn at most {tau_rad:e} take {needed} vertices or more"),
-            help: "let them turn more by --max-turning, or give more by --max-vertices".into(),
+            help: "let them turn more by --max-turning, or allow more by --max-vertices".into(),
             ..failure
         }
     })
@@ -225,7 +225,7 @@ fn sizing(drawing: &Drawing, domain: &Domain, request: &Request) -> Result<Sizin
     let undefined = request.limits.size.as_ref().and_then(|size| size.undefined_at(domain.points().iter().copied()));
     if let Some(at) = undefined {
         let what = format!(
-            "--size {} is no positive length",
+            "--size {} is not a positive length",
             request.limits.size.as_ref().map_or(String::new(), ToString::to_string)
         );
         let help = "an expression must be positive all over the drawing: max(h, …) keeps it so";

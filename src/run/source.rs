@@ -108,7 +108,7 @@ fn in_units(mut drawing: Drawing, request: &Request) -> Result<Drawing, FailureR
     let mut factor = request.scale.unwrap_or(1.0);
     if let Some(unit) = &request.unit {
         let wanted = metres(unit).ok_or_else(|| {
-            let what = format!("--unit {unit}: no unit of length that is known here");
+            let what = format!("--unit {unit}: not a unit of length that is known");
             FailureReport::new(
                 FailureKind::Request,
                 what,

@@ -145,6 +145,6 @@ fn refuse_not_around(rows: &[&Gathered], x: usize) -> Result<(), ImportError> {
     if around(0, 1) || around(n - 1, n - 2) {
         return Ok(());
     }
-    let what = "the columns are no ordinates of an upper and a lower surface: both run to the same side of the nose";
+    let what = "the columns are not ordinates of an upper and a lower surface: both run to the same side of the nose";
     Err(ImportError::at(rows[1].line, what, HELP))
 }

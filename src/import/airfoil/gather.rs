@@ -29,7 +29,7 @@ pub fn first_data(rows: &[Row]) -> Option<usize> {
 }
 
 const LOST: &str = "the line lies amid coordinates, but does not hold two numbers";
-const MEND: &str = "mend the line, or remove it";
+const MEND: &str = "correct the line, or remove it";
 
 /// A point that is no number may be the first of all, or the first but one.
 pub fn refuse_lost_start(rows: &[Row], start: usize) -> Result<(), ImportError> {

@@ -58,7 +58,7 @@ fn skip_numbers_of_header(samples: &mut Vec<Sample>, notes: &mut Vec<String>) {
         }
         let Sample { at, line, .. } = samples.remove(0);
         let place = format!("{} and {} on line {line}", at.x, at.y);
-        notes.push(format!("The numbers {place} are no point of the section and were passed over."));
+        notes.push(format!("The numbers {place} are not a point of the section and were passed over."));
         if let Some(first) = samples.first_mut() {
             (first.gap_before, first.text_before) = (false, None);
         }

@@ -360,7 +360,7 @@ impl<'f, 'a> Sketch<'f, 'a> {
     fn spend(&mut self, cost: usize, label: &str) -> Result<(), ImportError> {
         self.left = self.left.checked_sub(cost).ok_or_else(|| {
             let what = format!("{label}: blocks unfold to more than {UNFOLDED} curves");
-            ImportError::new(what, "leave out blocks that are no part of the outline, or explode and purge them")
+            ImportError::new(what, "leave out blocks that are not part of the outline, or explode and purge them")
         })?;
         Ok(())
     }

@@ -63,10 +63,10 @@ fn why_not(kind: &str) -> &'static str {
         "RAY" | "XLINE" => "a construction line without end",
         "REGION" | "3DSOLID" | "BODY" | "SURFACE" | "PLANESURFACE" | "EXTRUDEDSURFACE" | "LOFTEDSURFACE"
         | "REVOLVEDSURFACE" | "SWEPTSURFACE" | "NURBSURFACE" => "an ACIS body (explode it into curves)",
-        "IMAGE" | "WIPEOUT" | "OLEFRAME" | "OLE2FRAME" | "PDFUNDERLAY" | "DWFUNDERLAY" | "DGNUNDERLAY" => "a picture",
+        "IMAGE" | "WIPEOUT" | "OLEFRAME" | "OLE2FRAME" | "PDFUNDERLAY" | "DWFUNDERLAY" | "DGNUNDERLAY" => "an image",
         "VIEWPORT" => "a view",
         "MESH" => "a surface in space",
-        _ => "no entity that is read here",
+        _ => "an entity of a kind that is not read",
     }
 }
 

@@ -5,7 +5,7 @@ use std::fmt;
 
 /// What a binary file starts with; some were sent as text on their way, and have lost the CR.
 const SENTINELS: [&[u8]; 2] = [b"AutoCAD Binary DXF\r\n\x1a\0", b"AutoCAD Binary DXF\n\x1a\0"];
-const DAMAGED: &str = "the file is damaged here, or is no DXF file: export it again";
+const DAMAGED: &str = "the file is damaged here, or is not a DXF file: export it again";
 
 /// Where something stands in the file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -232,7 +232,7 @@ impl<'a> Pairs<'a> {
             Some(Kind::Integer16) => self.array().map(|b| Value::Integer(i16::from_le_bytes(b).into())),
             Some(Kind::Integer32) => self.array().map(|b| Value::Integer(i32::from_le_bytes(b).into())),
             Some(Kind::Integer64) => self.array().map(|b| Value::Integer(i64::from_le_bytes(b))),
-            None => return Err(place.error(format!("{code} is no group code"), DAMAGED)),
+            None => return Err(place.error(format!("{code} is not a group code"), DAMAGED)),
         };
         Ok(value.map(|value| Pair { code, value, place }))
     }

@@ -182,7 +182,7 @@ impl CurveForm {
 
 fn polyline(points: &[Point], closed: bool) -> Result<Vec<Curve>, String> {
     if points.len() < 2 + usize::from(closed) {
-        return Err(format!("{} points make no polyline", points.len()));
+        return Err(format!("{} points do not make a polyline", points.len()));
     }
     let closing = closed.then(|| [points[points.len() - 1], points[0]]);
     let edges = points.windows(2).map(|w| [w[0], w[1]]).chain(closing);
@@ -340,7 +340,7 @@ impl PiecewiseForm {
             let next = match bezier(&form.points, form.weights).map_err(|e| format!("spans[{i}]: {e}"))? {
                 Curve::Bezier(span) => vec![*span],
                 Curve::Spline(evened) => evened.spans,
-                other => return Err(format!("spans[{i}]: is no Bézier curve but a {}", other.kind())),
+                other => return Err(format!("spans[{i}]: is not a Bézier curve but a {}", other.kind())),
             };
             if spans.last().is_some_and(|before| before.points.last() != next[0].points.first()) {
                 return Err(format!("spans[{i}] does not start where the span before it ends"));

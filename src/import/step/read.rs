@@ -218,7 +218,7 @@ impl File<'_> {
 
     fn located(&self, face: u64, error: FaceError) -> ImportError {
         let line = self.graph.get(face).map_or(0, |raw| raw.span().line as usize);
-        ImportError::at(line, error.to_string(), "mend the face in the program that made it, or pick another by --face")
+        ImportError::at(line, error.to_string(), "repair the face in the program that made it, or pick another by --face")
     }
 
     /// The edges of a bound.

@@ -76,8 +76,8 @@ impl File<'_> {
         let simple = usize::from(matches!(net.attributes.first(), Some(Attribute::String(_))));
         let mut rows = Vec::new();
         for row in net.list(2 + simple)? {
-            let Attribute::List(row) = row else { return Err(net.fail("has a row that is no list")) };
-            let row = row.iter().map(|p| reference(p).ok_or_else(|| net.fail("has a control point that is none")));
+            let Attribute::List(row) = row else { return Err(net.fail("has a row that is not a list")) };
+            let row = row.iter().map(|p| reference(p).ok_or_else(|| net.fail("has an entry that is not a control point")));
             rows.push(row.map(|id| self.point(id?)).collect::<Result<Vec<_>>>()?);
         }
         Ok(plane_of_net(&rows, uncertainty).map_or_else(|| Surface::Curved("B_SPLINE_SURFACE".into()), Surface::Plane))
@@ -101,7 +101,7 @@ impl File<'_> {
             return self.spline(id, &spline);
         }
         let Ok(entity) = self.entity(id, &["LINE", "POLYLINE", "CIRCLE", "ELLIPSE", "PARABOLA", "HYPERBOLA"]) else {
-            return Err(self.first(id)?.fail("is no curve that is read here"));
+            return Err(self.first(id)?.fail("is a curve of a kind that is not read"));
         };
         match entity.kind {
             "LINE" => Ok(SpaceCurve::Line),

@@ -108,7 +108,7 @@ impl Reader<'_> {
         }
         let masks = self.drawing.skipped.iter().filter(|s| s.why == MASK).map(|s| s.count).sum::<usize>();
         if masks > 0 {
-            let note = format!("Elements with a mask: {masks}; masks are not applied, and what they hide is there.");
+            let note = format!("Elements with a mask: {masks}; masks are not applied: all of these elements is read.");
             self.drawing.notes.push(note);
         }
         if self.offset_error > 0.0 {

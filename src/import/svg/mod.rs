@@ -106,7 +106,7 @@ pub fn read(bytes: &[u8], stem: &str, options: &SvgOptions, selection: &Selectio
     let root = document.root_element();
     if local_name(root) != Some("svg") {
         let what = format!("the outermost element is '{}', not 'svg'", root.tag_name().name());
-        return Err(ImportError::at(Lines::new(&text).place(root.range().start).0, what, "this is no SVG drawing"));
+        return Err(ImportError::at(Lines::new(&text).place(root.range().start).0, what, "this is not an SVG drawing"));
     }
     let css = css::sheet_text(&document);
     let sheet = Sheet::parse(&css, &document);

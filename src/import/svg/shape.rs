@@ -26,7 +26,7 @@ impl<'a> Reader<'a> {
     ) -> Result<(), ImportError> {
         let known = known_tag(tag);
         let Some(outline) = self.outline(node, tag, declared, context.viewport)? else {
-            self.skip(known, "it is no element of SVG that is drawn");
+            self.skip(known, "it is not an element that SVG draws");
             return Ok(());
         };
         if !context.style.visible {

@@ -97,7 +97,7 @@ const NOT_DRAWN: &[&str] = &[
 const LEFT_OUT: &[(&str, &str)] = &[
     ("text", "text has no outlines here; convert it to paths"),
     ("image", "a raster image has no curves"),
-    ("foreignObject", "it is no SVG"),
+    ("foreignObject", "it is not SVG"),
     ("animate", "animations are not played"),
     ("animateColor", "animations are not played"),
     ("animateMotion", "animations are not played"),

@@ -62,7 +62,7 @@ fn decoded(bytes: Cow<'_, [u8]>) -> Result<(Cow<'_, str>, Option<String>), Impor
         return Ok((text.into(), Some("The file was read as ISO 8859-1, as it says.".into())));
     }
     let line = 1 + bytes[..broken].iter().filter(|&&b| b == b'\n').count();
-    Err(ImportError::at(line, "a byte that is no UTF-8", "save the file as UTF-8"))
+    Err(ImportError::at(line, "a byte that is not UTF-8", "save the file as UTF-8"))
 }
 
 /// The text behind `<?xml … ?>`, which may name an encoding that the text no longer has.
@@ -87,14 +87,14 @@ pub(super) fn parse(text: &str) -> Result<Document<'_>, ImportError> {
             true => Lines::new(text).place(text.len()),
             false => (error.pos().row as usize, error.pos().col as usize),
         };
-        let help = "the file is cut off, or no SVG: export it again";
+        let help = "the file is cut off, or is not SVG: export it again";
         ImportError { column: Some(column), ..ImportError::at(line, format!("XML: {what}"), help) }
     })
 }
 
 /// Refuses what the parser takes time or memory for that grows with the square of the file, or faster.
 fn check_cost(text: &str) -> Result<(), ImportError> {
-    let refuse = |what: &str| Err(ImportError::new(what, "this looks like no drawing: export it again"));
+    let refuse = |what: &str| Err(ImportError::new(what, "this does not look like a drawing: export it again"));
     if entity_bytes(text) > ENTITIES_MAX {
         return refuse("the entities of the DOCTYPE unfold to more than 64 MiB");
     }

@@ -123,14 +123,14 @@ impl Deck {
     fn data(&mut self, n: usize, line: &[u8]) -> Result<()> {
         let words: Vec<&[u8]> = line.split(|&b| b == b',').map(<[u8]>::trim_ascii).filter(|w| !w.is_empty()).collect();
         let whole = |word: &&[u8]| -> Result<u64> {
-            text(word).parse().map_err(|_| broken_at(n, format!("'{}' is no number of a node or element", text(word))))
+            text(word).parse().map_err(|_| broken_at(n, format!("'{}' is not a number of a node or element", text(word))))
         };
         match &self.section {
             Section::Nodes => {
                 let tag = words.first().map(whole).transpose()?.unwrap_or(0);
                 let value = |k: usize| words.get(k).map_or(Some(0.0), |word| number(word));
                 let (Some(x), Some(y), Some(z)) = (value(1), value(2), value(3)) else {
-                    return Err(broken_at(n, "a coordinate is no number"));
+                    return Err(broken_at(n, "a coordinate is not a number"));
                 };
                 if self.nodes.insert(tag, self.draft.nodes.len()).is_some() {
                     return Err(broken_at(n, format!("node {tag} is given twice")));
@@ -173,7 +173,7 @@ impl Deck {
         let triangle = tag.and_then(|tag: u64| self.places.get(&tag)).map(|&t| &self.triangles[t]);
         let side = face.strip_prefix(b"S").or(face.strip_prefix(b"s")).and_then(number);
         let (Some(triangle), Some(side @ (1.0 | 2.0 | 3.0))) = (triangle, side) else {
-            let what = format!("line {n}: '{}' is no face of a triangle", text(line));
+            let what = format!("line {n}: '{}' is not a face of a triangle", text(line));
             return Err(unsupported(what, "surfaces can be read as faces S1 to S3 of elements before them"));
         };
         let side = side as usize - 1;

@@ -91,7 +91,7 @@ impl<'a> Words<'a> {
     fn whole(&mut self) -> Result<i64> {
         let word = self.word()?;
         let value = std::str::from_utf8(word).ok().and_then(|t| t.parse().ok());
-        value.ok_or_else(|| broken(format!("'{}' is no whole number", text(word))))
+        value.ok_or_else(|| broken(format!("'{}' is not a whole number", text(word))))
     }
 
     fn int(&mut self) -> Result<i64> {
@@ -101,7 +101,7 @@ impl<'a> Words<'a> {
     /// A `size_t`.
     fn size(&mut self) -> Result<u64> {
         let value = if self.binary { i64::from_le_bytes(self.packed()?) } else { self.whole()? };
-        u64::try_from(value).map_err(|_| broken(format!("{value} is no count")))
+        u64::try_from(value).map_err(|_| broken(format!("{value} is not a count")))
     }
 
     /// A count of things that take at least a byte each.
@@ -118,7 +118,7 @@ impl<'a> Words<'a> {
             return Ok(f64::from_le_bytes(self.packed()?));
         }
         let word = self.word()?;
-        number(word).ok_or_else(|| broken(format!("'{}' is no number", text(word))))
+        number(word).ok_or_else(|| broken(format!("'{}' is not a number", text(word))))
     }
 }
 
@@ -158,7 +158,7 @@ impl Reader<'_> {
 
     fn names(&mut self) -> Result<()> {
         let count = text(self.words.line());
-        let count: usize = count.parse().map_err(|_| broken(format!("'{count}' is no count of names")))?;
+        let count: usize = count.parse().map_err(|_| broken(format!("'{count}' is not a count of names")))?;
         for _ in 0..count {
             let line = text(self.words.line());
             let mut parts = line.splitn(3, ' ');
@@ -166,7 +166,7 @@ impl Reader<'_> {
             let (dimension, tag) = (next(), next());
             let name = parts.next().map(str::trim).and_then(|name| name.strip_prefix('"')?.strip_suffix('"'));
             let (Some(dimension), Some(tag), Some(name)) = (dimension, tag, name) else {
-                return Err(broken(format!("'{line}' is no physical name")));
+                return Err(broken(format!("'{line}' is not a physical name")));
             };
             self.names.insert((dimension, tag), name.to_owned());
         }
@@ -237,7 +237,7 @@ impl Reader<'_> {
         for _ in 0..count {
             let tag = self.words.int()?;
             let place = self.place()?;
-            self.node(u64::try_from(tag).map_err(|_| broken(format!("{tag} is no number of a node")))?, place)?;
+            self.node(u64::try_from(tag).map_err(|_| broken(format!("{tag} is not a number of a node")))?, place)?;
             if parametric {
                 let (dimension, _) = (self.words.int()?, self.words.int()?);
                 for _ in 0..if matches!(dimension, 1 | 2) { dimension } else { 0 } {
@@ -251,7 +251,7 @@ impl Reader<'_> {
     /// A count of 2.2, which stands as text on a line of its own even in binary.
     fn count_2(&mut self) -> Result<usize> {
         let line = text(self.words.line());
-        let count = line.parse().map_err(|_| broken(format!("'{line}' is no count")))?;
+        let count = line.parse().map_err(|_| broken(format!("'{line}' is not a count")))?;
         self.words.count(count)
     }
 
@@ -296,7 +296,7 @@ impl Reader<'_> {
                     let tag = self.words.int()?;
                     group = if i == 0 { tag } else { group };
                 }
-                let node = |n: i64| u64::try_from(n).map_err(|_| broken(format!("{n} is no number of a node")));
+                let node = |n: i64| u64::try_from(n).map_err(|_| broken(format!("{n} is not a number of a node")));
                 let nodes = (0..nodes_of(kind)?).map(|_| node(self.words.int()?)).collect::<Result<_>>()?;
                 self.cell(kind, group, nodes);
             }

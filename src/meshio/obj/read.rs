@@ -21,7 +21,7 @@ pub fn read(bytes: &[u8]) -> Result<MeshFile> {
                 let mut place = [0.0; 3];
                 for x in &mut place {
                     let word = words.next().and_then(number);
-                    *x = word.ok_or_else(|| broken_at(n, "a vertex has not three coordinates"))?;
+                    *x = word.ok_or_else(|| broken_at(n, "a vertex does not have three coordinates"))?;
                 }
                 draft.nodes.push(place);
             }
@@ -55,5 +55,5 @@ fn vertex(word: &[u8], so_far: usize, line: usize) -> Result<usize> {
         Ok(v @ ..=-1) => usize::try_from(v.unsigned_abs()).ok().and_then(|back| so_far.checked_sub(back)),
         _ => None,
     };
-    found.ok_or_else(|| broken_at(line, format!("'{head}' is no vertex")))
+    found.ok_or_else(|| broken_at(line, format!("'{head}' is not a vertex")))
 }

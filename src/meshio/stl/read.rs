@@ -12,7 +12,7 @@ pub fn read(bytes: &[u8]) -> Result<MeshFile> {
     match count {
         Some(count) if bytes.len() as u64 == 84 + 50 * u64::from(count) => soup.binary(&bytes[84..]),
         _ if bytes.trim_ascii_start().starts_with(b"solid") => soup.text(bytes)?,
-        _ => return Err(broken("this is no STL: neither 'solid' nor as long as its count of triangles says")),
+        _ => return Err(broken("this is not STL: it neither begins with 'solid' nor is as long as its count of triangles says")),
     }
     soup.draft.finish()
 }
@@ -59,7 +59,7 @@ impl Soup {
                 Some(b"vertex") => {
                     let place: Vec<f64> = words.map_while(number).collect();
                     let &[x, y, z] = place.as_slice() else {
-                        return Err(broken_at(n, "a vertex has not three coordinates"));
+                        return Err(broken_at(n, "a vertex does not have three coordinates"));
                     };
                     corners.push(self.node([x, y, z]));
                 }

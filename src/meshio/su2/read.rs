@@ -79,13 +79,13 @@ impl File {
         let nodes = |k: usize| -> Result<Vec<usize>> {
             let whole = |v: &f64| (*v >= 0.0 && v.fract() == 0.0 && *v < 4e9).then_some(*v as usize);
             let nodes: Option<Vec<usize>> = words.get(1..=k).and_then(|words| words.iter().map(whole).collect());
-            nodes.ok_or_else(|| broken_at(n, format!("an element has not {k} nodes")))
+            nodes.ok_or_else(|| broken_at(n, format!("an element does not have {k} nodes")))
         };
         let kind = words.first().copied();
         match self.section {
             Section::Points => match words.as_slice() {
                 [x, y, ..] => self.draft.nodes.push([*x, *y, 0.0]),
-                _ => return Err(broken_at(n, "a point has not two coordinates")),
+                _ => return Err(broken_at(n, "a point does not have two coordinates")),
             },
             Section::Elements if kind == Some(5.0) => self.draft.triangle(nodes(3)?, REGION),
             Section::Marker if kind == Some(3.0) => self.draft.line(nodes(2)?, &self.names.boundary(&self.marker)),

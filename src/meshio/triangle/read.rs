@@ -89,7 +89,7 @@ impl<'a> Rows<'a> {
     fn next(&mut self, what: &str) -> Result<Row> {
         let (line, words) = self.lines.next().ok_or_else(|| broken(format!("the file ends before {what}")))?;
         let words = words.split(u8::is_ascii_whitespace).filter(|w| !w.is_empty());
-        let value = |word| number(word).ok_or_else(|| broken_at(line, format!("'{}' is no number", text(word))));
+        let value = |word| number(word).ok_or_else(|| broken_at(line, format!("'{}' is not a number", text(word))));
         Ok(Row { line, numbers: words.map(value).collect::<Result<_>>()? })
     }
 
@@ -97,6 +97,6 @@ impl<'a> Rows<'a> {
     fn count(&self, header: &Row, at: usize) -> Result<usize> {
         let value =
             header.numbers.get(at).copied().filter(|v| v.fract() == 0.0 && *v >= 0.0 && *v <= self.bytes as f64);
-        value.map(|v| v as usize).ok_or_else(|| broken_at(header.line, "the count is none that the file has room for"))
+        value.map(|v| v as usize).ok_or_else(|| broken_at(header.line, "the count is larger than the file has room for"))
     }
 }

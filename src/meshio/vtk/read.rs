@@ -137,7 +137,7 @@ impl Grid {
                 for _ in 0..count(2)? {
                     let line = words.keyword().ok_or_else(|| broken("the file ends within a field"))?;
                     let [name, components, tuples, kind] = line.as_slice() else {
-                        return Err(broken(format!("'{}' is no field array", line.join(" "))));
+                        return Err(broken(format!("'{}' is not a field array", line.join(" "))));
                     };
                     let sizes = [components, tuples].map(|word| word.parse::<usize>().unwrap_or(usize::MAX));
                     let values = words.numbers(sizes[0].saturating_mul(sizes[1]), &kind.to_ascii_lowercase())?;
@@ -219,7 +219,7 @@ impl Grid {
             let corners = (end >= 0.0).then(|| self.corners.get(from..end as usize)).flatten();
             let corners = corners.ok_or_else(|| broken(format!("cell {cell} has no corners")))?;
             from = end as usize;
-            let nodes = nodes(corners).ok_or_else(|| broken(format!("cell {cell} has a corner that is no point")))?;
+            let nodes = nodes(corners).ok_or_else(|| broken(format!("cell {cell} has a corner that is not a point")))?;
             match (kind as i64, nodes.len()) {
                 (5, 3) | (22, 6) => draft.triangle(nodes, &name(&region_names, regions, cell, REGION)),
                 (3, 2) | (21, 3) => draft.line(nodes, &name(&boundary_names, boundaries, cell, BOUNDARY)),
@@ -234,7 +234,7 @@ impl Grid {
         for (name, components, values) in &self.fields {
             let Some(name) = name.strip_prefix("boundary:").filter(|_| matches!(components, 2 | 3)) else { continue };
             for edge in values.chunks_exact(*components) {
-                let edge = nodes(edge).ok_or_else(|| broken(format!("an edge of '{name}' ends at no point")))?;
+                let edge = nodes(edge).ok_or_else(|| broken(format!("an edge of '{name}' ends at a number that is not a point")))?;
                 draft.line(edge, name);
             }
         }

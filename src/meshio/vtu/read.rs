@@ -86,7 +86,7 @@ impl CellData {
             _ => None,
         };
         if let Some(t) = t.iter().flatten().find(|t| !(0.0..=1.0).contains(*t)) {
-            return Err(broken(format!("array 't' holds {t}, which is no parameter of a curve (0 to 1)")));
+            return Err(broken(format!("array 't' holds {t}, which is not a parameter of a curve (0 to 1)")));
         }
         let colour = unpacker.file.array(Section::CellData, "colour").filter(|array| array.kind == Kind::UInt(1));
         let most = unpacker.file.cells.saturating_mul(4);
@@ -179,7 +179,7 @@ impl Builder {
             let nodes = connectivity.get(from..to).ok_or_else(|| broken(format!("cell {cell} has no corners")))?;
             from = to;
             if let Some(node) = nodes.iter().find(|&&n| n as usize >= self.file.mesh.nodes.len()) {
-                return Err(broken(format!("cell {cell} has a corner {node} that is no point")));
+                return Err(broken(format!("cell {cell} has a corner {node} that is not a point")));
             }
             match (kind, nodes) {
                 (5, &[a, b, c]) | (22, &[a, b, c, ..]) if nodes.len() == if kind == 5 { 3 } else { 6 } => {

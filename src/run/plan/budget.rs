@@ -25,7 +25,7 @@ impl Plan {
         let unresolved = (vertices - budget) as usize;
         let stop = Stop { reason: StopReason::VertexBudget, unresolved, places: demand.places(), angle_deg: None };
         let (why, help) = if demand.by_size >= demand.by_slivers() {
-            ("the sizes asked for", "ask for larger sizes, or give more by --max-vertices".to_owned())
+            ("the sizes asked for", "ask for larger sizes, or allow more by --max-vertices".to_owned())
         } else {
             ("slivers between curves", self.out_of_slivers(domain, demand.width_over(budget), healing, watch)?)
         };
@@ -58,7 +58,7 @@ impl Plan {
                 .map_or_else(String::new, |angle| format!("ask for a smaller angle by --min-angle {angle}, ")),
         };
         Ok(format!(
-            "curves run that near to each other: {way}leave edges below a length by --min-edge, or give more by --max-vertices"
+            "curves run that near to each other: {way}leave edges below a length by --min-edge, or allow more by --max-vertices"
         ))
     }
 }
