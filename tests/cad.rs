@@ -497,7 +497,7 @@ fn a_mesh_file_in_space_is_read_back_into_its_plane_and_judged() {
     let drawing = read(&text);
     let arranged = drawing.arrange(&ArrangeOptions::default()).unwrap();
     let (domain, plan) = Plan::new(&drawing, &arranged, &Request::default(), &mut |_| true).unwrap();
-    let (verdict, untied) = plan.judge_file(Some(&domain), &back);
+    let (verdict, untied) = plan.verify_file(Some(&domain), &back);
     assert!(verdict.kept() && untied.is_none());
 }
 

@@ -78,7 +78,7 @@ impl Check {
             None => None,
         };
         let (domain, plan) = against.map_or_else(|| (None, Plan::without_domain(&request)), |(d, p)| (Some(d), p));
-        let (verdict, untied) = plan.judge_file(domain.as_ref(), &mesh);
+        let (verdict, untied) = plan.verify_file(domain.as_ref(), &mesh);
         report.input.notes.extend(notes);
         report.input.notes.extend(untied.is_some().then(|| BY_PLACE.to_owned()));
         let mesh = untied.unwrap_or(mesh);

@@ -131,7 +131,7 @@ impl Outcome {
         self.report.seconds.mesh += laps.lap();
 
         // Whatever the time: a mesh that nobody judged is worth nothing, and the judge's work is bounded by its size.
-        let mut verdict = plan.judge(Some(&domain), &mesh);
+        let mut verdict = plan.verify(Some(&domain), &mesh);
         verdict.checks.extend(plan.densities(&domain, &mesh, &insertions));
         if stop.angle_deg.is_some() {
             self.report.stop = Some(StopReport::new(&stop).with_unresolved_angles(&verdict));

@@ -158,15 +158,15 @@ impl Plan {
     }
 
     /// Holds a mesh of ours to what was asked, by its links to the domain's curves.
-    pub fn judge(&self, domain: Option<&Domain>, mesh: &Mesh) -> Verdict {
+    pub fn verify(&self, domain: Option<&Domain>, mesh: &Mesh) -> Verdict {
         verify(domain, mesh, &self.promise(false))
     }
 
     /// Holds a mesh from a file to what was asked. Other programs drop or renumber what ties a mesh to its curves:
     /// where that does not hold, the mesh is judged by where its nodes lie, if it stands better so. Returns that mesh,
     /// without its ties, beside the verdict.
-    pub fn judge_file(&self, domain: Option<&Domain>, mesh: &Mesh) -> (Verdict, Option<Mesh>) {
-        let by_links = self.judge(domain, mesh);
+    pub fn verify_file(&self, domain: Option<&Domain>, mesh: &Mesh) -> (Verdict, Option<Mesh>) {
+        let by_links = self.verify(domain, mesh);
         if domain.is_none() || by_links.kept() {
             return (by_links, None);
         }
