@@ -62,8 +62,7 @@ pub fn read(input: &Input) -> Result<MeshFile, Halt> {
 pub const REQUEST_STAMP: &str = "request";
 
 /// Said of a mesh whose links are missing or do not fit.
-const BY_PLACE: &str =
-    "The mesh does not say, or says wrongly, on which curves its edges lie: the verifier went by the places of its nodes.";
+const BY_PLACE: &str = "The mesh does not say, or says wrongly, on which curves its edges lie: the verifier went by the places of its nodes.";
 
 impl Check {
     pub fn run(self, volume: Volume) -> Result<Exit, Halt> {

@@ -1,5 +1,5 @@
-//! Files that are no drawing for any reader here: recognised by their first bytes, or by a suffix where those say
-//! nothing, and refused by name with the way out. A format is recognised only by what no drawing of ours begins with.
+//! Files that are not drawings. They are recognised by their first bytes, else by their suffix, and refused by name
+//! with a way out. The bytes of a format are listed only if no drawing begins with them.
 
 use super::{ImportError, number};
 use std::path::Path;
@@ -7,18 +7,18 @@ use std::path::Path;
 /// What can be done with a file of a kind.
 #[derive(Clone, Copy)]
 enum Way {
-    /// A mesh that is read as a mesh.
+    /// A mesh in a format that squinch reads.
     Mesh,
-    /// A mesh of another program.
+    /// A mesh in a format that squinch does not read.
     OtherMesh,
-    /// A picture of pixels.
+    /// A raster image.
     Pixels,
     /// Curves that another program saves as SVG.
     Page,
     /// Curves that a CAD system saves as DXF.
     Cad,
     Archive,
-    /// Paths of a machine.
+    /// Toolpaths of a machine.
     Machine,
     Other,
 }
@@ -46,11 +46,11 @@ impl Way {
 
 /// How a format is recognised by its content.
 enum Sign {
-    /// Bytes at their offsets.
+    /// These bytes at these offsets.
     Bytes(&'static [(usize, &'static [u8])]),
-    /// The first line that is not blank starts so, whatever the case.
+    /// The first line that is not blank begins with this, in any case.
     Start(&'static str),
-    /// A line of the head starts so, whatever the case.
+    /// A line of the head begins with this, in any case.
     Line(&'static str),
     Test(fn(&Head) -> bool),
 }
@@ -127,7 +127,7 @@ const SIGNS: &[(&str, Way, Sign)] = &[
     ("a plotter file (HPGL)", Way::Machine, Sign::Test(|head| head.text.contains("PU") && head.text.contains(";PD"))),
 ];
 
-/// Suffixes of files that nothing above may be found in.
+/// Suffixes, for files whose content was not recognised.
 const SUFFIXES: &[(&[&str], &str, Way)] = &[
     (&["png", "jpg", "jpeg", "gif", "tif", "tiff", "webp", "bmp", "heic"], "a raster image", Way::Pixels),
     (&["pdf", "ps", "eps", "ai", "cdr", "emf", "wmf", "fig", "odg", "vsd", "vsdx"], "a document", Way::Page),
@@ -147,7 +147,11 @@ const SUFFIXES: &[(&[&str], &str, Way)] = &[
         Way::OtherMesh,
     ),
     (&["gcode", "nc", "ngc", "tap", "cnc", "gbr", "ger", "drl", "plt", "hpgl"], "a file for a machine", Way::Machine),
-    (&["html", "htm", "xml", "doc", "docx", "xls", "xlsx", "md", "py", "tex"], "not a drawing by its suffix", Way::Other),
+    (
+        &["html", "htm", "xml", "doc", "docx", "xls", "xlsx", "md", "py", "tex"],
+        "not a drawing by its suffix",
+        Way::Other,
+    ),
 ];
 
 /// The refusal of a file whose first bytes are those of a format that is not read here.

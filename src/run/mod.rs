@@ -142,7 +142,8 @@ impl Outcome {
         self.report.seconds.verify = laps.lap();
         self.exit = exit_of(&verdict, stop.reason);
         if self.exit == Exit::Bug {
-            let what = format!("the mesh breaks guarantees that hold whatever the request: {}", broken(&verdict).join(", "));
+            let what =
+                format!("the mesh breaks guarantees that hold whatever the request: {}", broken(&verdict).join(", "));
             self.report.failure = Some(FailureReport::new(FailureKind::Bug, what, "please send us the case file"));
         }
         (self.domain, self.mesh, self.verdict) = (Some(domain), Some(mesh), Some(verdict));

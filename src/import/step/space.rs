@@ -7,17 +7,19 @@ use crate::geometry::Frame;
 use crate::geometry::space::{cross, dot, length, minus, plus, times, unit};
 use step_io::parser::{Attribute, RawEntity};
 
-/// Spans are cut from a spline in time that grows with the cube of the degree; modellers stop at 25.
+/// Largest degree; modellers stop at 25. Splitting a spline into spans takes time that grows with the cube of the
+/// degree.
 const MOST_DEGREE: usize = 32;
 
-/// Curves that stand for another, which is their second attribute.
+/// Types that refer to another curve by their second attribute.
 const STAND_INS: [&str; 5] =
     ["SURFACE_CURVE", "SEAM_CURVE", "INTERSECTION_CURVE", "BOUNDED_SURFACE_CURVE", "TRIMMED_CURVE"];
 
-/// The types that hold a spline's degree and control points; of a complex entity, the first.
+/// The types with the degree and control points of a spline; in a complex entity, the first.
 const SPLINES: [&str; 5] =
     ["B_SPLINE_CURVE", "B_SPLINE_CURVE_WITH_KNOTS", "BEZIER_CURVE", "QUASI_UNIFORM_CURVE", "UNIFORM_CURVE"];
 
+/// The surface of a face.
 pub(super) enum Surface {
     Plane(Frame),
     /// The name of its type.
@@ -25,22 +27,25 @@ pub(super) enum Surface {
 }
 
 impl File<'_> {
+    /// The three coordinates of an entity.
     pub(super) fn triple(&self, entity: &Entity) -> Result<[f64; 3]> {
         let reals = entity.reals(1)?;
         reals.try_into().map_err(|reals: Vec<f64>| entity.fail(format!("has {} coordinates, not 3", reals.len())))
     }
 
+    /// A point.
     pub(super) fn point(&self, id: u64) -> Result<[f64; 3]> {
         let entity = self.entity(id, &["CARTESIAN_POINT"])?;
         let point = self.triple(&entity)?;
         if point.iter().all(|x| x.is_finite()) { Ok(point) } else { Err(entity.fail("is nowhere")) }
     }
 
+    /// The point of a vertex.
     pub(super) fn vertex(&self, id: u64) -> Result<[f64; 3]> {
         self.point(self.entity(id, &["VERTEX_POINT"])?.reference(1)?)
     }
 
-    /// A direction where there is one.
+    /// A direction, if there is one.
     pub(super) fn direction(&self, entity: &Entity, i: usize) -> Result<Option<[f64; 3]>> {
         match entity.attributes.get(i) {
             Some(Attribute::EntityRef(id)) => {
@@ -55,7 +60,7 @@ impl File<'_> {
         }
     }
 
-    /// The axes of a placement in space; those left out are the coordinate axes.
+    /// The axes of a placement in space. Missing axes are coordinate axes.
     pub(super) fn placement(&self, id: u64) -> Result<Frame> {
         let entity = self.entity(id, &["AXIS2_PLACEMENT_3D"])?;
         let axis = self.direction(&entity, 2)?.unwrap_or([0.0, 0.0, 1.0]);
@@ -63,7 +68,7 @@ impl File<'_> {
         Frame::of_plane(self.point(entity.reference(1)?)?, axis, toward).ok_or_else(|| entity.fail("has no axes"))
     }
 
-    /// The frame of a surface that is a plane, by its type or by its control points.
+    /// The frame of a planar surface, by its type or by its control points.
     pub(super) fn plane(&self, id: u64, uncertainty: f64) -> Result<Surface> {
         if let Ok(plane) = self.entity(id, &["PLANE"]) {
             return Ok(Surface::Plane(self.placement(plane.reference(1)?)?));
@@ -77,7 +82,8 @@ impl File<'_> {
         let mut rows = Vec::new();
         for row in net.list(2 + simple)? {
             let Attribute::List(row) = row else { return Err(net.fail("has a row that is not a list")) };
-            let row = row.iter().map(|p| reference(p).ok_or_else(|| net.fail("has an entry that is not a control point")));
+            let row =
+                row.iter().map(|p| reference(p).ok_or_else(|| net.fail("has an entry that is not a control point")));
             rows.push(row.map(|id| self.point(id?)).collect::<Result<Vec<_>>>()?);
         }
         Ok(plane_of_net(&rows, uncertainty).map_or_else(|| Surface::Curved("B_SPLINE_SURFACE".into()), Surface::Plane))
@@ -95,6 +101,7 @@ impl File<'_> {
         }
         Err(self.first(id)?.fail("stands for itself"))
     }
+/// The curve in space of an entity of a basic kind.
 
     pub(super) fn space_curve(&self, id: u64) -> Result<SpaceCurve> {
         if let Ok(spline) = self.entity(id, &SPLINES) {
@@ -109,6 +116,7 @@ impl File<'_> {
             _ => self.conic(&entity),
         }
     }
+/// A polyline.
 
     pub(super) fn polyline(&self, entity: &Entity) -> Result<SpaceCurve> {
         let points = entity.references(1)?.into_iter().map(|id| self.point(id)).collect::<Result<Vec<_>>>()?;
@@ -117,6 +125,7 @@ impl File<'_> {
         let knots = (0..points.len() + 2).map(|i| i.saturating_sub(1).min(last) as f64).collect();
         Ok(SpaceCurve::Nurbs { degree: 1, knots, points, weights: None })
     }
+/// A conic.
 
     pub(super) fn conic(&self, entity: &Entity) -> Result<SpaceCurve> {
         let size = |i: usize| match entity.real(i)? {
@@ -133,6 +142,7 @@ impl File<'_> {
             _ => SpaceCurve::Hyperbola { center: origin, u: times(x, first), v: times(y, size(3)?) },
         })
     }
+/// A spline.
 
     pub(super) fn spline(&self, id: u64, entity: &Entity) -> Result<SpaceCurve> {
         let simple = usize::from(matches!(entity.attributes.first(), Some(Attribute::String(_))));

@@ -123,7 +123,9 @@ impl Deck {
     fn data(&mut self, n: usize, line: &[u8]) -> Result<()> {
         let words: Vec<&[u8]> = line.split(|&b| b == b',').map(<[u8]>::trim_ascii).filter(|w| !w.is_empty()).collect();
         let whole = |word: &&[u8]| -> Result<u64> {
-            text(word).parse().map_err(|_| broken_at(n, format!("'{}' is not a number of a node or element", text(word))))
+            text(word)
+                .parse()
+                .map_err(|_| broken_at(n, format!("'{}' is not a number of a node or element", text(word))))
         };
         match &self.section {
             Section::Nodes => {

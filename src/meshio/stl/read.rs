@@ -12,7 +12,11 @@ pub fn read(bytes: &[u8]) -> Result<MeshFile> {
     match count {
         Some(count) if bytes.len() as u64 == 84 + 50 * u64::from(count) => soup.binary(&bytes[84..]),
         _ if bytes.trim_ascii_start().starts_with(b"solid") => soup.text(bytes)?,
-        _ => return Err(broken("this is not STL: it neither begins with 'solid' nor is as long as its count of triangles says")),
+        _ => {
+            return Err(broken(
+                "this is not STL: it neither begins with 'solid' nor is as long as its count of triangles says",
+            ));
+        }
     }
     soup.draft.finish()
 }

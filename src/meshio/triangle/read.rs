@@ -97,6 +97,8 @@ impl<'a> Rows<'a> {
     fn count(&self, header: &Row, at: usize) -> Result<usize> {
         let value =
             header.numbers.get(at).copied().filter(|v| v.fract() == 0.0 && *v >= 0.0 && *v <= self.bytes as f64);
-        value.map(|v| v as usize).ok_or_else(|| broken_at(header.line, "the count is larger than the file has room for"))
+        value
+            .map(|v| v as usize)
+            .ok_or_else(|| broken_at(header.line, "the count is larger than the file has room for"))
     }
 }

@@ -219,7 +219,8 @@ impl Grid {
             let corners = (end >= 0.0).then(|| self.corners.get(from..end as usize)).flatten();
             let corners = corners.ok_or_else(|| broken(format!("cell {cell} has no corners")))?;
             from = end as usize;
-            let nodes = nodes(corners).ok_or_else(|| broken(format!("cell {cell} has a corner that is not a point")))?;
+            let nodes =
+                nodes(corners).ok_or_else(|| broken(format!("cell {cell} has a corner that is not a point")))?;
             match (kind as i64, nodes.len()) {
                 (5, 3) | (22, 6) => draft.triangle(nodes, &name(&region_names, regions, cell, REGION)),
                 (3, 2) | (21, 3) => draft.line(nodes, &name(&boundary_names, boundaries, cell, BOUNDARY)),
@@ -234,7 +235,8 @@ impl Grid {
         for (name, components, values) in &self.fields {
             let Some(name) = name.strip_prefix("boundary:").filter(|_| matches!(components, 2 | 3)) else { continue };
             for edge in values.chunks_exact(*components) {
-                let edge = nodes(edge).ok_or_else(|| broken(format!("an edge of '{name}' ends at a number that is not a point")))?;
+                let edge = nodes(edge)
+                    .ok_or_else(|| broken(format!("an edge of '{name}' ends at a number that is not a point")))?;
                 draft.line(edge, name);
             }
         }
