@@ -154,7 +154,7 @@ const SUFFIXES: &[(&[&str], &str, Way)] = &[
     ),
 ];
 
-/// The refusal of a file whose first bytes are those of a format that is not read here.
+/// The refusal of a file by its first bytes, if they are of another kind.
 pub(super) fn by_content(bytes: &[u8]) -> Option<ImportError> {
     let head = Head::of(bytes);
     let (what, way, _) = SIGNS.iter().find(|(_, _, sign)| match sign {
@@ -166,7 +166,7 @@ pub(super) fn by_content(bytes: &[u8]) -> Option<ImportError> {
     Some(ImportError::new(format!("this is {what}, not a drawing"), way.help()))
 }
 
-/// The refusal of a file whose suffix is that of a format that is not read here.
+/// The refusal of a file by its suffix, if it is of another kind.
 pub(super) fn by_suffix(path: &Path) -> Option<ImportError> {
     let suffix = path.extension()?.to_str()?.to_ascii_lowercase();
     let (_, what, way) = SUFFIXES.iter().find(|(suffixes, _, _)| suffixes.contains(&suffix.as_str()))?;
@@ -176,14 +176,14 @@ pub(super) fn by_suffix(path: &Path) -> Option<ImportError> {
 /// The start of a file.
 struct Head<'a> {
     bytes: &'a [u8],
-    /// Its first lines, as far as they are text, without blanks before them.
+    /// Its first lines, as far as they are text, without leading blanks.
     text: String,
     is_svg: bool,
 }
 
 impl<'a> Head<'a> {
     fn of(bytes: &'a [u8]) -> Self {
-        // Decks and meshes begin with comments; theirs seldom fill as much.
+        // Decks and meshes may begin with comments, which are seldom longer.
         const LENGTH: usize = 4096;
         let plain = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes).trim_ascii_start();
         let text = String::from_utf8_lossy(&plain[..plain.len().min(LENGTH)]).replace('\r', "\n");
@@ -198,7 +198,7 @@ impl<'a> Head<'a> {
         self.text.lines().any(|line| starts(line.trim_start(), word))
     }
 
-    /// Whether a line is an assignment to a key, as in `NDIME= 2`.
+    /// Whether a line assigns to a key, as `NDIME= 2` does.
     fn has_key(&self, key: &str) -> bool {
         self.text.lines().any(|line| line.strip_prefix(key).is_some_and(|rest| rest.trim_start().starts_with('=')))
     }
@@ -218,7 +218,7 @@ fn is_number(field: &str) -> bool {
 
 fn is_stl(head: &Head) -> bool {
     let is_text = head.starts("solid") && head.has_line("facet normal");
-    // Eighty bytes of anything, a count, and fifty bytes a triangle.
+    // Binary STL: 80 bytes, a count, and 50 bytes for each triangle.
     let count = head.bytes.get(80..84).and_then(|count| count.try_into().ok()).map(u32::from_le_bytes);
     is_text || count.is_some_and(|n| n > 0 && head.bytes.len() as u64 == 84 + 50 * u64::from(n))
 }
@@ -229,7 +229,7 @@ fn is_obj(head: &Head) -> bool {
     head.fields().filter(vertices).count() >= 3 && !head.starts("solid")
 }
 
-/// `OFF`, or with normals, colours and such as in `STCNOFF`; then three counts.
+/// `OFF`, also with normals, colours and so on, as `STCNOFF`; then three counts.
 fn is_off(head: &Head) -> bool {
     let mut words = head.fields().filter(|fields| !fields[0].starts_with('#')).flatten();
     let is_keyword = |word: &str| word.strip_suffix("OFF").is_some_and(|p| p.chars().all(|c| "STCN4n".contains(c)));
@@ -240,7 +240,7 @@ fn is_geo(head: &Head) -> bool {
     ["Point(", "Point (", "Line(", "Line ("].iter().any(|word| head.has_line(word)) && head.text.contains('{')
 }
 
-/// A keyword of a deck at the start of a line; comments have two stars.
+/// Whether a line begins with a keyword of a deck. Comments have two stars.
 fn is_inp(head: &Head) -> bool {
     ["*NODE", "*HEADING", "*ELEMENT", "*PART", "*PREPRINT"].iter().any(|word| head.has_line(word))
 }
@@ -252,7 +252,7 @@ fn is_unv(head: &Head) -> bool {
     lines.next().is_some_and(|fields| fields == ["-1"]) && lines.next().is_some_and(is_dataset)
 }
 
-/// Two lines of the first fifty hold motions, each after a number of the block at most.
+/// Whether two of the first fifty lines hold motions, each after at most a block number.
 fn is_gcode(head: &Head) -> bool {
     let is_word = |word: &str, letter: char| {
         word.strip_prefix(letter).is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()))

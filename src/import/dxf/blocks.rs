@@ -404,16 +404,16 @@ impl<'f, 'a> Sketch<'f, 'a> {
     /// Draws a block once for each row and column. `outer` maps the coordinates around the insertion to the drawing.
     ///
     /// ```text
-    ///    block "B"              map = outer · T(offset) · insert.map · T(−base)
+    ///    block "B"      map = outer · T(offset) · insert.map · T(−base), applied from right to left:
     ///      ┌──┐
-    ///      │  │  ▶  T(−base): base at the origin  ▶  insert.map: scale, rotate, move to the insertion point
-    ///      ●──┘                                   ▶  T(offset):  column·steps[0] + row·steps[1], rotated but not scaled
-    ///    base                                     ▶  outer:      the insertion of the block around it
-    ///
-    ///     ┌─┐ ┌─┐ ┌─┐  row 1
-    ///     └─┘ └─┘ └─┘
-    ///     ┌─┐ ┌─┐ ┌─┐  row 0
-    ///     └─┘ └─┘ └─┘
+    ///      │  │         T(−base)    moves the base point to the origin
+    ///      ●──┘         insert.map  scales, rotates, and moves to the insertion point
+    ///    base           T(offset)   moves by column·steps[0] + row·steps[1], which are rotated but not scaled
+    ///                   outer       is the map of the insertion of the block around it
+    ///     ┌─┐ ┌─┐ ┌─┐   row 1
+    ///     ●─┘ ●─┘ ●─┘
+    ///     ┌─┐ ┌─┐ ┌─┐   row 0
+    ///     ●─┘ ●─┘ ●─┘
     /// ```
     fn draw_block(
         &mut self,

@@ -92,8 +92,8 @@ pub(super) fn single(curve: Curve, level: Level, last_decimal: f64) -> Figure<'s
     Figure::Curves { curves: vec![curve], level, parts: "", last_decimal }
 }
 
-/// A curve that its entity defines completely. It is left out where it has no extent. Data that contradict each other are
-/// an error.
+/// A curve that its entity defines completely. It is left out where it has no extent. Data that contradict each other
+/// are an error.
 pub(super) fn built(record: &Record, curve: Result<Curve, CurveError>) -> Result<Curve, Refusal> {
     curve.map_err(|error| match error {
         CurveError::Radius { .. } | CurveError::Sweep { .. } => Refusal::Degenerate,

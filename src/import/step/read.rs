@@ -235,7 +235,7 @@ impl File<'_> {
                 path.references(1)?.into_iter().map(|id| self.oriented_edge(id, face)).collect::<Result<_>>()?
             }
             "POLY_LOOP" => self.polygon(&path, face)?,
-            // A lone point on the face bounds nothing.
+            // A single point on the face bounds nothing.
             _ => Vec::new(),
         };
         if !along {

@@ -89,7 +89,7 @@ impl File<'_> {
         Ok(plane_of_net(&rows, uncertainty).map_or_else(|| Surface::Curved("B_SPLINE_SURFACE".into()), Surface::Plane))
     }
 
-    /// The curve in space that an entity is or stands for, and whether it runs the same way.
+    /// The curve in space of an entity, and whether it has the same direction.
     pub(super) fn curve(&self, id: u64) -> Result<(SpaceCurve, bool)> {
         let (mut id, mut along) = (id, true);
         for _ in 0..MOST_NESTING {
@@ -101,8 +101,8 @@ impl File<'_> {
         }
         Err(self.first(id)?.fail("stands for itself"))
     }
-/// The curve in space of an entity of a basic kind.
 
+    /// The curve in space of an entity of a basic kind.
     pub(super) fn space_curve(&self, id: u64) -> Result<SpaceCurve> {
         if let Ok(spline) = self.entity(id, &SPLINES) {
             return self.spline(id, &spline);
@@ -116,17 +116,17 @@ impl File<'_> {
             _ => self.conic(&entity),
         }
     }
-/// A polyline.
 
+    /// A polyline.
     pub(super) fn polyline(&self, entity: &Entity) -> Result<SpaceCurve> {
         let points = entity.references(1)?.into_iter().map(|id| self.point(id)).collect::<Result<Vec<_>>>()?;
-        // Clamped: the first knot and the last are twofold.
+        // Clamped: the first and the last knot are double.
         let last = points.len().saturating_sub(1);
         let knots = (0..points.len() + 2).map(|i| i.saturating_sub(1).min(last) as f64).collect();
         Ok(SpaceCurve::Nurbs { degree: 1, knots, points, weights: None })
     }
-/// A conic.
 
+    /// A conic.
     pub(super) fn conic(&self, entity: &Entity) -> Result<SpaceCurve> {
         let size = |i: usize| match entity.real(i)? {
             size if size > 0.0 => Ok(size),
@@ -142,8 +142,8 @@ impl File<'_> {
             _ => SpaceCurve::Hyperbola { center: origin, u: times(x, first), v: times(y, size(3)?) },
         })
     }
-/// A spline.
 
+    /// A spline.
     pub(super) fn spline(&self, id: u64, entity: &Entity) -> Result<SpaceCurve> {
         let simple = usize::from(matches!(entity.attributes.first(), Some(Attribute::String(_))));
         let degree = entity.whole(simple)?;
@@ -152,7 +152,7 @@ impl File<'_> {
         }
         let points = entity.references(1 + simple)?.into_iter().map(|id| self.point(id)).collect::<Result<Vec<_>>>()?;
         let knots = match self.entity(id, &["B_SPLINE_CURVE_WITH_KNOTS"]) {
-            // A simple entity holds the attributes of its supertypes first.
+            // A simple entity has the attributes of its supertypes first.
             Ok(knots) => with_multiplicities(&knots, 6 * simple, degree, points.len())?,
             Err(_) => implied_knots(entity, self.graph.get(id), degree, points.len())?,
         };
@@ -161,13 +161,13 @@ impl File<'_> {
     }
 }
 
-/// The frame of the plane of control points, its normal that of the surface; `None` where they do not lie in one.
+/// The frame of the plane of control points, with the normal of the surface; `None` where they are not in one plane.
 pub(super) fn plane_of_net(rows: &[Vec<[f64; 3]>], uncertainty: f64) -> Option<Frame> {
     let origin = *rows.first()?.first()?;
     let offsets = || rows.iter().flatten().map(|p| minus(*p, origin));
     let extent = offsets().map(length).fold(0.0, f64::max);
-    // What the cells of the net span together by their diagonals: u × v is the surface's normal, and rows follow each
-    // other along u.
+    // The sum of the cross products of the diagonals of all cells. u × v is the normal of the surface, and rows follow
+    // each other along u.
     let mut normal = [0.0; 3];
     for (below, above) in rows.iter().zip(rows.iter().skip(1)) {
         for (a, b) in below.windows(2).zip(above.windows(2)) {
@@ -180,7 +180,7 @@ pub(super) fn plane_of_net(rows: &[Vec<[f64; 3]>], uncertainty: f64) -> Option<F
     offsets().all(|d| dot(d, frame.normal()).abs() <= slack).then_some(frame)
 }
 
-/// The knots of a spline that gives each distinct one with its multiplicity.
+/// The knots of a spline that gives each distinct knot with its multiplicity.
 pub(super) fn with_multiplicities(entity: &Entity, first: usize, degree: usize, points: usize) -> Result<Vec<f64>> {
     let (counts, distinct) = (entity.reals(first)?, entity.reals(first + 1)?);
     let total: f64 = counts.iter().sum();
@@ -188,13 +188,13 @@ pub(super) fn with_multiplicities(entity: &Entity, first: usize, degree: usize, 
     if counts.len() != distinct.len() || counts.iter().any(|n| *n < 1.0) || total != expected as f64 {
         return Err(entity.fail(format!("has multiplicities that do not give {expected} knots")));
     }
-    // The total bounds each of them.
+    // The total bounds each multiplicity.
     let knots = distinct.iter().zip(&counts).flat_map(|(knot, count)| std::iter::repeat_n(*knot, *count as usize));
     Ok(knots.collect())
 }
 
-/// The knots that a type of spline implies: evenly spaced; clamped but of a uniform one; full inside of a chain of
-/// Béziers.
+/// The knots that a type of spline implies: evenly spaced, clamped unless uniform, and of full multiplicity inside a
+/// chain of Béziers.
 pub(super) fn implied_knots(
     entity: &Entity,
     raw: Option<&RawEntity>,
