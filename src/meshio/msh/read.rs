@@ -1,11 +1,12 @@
-//! Gmsh's MSH 2.2 and 4.1, text or binary of either byte order. Physical groups are the names; a cell in several groups
-//! has the first. Nodes come in the order of their numbers.
+//! Gmsh's MSH 2.2 and 4.1, as text or binary of either byte order. The names are those of physical groups; a cell in
+//! several groups has the first. Nodes are sorted by their numbers.
 
 use crate::geometry::written::number;
 use crate::meshio::draft::{BOUNDARY, Draft, REGION};
 use crate::meshio::{MeshFile, Result, broken, text, unsupported};
 use std::collections::BTreeMap;
 
+/// Reads a file.
 pub fn read(bytes: &[u8]) -> Result<MeshFile> {
     let mut reader =
         Reader { words: Words { bytes, at: 0, binary: false, big_endian: false }, version: 0, ..Reader::default() };
@@ -30,7 +31,7 @@ pub fn read(bytes: &[u8]) -> Result<MeshFile> {
     reader.finish()
 }
 
-/// Numbers, as text between blanks or as bytes.
+/// Reads numbers, as text between blanks or as bytes.
 #[derive(Default)]
 struct Words<'a> {
     bytes: &'a [u8],
@@ -61,7 +62,7 @@ impl<'a> Words<'a> {
         None
     }
 
-    /// Goes behind the end of a section.
+    /// Moves past the end of a section.
     fn end(&mut self, section: &str) -> Result<()> {
         let mark = format!("$End{section}");
         let found = self.rest().windows(mark.len()).position(|w| w == mark.as_bytes());
@@ -104,7 +105,7 @@ impl<'a> Words<'a> {
         u64::try_from(value).map_err(|_| broken(format!("{value} is not a count")))
     }
 
-    /// A count of things that take at least a byte each.
+    /// A count of things that take at least one byte each.
     fn count(&mut self, value: u64) -> Result<usize> {
         let most = self.rest().len();
         usize::try_from(value)
@@ -128,10 +129,10 @@ struct Reader<'a> {
     version: u8,
     /// Names of physical groups by dimension and number.
     names: BTreeMap<(i64, i64), String>,
-    /// First physical group of curves and surfaces, by dimension and number.
+    /// The first physical group of each curve and surface, by dimension and number.
     groups: BTreeMap<(i64, i64), i64>,
     nodes: BTreeMap<u64, [f64; 3]>,
-    /// Type, dimension and group, nodes by their numbers.
+    /// Type, dimension and group, node numbers.
     cells: Vec<(bool, i64, Vec<u64>)>,
     vertices: usize,
 }
@@ -230,8 +231,8 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// Nodes of 2.2. Parametric ones also say on which entity they lie, and where on it: a parameter on a curve, two on
-    /// a surface.
+    /// The nodes of 2.2. Parametric nodes also hold the entity on which they lie, and their parameters there: one on a
+    /// curve, two on a surface.
     fn nodes_2(&mut self, parametric: bool) -> Result<()> {
         let count = self.count_2()?;
         for _ in 0..count {
@@ -248,7 +249,7 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// A count of 2.2, which stands as text on a line of its own even in binary.
+    /// A count of 2.2, which is text on a line of its own, also in binary.
     fn count_2(&mut self) -> Result<usize> {
         let line = text(self.words.line());
         let count = line.parse().map_err(|_| broken(format!("'{line}' is not a count")))?;
@@ -277,7 +278,7 @@ impl Reader<'_> {
         let count = self.count_2()?;
         let mut read = 0;
         while read < count {
-            // In binary elements of one kind have one header; as text each has its own, its number first.
+            // In binary, elements of one type share a header. In text, each has its own, with its number first.
             let first = if self.words.binary { None } else { Some(self.words.int()?) };
             let kind = self.words.int()?;
             let follow = if first.is_none() { self.words.int()? } else { 1 };
@@ -325,7 +326,7 @@ impl Reader<'_> {
             (_, Some(name)) => name.clone(),
             (number, None) => number.to_string(),
         };
-        // Regions in the order of their numbers, whatever the order of cells.
+        // Regions are sorted by number, whatever the order of cells.
         for (&(_, group), _) in self.names.range((2, i64::MIN)..(3, i64::MIN)) {
             draft.region(&name(2, group, REGION));
         }
@@ -342,7 +343,7 @@ impl Reader<'_> {
     }
 }
 
-/// How many nodes an element of this type has.
+/// The number of nodes of an element type.
 fn nodes_of(kind: i64) -> Result<usize> {
     let name = match kind {
         1 => return Ok(2),

@@ -1,13 +1,14 @@
-//! STL, text or binary. Equal coordinates are one node; each solid of a text is a region.
+//! STL, text or binary. Equal coordinates are one node. Each solid of a text is a region.
 
 use crate::geometry::written::number;
 use crate::meshio::draft::{Draft, REGION};
 use crate::meshio::{MeshFile, Result, broken, broken_at, lines, text};
 use std::collections::BTreeMap;
 
+/// Reads a file.
 pub fn read(bytes: &[u8]) -> Result<MeshFile> {
     let mut soup = Soup::default();
-    // The text form begins with `solid`; so do the headers of some binary files, which are as long as their count says.
+    // Text begins with `solid`. So do the headers of some binary files, whose length fits their count.
     let count = bytes.get(80..84).map(|c| u32::from_le_bytes([c[0], c[1], c[2], c[3]]));
     match count {
         Some(count) if bytes.len() as u64 == 84 + 50 * u64::from(count) => soup.binary(&bytes[84..]),
@@ -29,7 +30,7 @@ struct Soup {
 
 impl Soup {
     fn node(&mut self, place: [f64; 3]) -> usize {
-        // −0 is 0.
+        // Adding 0 turns −0 into 0.
         *self.seen.entry(place.map(|x| (x + 0.0).to_bits())).or_insert_with(|| {
             self.draft.nodes.push(place);
             self.draft.nodes.len() - 1

@@ -1,10 +1,11 @@
-//! SU2's native mesh, in two dimensions, of one zone. Markers are the boundaries; the triangles are one region.
+//! SU2's native mesh, in two dimensions, of one zone. Markers are the boundaries. The triangles are one region.
 
 use crate::geometry::written::number;
 use crate::meshio::draft::{Draft, REGION};
 use crate::meshio::names::NameComments;
 use crate::meshio::{MeshFile, Result, broken_at, lines, text, unsupported};
 
+/// Reads a file.
 pub fn read(bytes: &[u8]) -> Result<MeshFile> {
     let mut file = File::default();
     for (n, line) in lines(bytes) {
@@ -16,7 +17,7 @@ pub fn read(bytes: &[u8]) -> Result<MeshFile> {
         if let Some(equals) = line.iter().position(|&b| b == b'=') {
             file.assignment(n, &text(line[..equals].trim_ascii()), &text(line[equals + 1..].trim_ascii()))?;
         } else if !line.is_empty() && file.left > 0 {
-            // Otherwise SEND_RECV and whatever else stands between the sections.
+            // SEND_RECV and other keys between the sections are skipped.
             file.left -= 1;
             file.row(n, line)?;
         }
@@ -36,15 +37,15 @@ enum Section {
     Marker,
 }
 
-/// The file as far as it is read.
+/// The file so far.
 #[derive(Default)]
 struct File {
     draft: Draft,
     names: NameComments,
-    /// The tag of the marker that is read.
+    /// The tag of the current marker.
     marker: String,
     section: Section,
-    /// Rows of the section that are still to come.
+    /// Number of rows of the section that are still to come.
     left: usize,
 }
 
