@@ -1,4 +1,4 @@
-//! The command line: one file a verb, what they share, and the exit code.
+//! The command line: one file for each verb, shared types, and the exit code.
 
 mod batch;
 mod check;
@@ -48,7 +48,7 @@ struct Cli {
     verbose: bool,
 }
 
-/// Version, commit and features: what a report of a bug needs.
+/// Version, commit and features, for bug reports.
 const VERSION: &str =
     concat!(env!("CARGO_PKG_VERSION"), " (", env!("SQUINCH_COMMIT"), "; features: ", env!("SQUINCH_FEATURES"), ")");
 

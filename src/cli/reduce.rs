@@ -11,6 +11,7 @@ use squinch::run::request::Request;
 use squinch::run::{self, Exit};
 use std::path::{Path, PathBuf};
 
+/// Shrink a recorded run while it ends the same way
 #[derive(Args)]
 pub struct Reduce {
     /// A case file; - for standard input
@@ -25,6 +26,7 @@ pub struct Reduce {
 }
 
 impl Reduce {
+    /// Reduces the case.
     pub fn run(self, volume: Volume) -> Result<Exit, Halt> {
         let (case, input) = replay::open(&self.case)?;
         if volume > Volume::Quiet {
@@ -34,7 +36,7 @@ impl Reduce {
             Halt::Unreadable(format!("the reader fails before there is a drawing to reduce: {panic}"))
         })?;
         let drawing = drawing.map_err(|failure| Halt::Failure(Box::new(failure), Some(Box::new(input))))?;
-        // Unit and scale are in the drawing now.
+        // The drawing has unit and scale applied.
         let request = Request { unit: None, scale: None, ..case.request.clone() };
         let mut told = 0;
         let reduced = reduce(&drawing, &request, self.runs, &mut |runs, curves| {

@@ -1,13 +1,13 @@
 //! A mesh while it is read. Cells are added one by one and checked at the end.
 //!
 //! ```text
-//!     Nodes of second-order cells, in our order, VTK's and Gmsh's (both have the same):
+//!    Nodes of second-order cells, in our order, which is also VTK's and Gmsh's:
 //!
-//!             2                      triangle: corners 0 1 2, then 3 between 0 and 1, 4 between 1 and 2, 5 between 2 and 0
-//!            ╱ ╲                     line:     ends 0 1, then 2 between them
-//!           5   4
-//!          ╱     ╲                   Others are reordered by their readers:
-//!         0───3───1    0───2───1     Abaqus' lines: 0 2 1 · Triangle's triangles: 0 1 2, then 4 5 3 (opposite the corners)
+//!            2                      triangle: corners 0 1 2, then 3 within side 01, 4 within 12, 5 within 20
+//!           ╱ ╲                     line:     ends 0 1, then 2 within
+//!          5   4
+//!         ╱     ╲                   Readers reorder the nodes of other formats. In our numbers these have:
+//!        0───3───1    0───2───1     Abaqus' lines 0 2 1, Triangle's triangles 0 1 2 4 5 3
 //! ```
 
 use super::{MeshFile, Result, broken, unsupported};

@@ -1,15 +1,16 @@
 //! The bytes of arrays: base64, zlib, words.
 //!
 //! ```text
-//!     inline, plain       ┌──────┬──────────┐              n: bytes of the array; one base64 text (or two, by some writers)
-//!                         │  n   │  values  │
-//!                         └──────┴──────────┘
-//!     inline, zlib        ┌──────┬──────┬──────┬────────────────┐ ┌─────────┬─────────┬───┐
-//!                         │blocks│ size │ last │ packed sizes … │ │ block 0 │ block 1 │ … │     two base64 texts
-//!                         └──────┴──────┴──────┴────────────────┘ └─────────┴─────────┴───┘
-//!     appended            <AppendedData encoding="raw|base64"> _ array array array …
-//!                                                                ▲ offsets count from here
-//!     Header words have 4 or 8 bytes (`header_type`). size: bytes of a block before packing; last: of a partial last block.
+//!    plain       ┌─────┬────────┐                          n: bytes of the values
+//!                │  n  │ values │                          one base64 text, or (some writers) two
+//!                └─────┴────────┘
+//!    zlib        ┌────────┬──────┬──────┬──────────────┐ ┌─────────┬─────────┬───┐
+//!                │ blocks │ size │ last │ packed sizes │ │ block 0 │ block 1 │ … │     two base64 texts
+//!                └────────┴──────┴──────┴──────────────┘ └─────────┴─────────┴───┘
+//!    inline      <DataArray …> one array </DataArray>
+//!    appended    <AppendedData encoding="base64"> _ array array …     offsets count from the byte after `_`
+//!
+//!    Header words have 4 or 8 bytes (`header_type`). size: bytes of an unpacked block; last: of a partial last block
 //! ```
 //!
 //! Input is untrusted. Every count is checked against the bytes at hand. All arrays together may grow to at most

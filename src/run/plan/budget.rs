@@ -1,4 +1,4 @@
-//! What a request takes at least, known before an engine starts; and where that is too much, a way out.
+//! The least cost of a request, known before an engine starts, and a way out where it is too high.
 
 use super::{Plan, no_mesh};
 use crate::domain::Domain;
@@ -7,15 +7,15 @@ use crate::run::healing::Healing;
 use crate::run::report::FailureReport;
 use crate::watch::Watch;
 
-/// Tolerances that are tried where slivers are too dear, as multiples of the width that is told for them, which is at
-/// most the true one.
+/// Tolerances to try against expensive slivers, as multiples of their estimated width. The estimate is at most the true
+/// width.
 const WELDS: [f64; 4] = [2.0, 4.0, 8.0, 16.0];
 
 impl Plan {
-    /// Refuses at once what takes more vertices than the budget.
+    /// Refuses a request that takes more vertices than the budget.
     ///
     /// # Errors
-    /// With the dearest places and a way out; and where the watch says stop.
+    /// With the most expensive places and a way out. Also where the watch says stop.
     pub fn afford(&self, domain: &Domain, healing: &Healing, watch: &mut Watch) -> Result<(), FailureReport> {
         let demand = self.demand(domain, watch)?;
         let (vertices, budget) = (demand.vertices(), self.options.max_vertices as f64);
@@ -33,7 +33,7 @@ impl Plan {
         Err(FailureReport { what, help, ..no_mesh(&stop, "--max-vertices") })
     }
 
-    /// The finest tolerance that leaves slivers of few enough vertices, else an angle that they would keep.
+    /// The finest tolerance at which slivers take few enough vertices, else an angle at which they do.
     fn out_of_slivers(
         &self,
         domain: &Domain,
@@ -63,7 +63,7 @@ impl Plan {
     }
 }
 
-/// A length in two digits.
+/// A length rounded to two digits.
 fn rounded(length: f64) -> f64 {
     format!("{length:.1e}").parse().unwrap_or(length)
 }
