@@ -476,13 +476,13 @@ impl Bar {
     /// Shorter work needs no progress line.
     const PATIENCE: Duration = Duration::from_millis(400);
 
+    /// A bar that is not shown yet.
     pub fn new(volume: Volume) -> Self {
-        /// A bar that is not shown yet.
         Self { begun: Instant::now(), bar: None, shown: volume > Volume::Quiet && io::stderr().is_terminal() }
     }
 
+    /// Shows progress.
     pub fn tell(&mut self, progress: &Progress) {
-        /// Shows progress.
         if !self.shown || self.begun.elapsed() < Self::PATIENCE {
             return;
         }
@@ -501,8 +501,8 @@ impl Bar {
 pub struct Count(Option<ProgressBar>);
 
 impl Count {
+    /// A bar for this number of inputs.
     pub fn new(volume: Volume, inputs: usize) -> Self {
-        /// A bar for this number of inputs.
         let shown = volume > Volume::Quiet && io::stderr().is_terminal();
         Self(shown.then(|| {
             let bar = ProgressBar::new(inputs as u64);
@@ -512,8 +512,8 @@ impl Count {
         }))
     }
 
+    /// Counts an input.
     pub fn one_more(&self) {
-        /// Counts an input.
         if let Some(bar) = &self.0 {
             bar.inc(1);
         }

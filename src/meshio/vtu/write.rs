@@ -3,7 +3,7 @@
 //!
 //! | place | array | holds |
 //! |---|---|---|
-//! | cells | `colour` UInt8 ×4 | red, green, blue, opacity of a triangle's region, if the drawing has any; 0 for lines |
+//! | cells | `colour` UInt8 ×4 | red, green, blue, opacity of a triangle's region, if the drawing has one |
 //! | cells | `region` Int32 | region number of a triangle (from 1), 0 of a line |
 //! | cells | `boundary` Int32 | boundary number of a line (from 1), 0 of a triangle |
 //! | cells | `curve` Int32, `t` 2 × Float64 | a line's curve and the parameters of its ends; −1 and 0 elsewhere |
