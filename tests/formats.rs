@@ -1,5 +1,5 @@
-//! Every writer, read back: names with their numbers of cells, coordinates bit for bit where the format has the digits, order 2;
-//! and no bytes do harm to any reader.
+//! Every writer, read back: names with their numbers of cells, coordinates bit for bit where the format has the digits,
+//! order 2; and no bytes do harm to any reader.
 
 use proptest::prelude::*;
 use squinch::geometry::{Frame, Point};
@@ -9,8 +9,8 @@ use squinch::mesh::{CurveEdge, Mesh};
 use squinch::meshio::{Format, MeshFile, WriteOptions, XdmfGrids, encode, read};
 use std::collections::BTreeMap;
 
-/// Three regions (two of one name) in a strip of n × 2 squares, its rim and the line between the rows named; far from the origin, with
-/// endless digits.
+/// Three regions (two of one name) in a strip of n × 2 squares, its rim and the line between the rows named; far from
+/// the origin, with endless digits.
 fn strip(n: u32, names: [&str; 5]) -> Mesh {
     let mut mesh = Mesh { unit: Some("mm".into()), ..Mesh::default() };
     for i in 0..=n {
@@ -396,8 +396,8 @@ fn inp_names_are_legal_and_faces_are_right() {
     assert!(text.lines().filter(|l| l.starts_with('*') && !l.starts_with("**")).all(str::is_ascii));
 }
 
-/// A mesh that is given as a drawing is refused with what can be done with it: a mesh that is read here by other verbs, one that is not by
-/// another program.
+/// A mesh that is given as a drawing is refused with what can be done with it: a mesh that is read here by other verbs,
+/// one that is not by another program.
 #[test]
 fn a_mesh_is_no_drawing() {
     let refused = |name: &str, bytes: &[u8]| import::tell_format(name.as_ref(), bytes).expect_err("no drawing").help;
