@@ -103,7 +103,7 @@ enum Verb {
     Reduce(reduce::Reduce),
 }
 
-/// How much is said on stderr.
+/// How much is printed on stderr.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Volume {
     Quiet,
@@ -113,11 +113,11 @@ enum Volume {
 
 /// What ends a verb early.
 enum Halt {
-    /// All is said.
+    /// The message was printed already.
     Said(Exit),
     Usage(String),
     Unreadable(String),
-    /// Told by a stage, with the file to point into.
+    /// The failure of a stage, with the input for pointing into it.
     Failure(Box<FailureReport>, Option<Box<Input>>),
     Unwritable(String),
 }
@@ -128,7 +128,7 @@ pub fn run() -> ExitCode {
         Ok(cli) => cli,
         Err(error) => return usage(error),
     };
-    // Without a handler Ctrl-C still ends the program, only temporary files would stay.
+    // Without this handler Ctrl-C would leave temporary files.
     let _ = ctrlc::set_handler(|| {
         files::remove_temporaries();
         say::line("cancelled");
@@ -185,15 +185,15 @@ fn usage(error: clap::Error) -> ExitCode {
     ExitCode::from(error.exit_code() as u8)
 }
 
-/// The run that is under way, to be recorded should we break down.
+/// The current run. A case file records it if squinch fails by a bug.
 static UNDER_WAY: Mutex<Option<Case>> = Mutex::new(None);
 
-/// Notes what a panic from here on is to be blamed on.
+/// Records the input and the request, for the case file of a panic.
 fn remember(input: &Input, request: &Request) {
     *UNDER_WAY.lock().unwrap_or_else(PoisonError::into_inner) = Some(input.case("", request));
 }
 
-/// Writes the run under way as `squinch-<kind>-<fingerprint>.case` in the working folder, and says so.
+/// Writes the current run as `squinch-<kind>-<fingerprint>.case` in the working folder, and says so.
 fn write_case(outcome: &str, kind: &str) {
     let Some(mut case) = UNDER_WAY.lock().unwrap_or_else(PoisonError::into_inner).take() else { return };
     let name = format!("squinch-{kind}-{}.case", case.fingerprint());
