@@ -3,7 +3,7 @@
 //!
 //! | place | array | holds |
 //! |---|---|---|
-//! | cells | `colour` UInt8 ×4 | red, green, blue and opacity of a triangle's region, where the drawing has colours; 0 of a line |
+//! | cells | `colour` UInt8 ×4 | red, green, blue, opacity of a triangle's region, if the drawing has one |
 //! | cells | `region` Int32 | region number of a triangle (from 1), 0 of a line |
 //! | cells | `boundary` Int32 | boundary number of a line (from 1), 0 of a triangle |
 //! | cells | `curve` Int32, `t` 2 × Float64 | a line's curve and the parameters of its ends; −1 and 0 elsewhere |
@@ -15,18 +15,17 @@
 //! | points | `plane` 2 × Float64 | of a mesh in a plane in space: every node in the coordinates of the plane |
 //! | field | `squinch:KEY` | a stamp: Float64 where the text is a number's, else its UTF-8 bytes as UInt8 |
 //!
-//! Names are names of arrays, not VTK string arrays: meshio 5.3 refuses a whole file that has an array of type
-//! `String` ("Illegal data type"), while both it and VTK list the names of field arrays as they are. For meshio, too,
-//! no empty array is compressed.
+//! Names are names of arrays, not VTK string arrays. meshio 5.3 refuses a file with an array of type `String` ("Illegal
+//! data type"), but both it and VTK list the names of field arrays. Empty arrays are not compressed, also because of
+//! meshio.
 //!
-//! MFEM 4.10 refuses field data that stand before the piece, and lines beside triangles: a plain file has neither. MFEM
-//! takes its attributes from the first array of the cells where `Scalars` of `CellData` says `material`, whatever the
-//! array is called, and makes all of them 1 otherwise: there the number of the region comes once more, as `material`.
-//! Names and boundaries reach MFEM by MSH.
+//! MFEM 4.10 refuses field data before the piece, and lines beside triangles. A plain file has neither. MFEM takes its
+//! attributes from the first cell array, whatever its name, if `Scalars` of `CellData` is `material`; otherwise all
+//! attributes are 1. So a plain file has the number of the region again, as `material`. Names and boundaries reach MFEM
+//! by MSH.
 //!
-//! Written here and not by the vtkio crate (0.7.0-rc2), which keeps a second model of the whole file in memory and
-//! compresses one block after the other; here each array is made, compressed in parallel blocks and written before
-//! the next.
+//! The vtkio crate (0.7.0-rc2) is not used, because it keeps a second model of the file in memory and compresses one
+//! block after the other. Here each array is made, compressed in parallel blocks and written before the next.
 
 use crate::geometry::Frame;
 use crate::ids::{Id, NameId, RegionId};
@@ -40,8 +39,8 @@ use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::io::{self, Write};
 
-/// Bytes of a compressed block: a multiple of every word, large enough to compress well, small enough to share among
-/// threads.
+/// Bytes of a block before compression: a multiple of each word size, large enough to compress well, small enough to
+/// share among threads.
 const BLOCK: usize = 1 << 17;
 
 /// Writes a mesh, with stamps (key and value) that say how it was made. The same mesh gives the same bytes.
@@ -59,7 +58,7 @@ pub fn write(mesh: &Mesh, stamps: &[(String, String)], out: &mut impl Write) -> 
     write_piece(mesh, false, out)
 }
 
-/// Writes a mesh without field data, and so without names, boundaries as lines only where asked for.
+/// Writes a mesh without field data, and so without names. Boundaries are lines if `lines`.
 ///
 /// # Errors
 /// As [`write`].
@@ -81,7 +80,7 @@ fn begin(out: &mut impl Write) -> io::Result<()> {
     )
 }
 
-/// The piece and the end of the file; `material`: with the regions as MFEM takes them.
+/// Writes the piece and the end of the file; if `material`, with the regions in the form that MFEM reads.
 fn write_piece(mesh: &Mesh, material: bool, out: &mut impl Write) -> io::Result<()> {
     let cells = mesh.triangles.len() + mesh.edges.len();
     writeln!(out, "<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{cells}\">\n<Points>", mesh.nodes.len())?;
@@ -112,7 +111,7 @@ fn check(mesh: &Mesh) -> io::Result<()> {
     groups::check(mesh)
 }
 
-/// Boundary names numbered from 1 in the order of first use, which a reader recovers.
+/// Boundary names, numbered from 1 in the order of first use. A reader restores this order.
 fn boundary_numbers(mesh: &Mesh) -> BTreeMap<NameId, i32> {
     let mut numbers = BTreeMap::new();
     for edge in &mesh.edges {
@@ -142,7 +141,7 @@ fn write_fields(
     if let Some(Frame { origin, x, y }) = mesh.frame {
         Array::of_f64("frame", 9, [origin, x, y].concat()).write_field(out)?;
     }
-    // In the order of first use, so that the file is the same whatever the order of the table of names.
+    // In the order of first use, so that the file does not depend on the order of the table of names.
     let mut numbers: BTreeMap<NameId, Vec<i32>> = BTreeMap::new();
     for (region, &name) in mesh.regions.enumerate() {
         numbers.entry(name).or_default().push(region.index() as i32 + 1);
@@ -184,7 +183,7 @@ fn write_cells(mesh: &Mesh, out: &mut impl Write) -> io::Result<()> {
     Array::of_u8("types", [vec![triangle; triangles], vec![line; lines]].concat()).write(out)
 }
 
-/// By cell: the number of the region, from 1; 0 of lines.
+/// For each cell the number of its region, from 1; 0 for lines.
 fn region_numbers(mesh: &Mesh) -> impl Iterator<Item = i32> {
     let regions = mesh.triangle_regions.iter().map(|r| r.0 as i32 + 1);
     regions.chain(std::iter::repeat_n(0, mesh.edges.len()))
@@ -231,8 +230,8 @@ impl<'a> Array<'a> {
         Self { name, kind: "UInt8", components: 1, values: bytes.len(), bytes }
     }
 
-    /// A field array also says how many tuples it has: VTK cannot know otherwise. An empty list is left out; an empty
-    /// text is kept.
+    /// Writes a field array with its number of tuples, which VTK needs. An empty list is left out. An empty text is
+    /// kept.
     fn write_field(&self, out: &mut impl Write) -> io::Result<()> {
         if self.values == 0 && !self.name.starts_with("squinch:") {
             return Ok(());
@@ -271,7 +270,7 @@ fn write_compressed(bytes: &[u8], out: &mut impl Write) -> io::Result<()> {
 }
 
 thread_local! {
-    /// Each thread keeps its compressor: to make one, a third of a megabyte has to be cleared.
+    /// One compressor for each thread, because creating one clears a third of a megabyte.
     static DEFLATE: RefCell<Compress> = RefCell::new(Compress::new(Compression::fast(), true));
 }
 
