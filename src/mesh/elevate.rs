@@ -133,11 +133,11 @@ impl Elevation<'_> {
     fn straighten_where_needed(&mut self) -> Vec<usize> {
         let mut straightened = Vec::new();
         let curved = |e: &&Edge| e.curved.is_some();
-        let mut suspects: Vec<TriangleId> =
+        let mut candidates: Vec<TriangleId> =
             self.edges.iter().filter(curved).flat_map(|e| e.cells).flatten().filter(|&t| !self.is_valid(t)).collect();
-        suspects.sort_unstable_by(|a, b| b.cmp(a));
-        suspects.dedup();
-        while let Some(t) = suspects.pop() {
+        candidates.sort_unstable_by(|a, b| b.cmp(a));
+        candidates.dedup();
+        while let Some(t) = candidates.pop() {
             if self.is_valid(t) || self.move_a_node(t) {
                 continue;
             }
@@ -145,7 +145,7 @@ impl Elevation<'_> {
             let [a, b] = self.edges[edge].ends.map(|v| self.mesh.nodes[v]);
             self.put(edge, a.midpoint(b));
             straightened.extend(self.edges[edge].curved.take());
-            suspects.extend(self.edges[edge].cells.iter().flatten());
+            candidates.extend(self.edges[edge].cells.iter().flatten());
         }
         straightened.sort_unstable();
         straightened

@@ -99,7 +99,7 @@ impl Constrained {
         list.append(&mut self.touched);
     }
 
-    fn is_piece(&self, s: HalfEdge) -> bool {
+    fn is_subcurve(&self, s: HalfEdge) -> bool {
         self.topology().subcurve(s).is_some()
     }
 
@@ -116,7 +116,7 @@ impl Constrained {
     ///     a───────b
     /// ```
     pub fn cavity(&self, p: Point, at: Location, cavity: &mut Cavity) {
-        self.delaunay.cavity_within(|s| self.is_piece(s), p, at, cavity);
+        self.delaunay.cavity_within(|s| self.is_subcurve(s), p, at, cavity);
     }
 
     /// Acts: replaces the cavity of `p` by the triangles that join `p` to its border. `p` must not lie on a constrained
@@ -169,7 +169,7 @@ impl Constrained {
             }
         }
         let side = self.topology().side_between(a, b).expect("nothing crosses it any more");
-        self.delaunay.topology.set_piece(side, Some(subcurve));
+        self.delaunay.topology.set_subcurve(side, Some(subcurve));
         let mut stack = diagonals.into_iter().filter_map(|[c, d]| self.topology().side_between(c, d)).collect();
         self.restore(&mut stack);
         self.check_slowly();
@@ -201,20 +201,20 @@ impl Constrained {
     /// ```text
     ///          c                        c
     ///       .´   `.                  .´ │ `.        p, on s or beside it, is joined to the rim x d, d y, y c, c x;
-    ///     .´       `.              .´   │   `.      p x carries pieces[0], p y carries pieces[1].
+    ///     .´       `.              .´   │   `.      p x carries subcurves[0], p y carries subcurves[1].
     ///   x ──s──p────▶ y    ─▶    x ─────p───── y    Then edges are flipped until all is constrained Delaunay.
     ///     `.       .´              `.   │   .´
     ///       `.   .´                  `. │ .´
     ///          d                        d
     /// ```
-    pub fn part(&mut self, s: HalfEdge, p: Point, pieces: [SubcurveId; 2]) -> VertexId {
+    pub fn part(&mut self, s: HalfEdge, p: Point, subcurves: [SubcurveId; 2]) -> VertexId {
         let topology = self.topology();
         let (n, rim) = (topology.twin(s), self.rim(s));
         let ends = [topology.origin(s), topology.target(s)];
         let v = self.star(p, &[s.triangle(), n.triangle()], &rim);
-        for (end, subcurve) in ends.into_iter().zip(pieces) {
+        for (end, subcurve) in ends.into_iter().zip(subcurves) {
             let side = self.topology().side_between(v, end).expect("both ends are on the rim");
-            self.delaunay.topology.set_piece(side, Some(subcurve));
+            self.delaunay.topology.set_subcurve(side, Some(subcurve));
         }
         let mut stack = self.topology().sides_from(v).flat_map(|spoke| [spoke, spoke.next()]).collect();
         self.restore(&mut stack);
@@ -231,7 +231,7 @@ impl Constrained {
     /// Removes the subcurve from an edge; the triangulation is constrained Delaunay again.
     pub fn release(&mut self, s: HalfEdge) {
         self.touched.extend([s.triangle(), self.topology().twin(s).triangle()]);
-        self.delaunay.topology.set_piece(s, None);
+        self.delaunay.topology.set_subcurve(s, None);
         self.restore(&mut vec![s]);
         self.check_slowly();
     }
@@ -307,7 +307,7 @@ impl Constrained {
     /// Flips edges without a subcurve that are not locally Delaunay, beginning with those on the stack (Lawson 1977).
     fn restore(&mut self, stack: &mut Vec<HalfEdge>) {
         while let Some(s) = stack.pop() {
-            if self.is_piece(s) || self.delaunay.is_locally_delaunay(s) {
+            if self.is_subcurve(s) || self.delaunay.is_locally_delaunay(s) {
                 continue;
             }
             let (t, u) = (s.triangle(), self.topology().twin(s).triangle());
@@ -324,7 +324,7 @@ impl Constrained {
     /// Where the vertex is dead, on the hull, or the end of a subcurve.
     pub fn remove(&mut self, v: VertexId) {
         let star: Vec<HalfEdge> = self.topology().sides_from(v).collect();
-        let bound = star.iter().any(|&s| self.topology().target(s) == GHOST || self.is_piece(s));
+        let bound = star.iter().any(|&s| self.topology().target(s) == GHOST || self.is_subcurve(s));
         assert!(!star.is_empty() && !bound, "only free vertices go");
         self.touched.extend(star.into_iter().map(HalfEdge::triangle));
         let mut diagonals = self.delaunay.clip_ears(v);
@@ -364,7 +364,7 @@ impl Constrained {
         let (from, mut s) = starts.into_iter().find_map(line)?;
         // A straight line meets every triangle at most once.
         loop {
-            if self.is_piece(s) {
+            if self.is_subcurve(s) {
                 return Some(Look::Blocked(s));
             }
             let beyond = topology.twin(s);
@@ -418,7 +418,7 @@ impl Constrained {
             is(topology.origin(*s), Orientation::Clockwise) && is(topology.target(*s), Orientation::CounterClockwise)
         };
         let mut exit = topology.sides_from(v).map(HalfEdge::next).find(leaves);
-        while let Some(s) = exit.filter(|&s| s != side && !self.is_piece(s)) {
+        while let Some(s) = exit.filter(|&s| s != side && !self.is_subcurve(s)) {
             let beyond = topology.twin(s);
             exit = [beyond.next(), beyond.prev()].into_iter().find(leaves);
         }
@@ -464,7 +464,7 @@ impl Constrained {
             if s == side {
                 return true;
             }
-            if self.is_piece(s) {
+            if self.is_subcurve(s) {
                 continue;
             }
             let beyond = topology.twin(s);
@@ -528,7 +528,7 @@ impl Constrained {
         search.open.extend([side.next(), side.prev()]);
         while let Some(s) = search.open.pop() {
             let beyond = topology.twin(s);
-            if self.is_piece(s) || topology.is_ghost(beyond.triangle()) {
+            if self.is_subcurve(s) || topology.is_ghost(beyond.triangle()) {
                 continue;
             }
             // A line of sight crosses only edges with an end to the left.
@@ -569,7 +569,7 @@ impl Constrained {
                 flaws.push(format!("triangle {} is not counter-clockwise", t.0));
                 continue;
             }
-            for s in [0, 1, 2].map(|i| t.side_of(i)).into_iter().filter(|&s| !self.is_piece(s)) {
+            for s in [0, 1, 2].map(|i| t.side_of(i)).into_iter().filter(|&s| !self.is_subcurve(s)) {
                 let d = topology.apex(topology.twin(s));
                 if d != GHOST && in_circle(a, b, c, self.point(d)) == CircleSide::Inside {
                     flaws.push(format!("triangle {} sees vertex {} in its circle", t.0, d.0));

@@ -55,7 +55,7 @@ impl Extraction<'_> {
 
     /// The subcurves of curves with a kept region on a side, by curve and in order along it.
     fn curve_edges(&self, node_of: &IdVec<VertexId, Option<VertexId>>) -> Vec<CurveEdge> {
-        let mut pieces: Vec<(CurveId, f64, SubcurveId)> = self
+        let mut subcurves: Vec<(CurveId, f64, SubcurveId)> = self
             .subcurves
             .ids()
             .filter_map(|id| match self.subcurves.get(id) {
@@ -66,8 +66,8 @@ impl Extraction<'_> {
                 },
             })
             .collect();
-        pieces.sort_unstable_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
-        pieces
+        subcurves.sort_unstable_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
+        subcurves
             .into_iter()
             .filter(|&(curve, ..)| self.domain.curves()[curve].sides.iter().any(Option::is_some))
             .map(|(curve, _, id)| {

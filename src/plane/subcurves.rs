@@ -76,33 +76,33 @@ pub enum Midpoint {
 /// All subcurves, in C′ or gone, by id.
 #[derive(Default)]
 pub struct Subcurves {
-    pieces: IdVec<SubcurveId, Subcurve>,
+    subcurves: IdVec<SubcurveId, Subcurve>,
 }
 
 impl Subcurves {
     /// Adds the part of `carrier` between the parameters `t`, whose vertices are `ends`.
     pub fn add(&mut self, carrier: Carrier, t: [f64; 2], ends: [VertexId; 2], standing: Standing) -> SubcurveId {
-        self.pieces.push(Subcurve { carrier, t, ends, standing, queued: false })
+        self.subcurves.push(Subcurve { carrier, t, ends, standing, queued: false })
     }
 
     /// A subcurve, in C′ or gone.
     pub fn get(&self, id: SubcurveId) -> &Subcurve {
-        &self.pieces[id]
+        &self.subcurves[id]
     }
 
     /// A subcurve, to be changed.
     pub fn get_mut(&mut self, id: SubcurveId) -> &mut Subcurve {
-        &mut self.pieces[id]
+        &mut self.subcurves[id]
     }
 
     /// All ids ever given, ascending.
     pub fn ids(&self) -> impl DoubleEndedIterator<Item = SubcurveId> + use<> {
-        self.pieces.ids()
+        self.subcurves.ids()
     }
 
     /// Takes a subcurve out of C′.
     pub fn retire(&mut self, id: SubcurveId) {
-        self.pieces[id].standing = Standing::Gone;
+        self.subcurves[id].standing = Standing::Gone;
     }
 }
 

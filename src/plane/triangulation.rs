@@ -215,7 +215,7 @@ impl Net {
 pub struct Triangulation {
     net: Net,
     /// The subcurve on each half-edge of a triangle, the same on both twins; NONE for no subcurve.
-    pieces: Vec<[u32; 3]>,
+    subcurves: Vec<[u32; 3]>,
     /// The region of each triangle; NONE for no region.
     regions: Vec<u32>,
     /// One half-edge that starts at each vertex, that of [`GHOST`] first: see [`place_of`]. NONE for a dead vertex.
@@ -237,14 +237,14 @@ fn label<I: Id>(value: u32) -> Option<I> {
 impl Triangulation {
     /// The triangulation of a net over vertices `0..vertices`, without subcurves and regions.
     pub(super) fn unlabelled(net: Net, vertices: usize) -> Self {
-        let (pieces, regions) = (vec![[NONE; 3]; net.len()], vec![NONE; net.len()]);
+        let (subcurves, regions) = (vec![[NONE; 3]; net.len()], vec![NONE; net.len()]);
         let mut anchors = vec![HalfEdge(NONE); vertices + 1];
         for (t, record) in net.records.iter().enumerate() {
             for (i, &corner) in record.corners.iter().enumerate() {
                 anchors[place_of(corner)] = HalfEdge::of(TriangleId::from_index(t), i);
             }
         }
-        Self { net, pieces, regions, anchors, labels: Vec::new() }
+        Self { net, subcurves, regions, anchors, labels: Vec::new() }
     }
 
     /// The triangles without their labels.
@@ -320,13 +320,13 @@ impl Triangulation {
     /// The subcurve that lies on a half-edge.
     #[inline]
     pub fn subcurve(&self, s: HalfEdge) -> Option<SubcurveId> {
-        label(self.piece_label(s))
+        label(self.subcurve_label(s))
     }
 
     /// Sets the subcurve on a half-edge and its twin, or removes it.
-    pub fn set_piece(&mut self, s: HalfEdge, subcurve: Option<SubcurveId>) {
+    pub fn set_subcurve(&mut self, s: HalfEdge, subcurve: Option<SubcurveId>) {
         for s in [s, self.twin(s)] {
-            self.set_piece_label(s, subcurve.map_or(NONE, |p| p.0));
+            self.set_subcurve_label(s, subcurve.map_or(NONE, |p| p.0));
         }
     }
 
@@ -359,17 +359,17 @@ impl Triangulation {
         let n = self.twin(s);
         let (t, u) = (s.triangle(), n.triangle());
         let (a, b, c, d) = (self.origin(s), self.origin(n), self.apex(s), self.apex(n));
-        let outer = [n.prev(), s.next(), s.prev(), n.next()].map(|side| (self.twin(side), self.piece_label(side)));
+        let outer = [n.prev(), s.next(), s.prev(), n.next()].map(|side| (self.twin(side), self.subcurve_label(side)));
         let fresh = [HalfEdge::of(t, 0), HalfEdge::of(t, 1), HalfEdge::of(u, 0), HalfEdge::of(u, 1)];
         self.net.records[t.index()].corners = [d, b, c];
         self.net.records[u.index()].corners = [c, a, d];
         for (side, (twin, subcurve)) in fresh.into_iter().zip(outer) {
             self.net.join(side, twin);
-            self.set_piece_label(side, subcurve);
+            self.set_subcurve_label(side, subcurve);
         }
         self.net.join(HalfEdge::of(t, 2), HalfEdge::of(u, 2));
-        self.pieces[t.index()][2] = NONE;
-        self.pieces[u.index()][2] = NONE;
+        self.subcurves[t.index()][2] = NONE;
+        self.subcurves[u.index()][2] = NONE;
         fresh.into_iter().for_each(|s| self.anchor(s));
     }
 
@@ -379,14 +379,14 @@ impl Triangulation {
         self.anchors[place_of(v)] = s;
     }
 
-    fn piece_label(&self, s: HalfEdge) -> u32 {
+    fn subcurve_label(&self, s: HalfEdge) -> u32 {
         let (t, i) = s.split();
-        self.pieces[t.index()][i]
+        self.subcurves[t.index()][i]
     }
 
-    fn set_piece_label(&mut self, s: HalfEdge, subcurve: u32) {
+    fn set_subcurve_label(&mut self, s: HalfEdge, subcurve: u32) {
         let (t, i) = s.split();
-        self.pieces[t.index()][i] = subcurve;
+        self.subcurves[t.index()][i] = subcurve;
     }
 
     /// Replaces a cavity by the star of `apex`, whose number follows those of all vertices so far. Border half-edges
@@ -395,12 +395,12 @@ impl Triangulation {
     pub(super) fn star(&mut self, apex: VertexId, triangles: &[TriangleId], border: &[HalfEdge]) -> [TriangleId; 2] {
         let mut labels = std::mem::take(&mut self.labels);
         labels.clear();
-        labels.extend(border.iter().map(|&s| (self.piece_label(s), self.regions[s.triangle().index()])));
+        labels.extend(border.iter().map(|&s| (self.subcurve_label(s), self.regions[s.triangle().index()])));
         let last = self.net.star(apex, triangles, border);
-        self.pieces.resize(self.net.len(), [NONE; 3]);
+        self.subcurves.resize(self.net.len(), [NONE; 3]);
         self.regions.resize(self.net.len(), NONE);
         for (&t, &(subcurve, region)) in triangles.iter().chain(&last).zip(&labels) {
-            self.pieces[t.index()] = [subcurve, NONE, NONE];
+            self.subcurves[t.index()] = [subcurve, NONE, NONE];
             self.regions[t.index()] = region;
             self.anchor(HalfEdge::of(t, 0));
         }
@@ -415,11 +415,11 @@ impl Triangulation {
         assert_eq!(spokes.len(), 3, "only a vertex of degree 3 leaves a triangle");
         let t = spokes[0].triangle();
         let rim: Vec<_> = spokes.iter().map(|s| s.next()).collect();
-        let outer = [0, 1, 2].map(|i| (self.origin(rim[i]), self.twin(rim[i]), self.piece_label(rim[i])));
+        let outer = [0, 1, 2].map(|i| (self.origin(rim[i]), self.twin(rim[i]), self.subcurve_label(rim[i])));
         for (i, (corner, twin, subcurve)) in outer.into_iter().enumerate() {
             self.net.records[t.index()].corners[i] = corner;
             self.net.join(HalfEdge::of(t, i), twin);
-            self.pieces[t.index()][i] = subcurve;
+            self.subcurves[t.index()][i] = subcurve;
             self.anchors[place_of(corner)] = HalfEdge::of(t, i);
         }
         self.release(spokes[1].triangle());
@@ -444,9 +444,9 @@ impl Triangulation {
         // collapse.
         let (before, after) = (spokes[(ghost + spokes.len() - 1) % spokes.len()], spokes[ghost]);
         for (inner, outer) in [(before, before.next()), (after.prev(), after.next())] {
-            let (inner, subcurve) = (self.twin(inner), self.piece_label(outer));
+            let (inner, subcurve) = (self.twin(inner), self.subcurve_label(outer));
             self.net.join(inner, self.twin(outer));
-            self.set_piece_label(inner, subcurve);
+            self.set_subcurve_label(inner, subcurve);
         }
         for &s in spokes.iter().filter(|&&s| s != before && s != after) {
             let (t, i) = s.split();
@@ -461,7 +461,7 @@ impl Triangulation {
 
     fn release(&mut self, t: TriangleId) {
         self.net.release(t);
-        self.pieces[t.index()] = [NONE; 3];
+        self.subcurves[t.index()] = [NONE; 3];
         self.regions[t.index()] = NONE;
     }
 
@@ -483,11 +483,11 @@ impl Triangulation {
         if dead != self.net.free.len() {
             flaws.push(format!("{dead} dead triangles, but {} on the free list", self.net.free.len()));
         }
-        if self.pieces.len() != self.net.len() || self.regions.len() != self.net.len() {
+        if self.subcurves.len() != self.net.len() || self.regions.len() != self.net.len() {
             flaws.push(format!(
                 "{} triangles, {} subcurve labels, {} regions",
                 self.net.len(),
-                self.pieces.len(),
+                self.subcurves.len(),
                 self.regions.len()
             ));
             return flaws;
@@ -577,7 +577,7 @@ mod tests {
         assert_flaw(|t| t.net.records[1].corners.swap(0, 1), "its twin ends at");
         assert_flaw(|t| t.net.records[3] = DEAD, "in a dead triangle");
         assert_flaw(|t| t.net.records[3] = DEAD, "1 dead triangles, but 0 on the free list");
-        assert_flaw(|t| t.pieces[0][0] = 5, "SubcurveId(5)");
+        assert_flaw(|t| t.subcurves[0][0] = 5, "SubcurveId(5)");
         assert_flaw(|t| t.regions.truncate(2), "2 regions");
         assert_flaw(|t| t.anchors[2] = HalfEdge(NONE), "vertex 1 is a corner of 4 triangles but has no side");
         assert_flaw(|t| t.anchors[2] = t.anchors[3], "vertex 1 has side");
@@ -593,7 +593,7 @@ mod tests {
             t.net
                 .records
                 .extend(copy.into_iter().map(|r| Record { twins: r.twins.map(|s| HalfEdge(s.0 + 3 * shift)), ..r }));
-            t.pieces.resize(t.net.len(), [NONE; 3]);
+            t.subcurves.resize(t.net.len(), [NONE; 3]);
             t.regions.resize(t.net.len(), NONE);
         };
         assert_flaw(twice, "6 triangles, 3 of them in its star");
@@ -627,9 +627,9 @@ mod tests {
         let outer = [(0, 1), (1, 2), (2, 3), (3, 0)].map(|(a, b)| (VertexId(a), VertexId(b)));
         for (i, &(a, b)) in outer.iter().enumerate() {
             let side = t.side_between(a, b).unwrap();
-            t.set_piece(side, Some(SubcurveId(i as u32)));
+            t.set_subcurve(side, Some(SubcurveId(i as u32)));
         }
-        t.set_piece(s, Some(SubcurveId(77)));
+        t.set_subcurve(s, Some(SubcurveId(77)));
         t.flip(s);
         assert_eq!(t.flaws(), Vec::<String>::new());
         assert_eq!(t.side_between(VertexId(3), VertexId(1)), None);

@@ -66,7 +66,7 @@ pub fn delaunay(ev: &Evidence) -> Check {
     let mut tally = Tally::highest(if constrained { "constrained_delaunay" } else { "delaunay" });
     let mut on_curve = vec![false; if constrained { ev.edges.edges().len() } else { 0 }];
     if constrained {
-        ev.pieces.iter().filter_map(|piece| piece.edge).for_each(|edge| on_curve[edge] = true);
+        ev.parts.iter().filter_map(|part| part.edge).for_each(|edge| on_curve[edge] = true);
     }
     for (i, edge) in ev.edges.edges().iter().enumerate() {
         let (Some(left), Some(right)) = (edge.left(), edge.right()) else { continue };
@@ -188,7 +188,7 @@ struct AcrossCorners<'a> {
 
 impl<'a> AcrossCorners<'a> {
     fn new(ev: &'a Evidence<'a>, domain: &'a Domain) -> Self {
-        let mut at_nodes: Vec<_> = ev.pieces.iter().flat_map(|p| p.nodes.map(|v| (v, p.curve))).collect();
+        let mut at_nodes: Vec<_> = ev.parts.iter().flat_map(|p| p.nodes.map(|v| (v, p.curve))).collect();
         at_nodes.sort_unstable();
         at_nodes.dedup();
         Self { ev, domain, at_nodes }

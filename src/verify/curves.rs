@@ -18,16 +18,16 @@ pub fn on_curve(ev: &Evidence, domain: &Domain) -> Check {
     let mut tally = Tally::highest("on_curve");
     // A weld moves a curve by at most the tolerance; evaluation and storing round.
     let reach = domain.tolerance() + ev.rounding;
-    for piece in &ev.pieces {
-        let curve = &domain.curves()[piece.curve];
-        for (t, v) in piece.t.into_iter().zip(piece.nodes) {
+    for part in &ev.parts {
+        let curve = &domain.curves()[part.curve];
+        for (t, v) in part.t.into_iter().zip(part.nodes) {
             tally.count();
             let at = ev.node(v);
             let away = at.distance(curve.curve.point(t));
             tally.measure(away, at);
             let end = (t == 0.0 || t == 1.0).then(|| curve.ends[usize::from(t == 1.0)]);
             if away.is_nan() || away > reach {
-                let c = piece.curve.0;
+                let c = part.curve.0;
                 tally.flaw(|| format!("node {} at {} lies {away} from curve {c} at t = {t}", v.0, place(at)));
             } else if let Some(p) = end.filter(|_| !ev.promise.foreign) {
                 exactly(ev, domain, p, v, &mut tally);
@@ -60,7 +60,7 @@ fn exactly(ev: &Evidence, domain: &Domain, p: PointId, v: VertexId, tally: &mut 
 /// Reports nodes of edges that end a region, but lie on no curve.
 fn stray_nodes(ev: &Evidence, domain: &Domain, tally: &mut Tally) {
     let mut found = vec![false; ev.mesh.nodes.len()];
-    ev.pieces.iter().flat_map(|p| p.nodes).for_each(|v| found[v.index()] = true);
+    ev.parts.iter().flat_map(|p| p.nodes).for_each(|v| found[v.index()] = true);
     let hierarchy = BoxHierarchy::new(domain.curves().iter().map(|c| c.curve.bounds()));
     for v in ev.edges.edges().iter().filter(|e| ends_a_region(ev, e)).flat_map(|e| e.nodes) {
         if std::mem::replace(&mut found[v.index()], true) {
@@ -88,7 +88,7 @@ pub fn curve_chain(ev: &Evidence, domain: &Domain) -> Check {
     let mut tally = Tally::highest("curve_chain");
     let node = ev.nodes_of_points(domain);
     let mut seen: IdVec<CurveId, bool> = vec![false; domain.curves().len()].into();
-    for chain in ev.pieces.chunk_by(|a, b| a.curve == b.curve) {
+    for chain in ev.parts.chunk_by(|a, b| a.curve == b.curve) {
         tally.count();
         let id = chain[0].curve;
         let again = std::mem::replace(&mut seen[id], true);
@@ -149,14 +149,14 @@ fn along_pieces(
 ) -> Check {
     let Some(limit) = limit else { return Check::not_asked(name) };
     let mut tally = Tally::highest(name);
-    for piece in &ev.pieces {
+    for part in &ev.parts {
         tally.count();
-        let (t0, t1) = piece.range();
-        let value = if t0 < t1 { measure(&domain.curves()[piece.curve].curve, t0, t1) } else { 0.0 };
-        let at: Point = ev.middle(piece.nodes);
+        let (t0, t1) = part.range();
+        let value = if t0 < t1 { measure(&domain.curves()[part.curve].curve, t0, t1) } else { 0.0 };
+        let at: Point = ev.middle(part.nodes);
         tally.measure(value, at);
         if value.is_nan() || value > limit {
-            tally.flaw(|| format!("curve {} {verb} {value} along {}", piece.curve.0, ev.tell_edge(piece.nodes)));
+            tally.flaw(|| format!("curve {} {verb} {value} along {}", part.curve.0, ev.tell_edge(part.nodes)));
         }
     }
     tally.finish(Status::Proven)

@@ -46,7 +46,7 @@ pub struct Evidence<'a> {
     /// All edges of the mesh.
     pub edges: EdgeTable,
     /// Parts of curves in the mesh's order; in a foreign mesh as the verifier found them, by curve and parameter.
-    pub pieces: Vec<CurvePart>,
+    pub parts: Vec<CurvePart>,
     /// Listed edges without a link, or with a parameter outside 0..1.
     pub unlinked: Vec<usize>,
     /// The classes of regions.
@@ -69,15 +69,15 @@ impl<'a> Evidence<'a> {
         let rounding = 4.0 * f64::EPSILON * magnitude;
         let mut within: IdVec<VertexId, bool> = vec![false; mesh.nodes.len()].into();
         mesh.triangle_mids.iter().flatten().for_each(|&v| within[v] = true);
-        let (mut pieces, unlinked) = match domain {
+        let (mut parts, unlinked) = match domain {
             Some(domain) if promise.foreign => {
                 (recovered(domain, mesh, &within, domain.tolerance() + rounding), Vec::new())
             }
             Some(_) => linked(mesh),
             None => (Vec::new(), Vec::new()),
         };
-        for piece in &mut pieces {
-            piece.edge = edges.find(piece.nodes[0], piece.nodes[1]);
+        for part in &mut parts {
+            part.edge = edges.find(part.nodes[0], part.nodes[1]);
         }
         Self {
             domain,
@@ -86,7 +86,7 @@ impl<'a> Evidence<'a> {
             within,
             signs: mesh.nodes.iter().map(|&p| geometry::scaled(p, factor)).collect(),
             edges,
-            pieces,
+            parts,
             unlinked,
             classes: Classes::of(domain, mesh, promise.foreign),
             rounding,
@@ -122,9 +122,9 @@ impl<'a> Evidence<'a> {
             node[p] = Some(v);
         }
         if self.promise.foreign {
-            for piece in &self.pieces {
-                let ends = domain.curves()[piece.curve].ends;
-                for (t, v) in piece.t.into_iter().zip(piece.nodes) {
+            for part in &self.parts {
+                let ends = domain.curves()[part.curve].ends;
+                for (t, v) in part.t.into_iter().zip(part.nodes) {
                     if t == 0.0 || t == 1.0 {
                         node[ends[usize::from(t == 1.0)]] = Some(v);
                     }
@@ -182,17 +182,17 @@ impl Classes {
 
 /// The mesh's own links, and the listed edges that have none within 0..1.
 fn linked(mesh: &Mesh) -> (Vec<CurvePart>, Vec<usize>) {
-    let (mut pieces, mut unlinked) = (Vec::with_capacity(mesh.edges.len()), Vec::new());
+    let (mut parts, mut unlinked) = (Vec::with_capacity(mesh.edges.len()), Vec::new());
     for (i, edge) in mesh.edges.iter().enumerate() {
         match edge.link {
             Some(link) if link.t.iter().all(|t| (0.0..=1.0).contains(t)) => {
                 let name = Some(edge.name);
-                pieces.push(CurvePart { curve: link.curve, t: link.t, nodes: edge.nodes, edge: None, name });
+                parts.push(CurvePart { curve: link.curve, t: link.t, nodes: edge.nodes, edge: None, name });
             }
             _ => unlinked.push(i),
         }
     }
-    (pieces, unlinked)
+    (parts, unlinked)
 }
 
 /// Boxes per curve in the search for nodes on curves. A mesh has many nodes near few curves, and small boxes exclude

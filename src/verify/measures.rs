@@ -184,11 +184,11 @@ fn add_lenses(ev: &Evidence, domain: &Domain, sums: &mut [Sums]) {
             }
         }
     }
-    for piece in &ev.pieces {
-        let origin = domain.curves()[piece.curve].curve.start();
-        let [a, b] = piece.nodes.map(|v| ev.node(v) - origin);
+    for part in &ev.parts {
+        let origin = domain.curves()[part.curve].curve.start();
+        let [a, b] = part.nodes.map(|v| ev.node(v) - origin);
         for (s, sign) in [(0, 1.0), (1, -1.0)] {
-            if let Some(class) = side(piece.curve.index(), s) {
+            if let Some(class) = side(part.curve.index(), s) {
                 sums[class].lenses -= sign * 0.5 * a.cross(b);
             }
         }
@@ -259,32 +259,32 @@ fn kept_boundaries(ev: &Evidence, domain: &Domain) -> bool {
     let are_numbers = has.iter().all(|name| name.parse::<i64>().is_ok());
     let fits = |p: &CurvePart| p.name.is_none_or(|name| ev.mesh.names.text(name) == name_asked(domain, p));
     let known = !has.is_disjoint(&asked);
-    !ev.promise.foreign || known && (!are_numbers || ev.pieces.iter().all(fits))
+    !ev.promise.foreign || known && (!are_numbers || ev.parts.iter().all(fits))
 }
 
 fn in_domain(domain: &Domain, names: impl Iterator<Item = NameId>) -> BTreeSet<&str> {
     distinct(names).into_iter().map(|name| domain.name(name)).collect()
 }
 
-fn name_asked<'a>(domain: &'a Domain, piece: &CurvePart) -> &'a str {
-    domain.name(domain.curves()[piece.curve].name)
+fn name_asked<'a>(domain: &'a Domain, part: &CurvePart) -> &'a str {
+    domain.name(domain.curves()[part.curve].name)
 }
 
 /// Each edge on a curve has the name of the curve, and in a foreign mesh no other edge has a name of a curve.
 fn names_of_edges(ev: &Evidence, domain: &Domain, tally: &mut Tally) {
-    for piece in &ev.pieces {
-        let Some(has) = piece.name.map(|n| ev.mesh.names.text(n)) else { continue };
+    for part in &ev.parts {
+        let Some(has) = part.name.map(|n| ev.mesh.names.text(n)) else { continue };
         tally.count();
-        let asked = name_asked(domain, piece);
+        let asked = name_asked(domain, part);
         if has != asked {
-            tally.flaw(|| format!("{} is of \"{has}\", its curve of \"{asked}\"", ev.tell_edge(piece.nodes)));
+            tally.flaw(|| format!("{} is of \"{has}\", its curve of \"{asked}\"", ev.tell_edge(part.nodes)));
         }
     }
     if !ev.promise.foreign {
         return;
     }
     let ascending = |[a, b]: [VertexId; 2]| [a.min(b), a.max(b)];
-    let mut on_curves: Vec<_> = ev.pieces.iter().map(|p| ascending(p.nodes)).collect();
+    let mut on_curves: Vec<_> = ev.parts.iter().map(|p| ascending(p.nodes)).collect();
     on_curves.sort_unstable();
     let asked = in_domain(domain, names_of_boundaries(domain));
     for edge in ev.mesh.edges.iter().filter(|e| on_curves.binary_search(&ascending(e.nodes)).is_err()) {

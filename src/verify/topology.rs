@@ -58,8 +58,8 @@ pub fn manifold(ev: &Evidence) -> Check {
 pub fn conforming(ev: &Evidence, domain: &Domain, circles: &Circles) -> Check {
     let mut tally = Tally::highest("conforming");
     let mut on_curve = vec![false; ev.edges.edges().len()];
-    for piece in &ev.pieces {
-        chord(ev, domain, piece, &mut on_curve, &mut tally);
+    for part in &ev.parts {
+        chord(ev, domain, part, &mut on_curve, &mut tally);
     }
     for (edge, _) in ev.edges.edges().iter().zip(&on_curve).filter(|(_, on_curve)| !**on_curve) {
         if ends_a_region(ev, edge) {
@@ -75,25 +75,25 @@ pub fn conforming(ev: &Evidence, domain: &Domain, circles: &Circles) -> Check {
     tally.finish(Status::Proven)
 }
 
-fn chord(ev: &Evidence, domain: &Domain, piece: &CurvePart, on_curve: &mut [bool], tally: &mut Tally) {
+fn chord(ev: &Evidence, domain: &Domain, part: &CurvePart, on_curve: &mut [bool], tally: &mut Tally) {
     tally.count();
-    let Some(place) = piece.edge else {
+    let Some(place) = part.edge else {
         return tally
-            .flaw(|| format!("curve {} asks for {}, which no triangle has", piece.curve.0, ev.tell_edge(piece.nodes)));
+            .flaw(|| format!("curve {} asks for {}, which no triangle has", part.curve.0, ev.tell_edge(part.nodes)));
     };
     if std::mem::replace(&mut on_curve[place], true) {
-        return tally.flaw(|| format!("{} lies on two curves", ev.tell_edge(piece.nodes)));
+        return tally.flaw(|| format!("{} lies on two curves", ev.tell_edge(part.nodes)));
     }
-    let asked = domain.curves()[piece.curve].sides.map(|r| r.map(|r| ev.classes.of_domain[r]));
-    let has = sides(ev, &ev.edges.edges()[place], piece.nodes);
+    let asked = domain.curves()[part.curve].sides.map(|r| r.map(|r| ev.classes.of_domain[r]));
+    let has = sides(ev, &ev.edges.edges()[place], part.nodes);
     if asked != has {
         let name = |class: Option<u32>| class.map_or("nothing", |c| ev.classes.names[c as usize].as_str());
         tally.flaw(|| {
             let ([left, right], [to_left, to_right]) = (has.map(name), asked.map(name));
-            let edge = ev.tell_edge(piece.nodes);
+            let edge = ev.tell_edge(part.nodes);
             format!(
                 "{edge} has {left} on its left and {right} on its right; curve {} has {to_left} and {to_right}",
-                piece.curve.0
+                part.curve.0
             )
         });
     }

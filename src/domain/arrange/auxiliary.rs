@@ -67,8 +67,8 @@ impl<'a> Outlines<'a> {
         let circles = arrangement.edges.ids().map(circles).collect();
         let mut by_component = vec![BTreeSet::new(); faces.outer.len()];
         for (k, layers) in by_curve.iter().enumerate() {
-            let half = DirectedEdge { curve: CurveId::from_index(k), side: Side::Left };
-            by_component[faces.cycles[faces.cycle_of[half.index()]].component].extend(layers);
+            let directed = DirectedEdge { curve: CurveId::from_index(k), side: Side::Left };
+            by_component[faces.cycles[faces.cycle_of[directed.index()]].component].extend(layers);
         }
         Self { arrangement, faces, by_curve, circles, by_component }
     }

@@ -64,7 +64,7 @@ impl Hubs {
     }
 
     /// The hubs at which a line ends.
-    fn of_piece(&self, edge: &Edge) -> Labels {
+    fn of_edge(&self, edge: &Edge) -> Labels {
         if edge.is_line() { edge.ends.map(|end| self.is_hub(end).then_some(end.0)) } else { Labels::default() }
     }
 
@@ -131,7 +131,7 @@ impl Arrangement<'_> {
     }
 
     /// Nodes with the edges that they may lie on without being their ends, each pair once, in order.
-    pub fn nodes_near_pieces(
+    pub fn nodes_near_edges(
         &self,
         boxes: &BoxHierarchy,
         watch: &mut Watch,
@@ -149,7 +149,7 @@ impl Arrangement<'_> {
         nodes.try_pairs_with(
             |i| hubs.of_node[PointId::from_index(i)],
             boxes,
-            |i| hubs.of_piece(&self.edges[CurveId::from_index(i)]),
+            |i| hubs.of_edge(&self.edges[CurveId::from_index(i)]),
             |i, j| ask(PointId::from_index(i), CurveId::from_index(j)),
         )?;
         hubs.spokes_on_spokes(self, &mut ask)?;

@@ -162,7 +162,7 @@ impl Arrangement<'_> {
     /// own chain counts only if it is farther along the chain. Neither the end nor the line may be connected with a
     /// closed outline: lines within a grid that stop short of each other change nothing about what the grid bounds.
     pub fn shorts(&self, ends: &[FreeEnd], among: &[usize], bound: impl Fn(usize) -> f64) -> Vec<Short> {
-        let open = self.pieces_of_trees();
+        let open = self.edges_of_trees();
         let boxes = BoxHierarchy::new(open.iter().map(|&id| self.edges[id].bounds));
         let joints = Joints::new(self);
         let short = |&i: &usize| {
@@ -184,7 +184,7 @@ impl Arrangement<'_> {
     }
 
     /// Edges whose component is a tree, ascending.
-    fn pieces_of_trees(&self) -> Vec<CurveId> {
+    fn edges_of_trees(&self) -> Vec<CurveId> {
         let mut parts = Forest::new(self.nodes.len());
         let mut closed = Vec::new();
         for edge in self.edges.iter() {

@@ -104,7 +104,7 @@ impl Windings<'_> {
         let around = self.of(self.faces.parent[component]);
         let outer = self.faces.outer[component];
         let sides = bounded.iter().chain([&outer]).flat_map(|&cycle| &self.faces.cycles[cycle].edges);
-        let closed = bounded.is_empty() || sides.clone().any(|half| counted[half.curve.index()]);
+        let closed = bounded.is_empty() || sides.clone().any(|directed| counted[directed.curve.index()]);
         if !closed {
             // The component has only open curves, which enclose faces because they cross. These faces are inside: with
             // the winding number around them if that is inside, else with one more.
@@ -112,7 +112,8 @@ impl Windings<'_> {
             bounded.iter().for_each(|&face| self.winding[face] = Some(within));
             return;
         }
-        let curves: Vec<CurveId> = sides.filter(|half| half.side == Side::Left).map(|half| half.curve).collect();
+        let curves: Vec<CurveId> =
+            sides.filter(|directed| directed.side == Side::Left).map(|directed| directed.curve).collect();
         match self.counts(&curves).into_iter().find(|count| self.is_balanced(&curves, count)) {
             Some(count) => {
                 if matches!(count, Count::Once) {
@@ -178,14 +179,14 @@ impl Windings<'_> {
     fn spread(&mut self, outer: usize, around: i32, count: &Count) {
         let mut stack = vec![(outer, around)];
         while let Some((cycle, winding)) = stack.pop() {
-            for &half in &self.faces.cycles[cycle].edges {
-                let beyond = self.faces.cycle_of[half.twin().index()];
+            for &directed in &self.faces.cycles[cycle].edges {
+                let beyond = self.faces.cycle_of[directed.twin().index()];
                 if beyond == outer || beyond == cycle || self.winding[beyond].is_some() {
                     continue;
                 }
-                let weight = self.weight(half.curve, count);
+                let weight = self.weight(directed.curve, count);
                 // The winding number on the left of a curve is greater by its weight than that on its right.
-                let there = if half.side == Side::Left { winding - weight } else { winding + weight };
+                let there = if directed.side == Side::Left { winding - weight } else { winding + weight };
                 self.winding[beyond] = Some(there);
                 stack.push((beyond, there));
             }

@@ -119,7 +119,7 @@ impl Arrangement<'_> {
         {
             return Err(missed);
         }
-        let open = self.open_pieces();
+        let open = self.open_edges();
         let told = self.tell_open(&ends[..own], &open, loose);
         match loose {
             Loose::Error => Err(self.open_refused(&ends[..own])),
@@ -141,7 +141,7 @@ impl Arrangement<'_> {
     ///   │     ├────●────●────
     ///   └─────┘
     /// ```
-    fn open_pieces(&self) -> BTreeSet<CurveId> {
+    fn open_edges(&self) -> BTreeSet<CurveId> {
         let joints = Joints::new(self);
         let mut degree: IdVec<PointId, usize> = self.nodes.ids().map(|node| joints.degree(node)).collect();
         let mut free: Vec<PointId> = self.nodes.ids().filter(|&node| joints.is_free(node)).collect();

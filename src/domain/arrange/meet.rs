@@ -79,7 +79,7 @@ impl Arrangement<'_> {
         let known = self.nodes.len();
         let grown = self.edges.iter().map(|p| p.bounds.inflate(self.tolerances.weld, self.tolerances.weld));
         let boxes = BoxHierarchy::new(grown);
-        self.nodes_on_pieces(&boxes, &mut found, watch)?;
+        self.nodes_on_edges(&boxes, &mut found, watch)?;
         let pairs = self.fresh_pairs(&boxes, watch)?;
         let count = pairs.len();
         for (k, (a, b)) in pairs.into_iter().enumerate() {
@@ -107,8 +107,8 @@ impl Arrangement<'_> {
     ///   ────────────t─────── edge   Where t lies within the tolerance of an end of the edge, that end and `id` are
     ///                               linked instead.
     /// ```
-    fn nodes_on_pieces(&self, boxes: &BoxHierarchy, found: &mut Found, watch: &mut Watch) -> Result<(), Unarranged> {
-        for (id, edge) in self.nodes_near_pieces(boxes, watch)? {
+    fn nodes_on_edges(&self, boxes: &BoxHierarchy, found: &mut Found, watch: &mut Watch) -> Result<(), Unarranged> {
+        for (id, edge) in self.nodes_near_edges(boxes, watch)? {
             let at = self.nodes[id].at;
             let (t, distance) = self.edges[edge].curve.nearest(at, 0.0, 1.0);
             if distance <= self.tolerances.weld {
@@ -141,7 +141,7 @@ impl Arrangement<'_> {
         // crossing.
         let [t, u] = if det == 0.0 { [0.5, 0.5] } else { [between.cross(dq) / det, between.cross(dp) / det] };
         let (t, u) = (t.clamp(0.0, 1.0), u.clamp(0.0, 1.0));
-        self.join_pieces((a, t), (b, u), p0.lerp(p1, t), found);
+        self.join_edges((a, t), (b, u), p0.lerp(p1, t), found);
     }
 
     fn meet_curves(&mut self, a: CurveId, b: CurveId, found: &mut Found) -> Result<(), ArrangeError> {
@@ -159,7 +159,7 @@ impl Arrangement<'_> {
         }
         let before = [found.cuts.len(), found.links.len()];
         for (at, [t, u]) in places {
-            self.join_pieces((a, t), (b, u), at, found);
+            self.join_edges((a, t), (b, u), at, found);
         }
         if before == [found.cuts.len(), found.links.len()] {
             self.untangle([a, b], found)?;
@@ -228,7 +228,7 @@ impl Arrangement<'_> {
                         found.cuts.push(Cut { edge, t, at, node: m });
                     }
                 }
-                _ => self.join_pieces((ids[0], ts[0]), (ids[1], ts[1]), meeting.at, found),
+                _ => self.join_edges((ids[0], ts[0]), (ids[1], ts[1]), meeting.at, found),
             }
         }
         Ok(())
@@ -274,7 +274,7 @@ impl Arrangement<'_> {
     }
 
     /// Makes one node of a place on one edge and a place on another.
-    fn join_pieces(&mut self, a: (CurveId, f64), b: (CurveId, f64), at: Point, found: &mut Found) {
+    fn join_edges(&mut self, a: (CurveId, f64), b: (CurveId, f64), at: Point, found: &mut Found) {
         let site =
             |arrangement: &Self, (id, t): (CurveId, f64)| arrangement.site(id, t, arrangement.edges[id].curve.point(t));
         let (on_a, on_b) = (site(self, a), site(self, b));

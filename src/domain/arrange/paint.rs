@@ -58,11 +58,11 @@ impl<'a> Paint<'a> {
     }
 
     /// Updates the paint from the face on the left of `half` to the face across its curve.
-    fn cross(&mut self, half: DirectedEdge, arrangement: &Arrangement) {
-        for (source, against) in arrangement.drawn_along(half.curve) {
+    fn cross(&mut self, directed: DirectedEdge, arrangement: &Arrangement) {
+        for (source, against) in arrangement.drawn_along(directed.curve) {
             if let Some(shape) = arrangement.drawing.curves[source as usize].shape {
                 // The winding number on the left of a curve is greater by one than that on its right.
-                let leaves_left = (half.side == Side::Left) != against;
+                let leaves_left = (directed.side == Side::Left) != against;
                 self.add(shape, if leaves_left { -1 } else { 1 });
             }
         }
@@ -164,8 +164,8 @@ pub(super) fn lines_in_clips(arrangement: &Arrangement, faces: &Faces) -> IdVec<
         arrangement.edges.ids().map(|id| lines(id).any(|clip| clip.is_none())).collect();
     if !arrangement.drawing.clips.is_empty() {
         by_paint(arrangement, faces, |cycles, paint| {
-            for half in cycles.iter().flat_map(|&cycle| &faces.cycles[cycle].edges) {
-                kept[half.curve] |= lines(half.curve).any(|clip| paint.lies_in(clip));
+            for directed in cycles.iter().flat_map(|&cycle| &faces.cycles[cycle].edges) {
+                kept[directed.curve] |= lines(directed.curve).any(|clip| paint.lies_in(clip));
             }
             None::<()>
         });
@@ -222,13 +222,13 @@ fn by_paint<T>(
     let mut steps: Vec<Step> = sides(None).map(Step::Cross).collect();
     while let Some(step) = steps.pop() {
         match step {
-            Step::Return(half) => paint.cross(half.twin(), arrangement),
-            Step::Cross(half) => {
-                let Some(face) = faces.face(half.twin()).filter(|&face| !seen[face]) else { continue };
+            Step::Return(directed) => paint.cross(directed.twin(), arrangement),
+            Step::Cross(directed) => {
+                let Some(face) = faces.face(directed.twin()).filter(|&face| !seen[face]) else { continue };
                 seen[face] = true;
-                paint.cross(half, arrangement);
+                paint.cross(directed, arrangement);
                 said[face] = of(&cycles(Some(face)).collect::<Vec<usize>>(), &paint);
-                steps.push(Step::Return(half));
+                steps.push(Step::Return(directed));
                 steps.extend(sides(Some(face)).map(Step::Cross));
             }
         }

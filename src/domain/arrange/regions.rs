@@ -64,7 +64,7 @@ pub(super) fn keep(
         };
     }
     let region_of = name_regions(arrangement, domain, faces, &kept, |face| named[face], &areas);
-    let region = |half: DirectedEdge| faces.face(half).and_then(|face| region_of[face]);
+    let region = |directed: DirectedEdge| faces.face(directed).and_then(|face| region_of[face]);
     for id in domain.curves.ids() {
         let sides = [Side::Left, Side::Right].map(|side| region(DirectedEdge { curve: id, side }));
         domain.curves[id].sides = sides;
@@ -194,8 +194,8 @@ fn name_regions(
 fn layer_of_outline<'a>(arrangement: &Arrangement<'a>, faces: &Faces, face: usize) -> Option<&'a str> {
     let drawing = arrangement.drawing;
     let mut lengths: BTreeMap<LayerId, f64> = BTreeMap::new();
-    for half in &faces.cycles[face].edges {
-        let edge = &arrangement.edges[half.curve];
+    for directed in &faces.cycles[face].edges {
+        let edge = &arrangement.edges[directed.curve];
         if let Some(layer) = drawing.curves[edge.source as usize].layer {
             *lengths.entry(layer).or_default() += extent(edge.bounds);
         }

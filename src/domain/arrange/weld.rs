@@ -63,7 +63,7 @@ impl Arrangement<'_> {
     ///                                                        moved to it.
     /// ```
     fn weld(&mut self, found: Found) {
-        let cuts = self.cuts_by_piece(found.cuts);
+        let cuts = self.cuts_by_edge(found.cuts);
         let clusters = self.clusters(&found.links, &cuts);
         self.replace_nodes(&clusters);
         self.rebuild(&clusters, cuts);
@@ -71,7 +71,7 @@ impl Arrangement<'_> {
     }
 
     /// Cuts sorted along each edge; ascending by edge.
-    fn cuts_by_piece(&self, mut cuts: Vec<Cut>) -> Vec<Cut> {
+    fn cuts_by_edge(&self, mut cuts: Vec<Cut>) -> Vec<Cut> {
         cuts.sort_by(|a, b| a.edge.cmp(&b.edge).then(a.t.total_cmp(&b.t)).then(a.node.cmp(&b.node)));
         cuts
     }
@@ -153,13 +153,13 @@ impl Arrangement<'_> {
             let (cuts, others) = rest.split_at(mine);
             rest = others;
             edge.ends = edge.ends.map(|end| clusters[end]);
-            self.cut_piece(edge, cuts, clusters);
+            self.cut_edge(edge, cuts, clusters);
         }
         self.renumber();
     }
 
     /// Places the parts of an edge between its cuts.
-    fn cut_piece(&mut self, edge: Edge, cuts: &[Cut], clusters: &IdVec<PointId, PointId>) {
+    fn cut_edge(&mut self, edge: Edge, cuts: &[Cut], clusters: &IdVec<PointId, PointId>) {
         let inner: Vec<(Cut, PointId)> = cuts.iter().map(|cut| (*cut, clusters[cut.node])).collect();
         if inner.is_empty() {
             return self.place_part(edge);

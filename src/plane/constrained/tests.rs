@@ -157,15 +157,15 @@ fn a_parted_segment_leaves_what_is_built_with_its_parts() {
             if !built.can_part(side, p) {
                 continue;
             }
-            let pieces = [i, scene.segments.len()].map(SubcurveId::from_index);
-            let v = built.part(side, p, pieces);
+            let subcurves = [i, scene.segments.len()].map(SubcurveId::from_index);
+            let v = built.part(side, p, subcurves);
             assert_eq!(built.flaws(), Vec::<String>::new(), "seed {seed}: segment {a} {b} at {p:?}");
             let mut with = Scene { points: scene.points.clone(), segments: scene.segments.clone() };
             with.points.push(p);
             with.segments[i] = [a, v.index()];
             with.segments.push([v.index(), b]);
             assert_eq!(triangles(&built), triangles(&with.build()), "seed {seed}: segment {a} {b} at {p:?}");
-            for (end, subcurve) in [a, b].into_iter().zip(pieces) {
+            for (end, subcurve) in [a, b].into_iter().zip(subcurves) {
                 let part = built.topology().side_between(v, VertexId::from_index(end)).unwrap();
                 assert_eq!(built.topology().subcurve(part), Some(subcurve));
             }

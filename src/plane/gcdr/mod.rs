@@ -282,7 +282,7 @@ impl Engine for Gcdr<'_> {
         if self.state.reason == StopReason::Done
             && let Some(subcurve) = self.state.queue.pop()
         {
-            self.look_at_piece(subcurve);
+            self.look_at_subcurve(subcurve);
             return true;
         }
         if self.state.reason != StopReason::Done {

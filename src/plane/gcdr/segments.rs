@@ -39,7 +39,7 @@ impl Gcdr<'_> {
     }
 
     /// Tests a subcurve from the queue: splits it where it is larger than permitted.
-    pub(super) fn look_at_piece(&mut self, id: SubcurveId) {
+    pub(super) fn look_at_subcurve(&mut self, id: SubcurveId) {
         self.state.subcurves.get_mut(id).queued = false;
         let subcurve = *self.state.subcurves.get(id);
         if subcurve.is_gone() || self.is_spent() {

@@ -118,7 +118,7 @@ impl Gcdr<'_> {
             return self.encroach(candidate, subcurve, parent);
         }
         let p = self.choose_in_disk(t, region, (center, radius), skinny);
-        self.kill(candidate, p, parent);
+        self.remove_triangle(candidate, p, parent);
     }
 
     /// The segment of a triangle that must be split in any case: it subtends so wide an angle at a vertex that is never
@@ -223,7 +223,7 @@ impl Gcdr<'_> {
     }
 
     /// Removes a triangle: inserts `p`, or splits the nearest segment that occludes `p` from the triangle.
-    fn kill(&mut self, candidate: Candidate, p: Point, parent: Option<VertexId>) {
+    fn remove_triangle(&mut self, candidate: Candidate, p: Point, parent: Option<VertexId>) {
         let (t, vertices) = candidate;
         let place = self.mesh.point(vertices[0]);
         if !insert::in_range(p) {

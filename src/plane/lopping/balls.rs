@@ -36,7 +36,7 @@ pub struct Ball {
     /// Corner arcs as placed; empty while they are due.
     pub arcs: Vec<Curve>,
     /// The subcurves of those arcs in C′.
-    pub arc_pieces: Vec<SubcurveId>,
+    pub arc_subcurves: Vec<SubcurveId>,
     /// Triangles that this ball exempted when they were last tested: their circumcenters lay in it.
     pub exempt: Vec<(TriangleId, [VertexId; 3])>,
 }
@@ -69,7 +69,7 @@ impl Balls {
                     spokes: Vec::new(),
                     intruder: f64::INFINITY,
                     arcs: Vec::new(),
-                    arc_pieces: Vec::new(),
+                    arc_subcurves: Vec::new(),
                     exempt: Vec::new(),
                 })
             });

@@ -103,8 +103,8 @@ impl<'a> Beginning<'a> {
     }
 
     fn split_bent(&mut self, midpoint: Midpoint) {
-        let pieces: Vec<SubcurveId> = self.subcurves.ids().collect();
-        for id in pieces {
+        let subcurves: Vec<SubcurveId> = self.subcurves.ids().collect();
+        for id in subcurves {
             let subcurve = *self.subcurves.get(id);
             let Carrier::Curve(curve) = subcurve.carrier else { continue };
             let shape = &self.domain.curves()[curve].curve;

@@ -45,7 +45,7 @@ impl Lopping {
                 }
                 Room::Blocked(subcurve) => {
                     self.arcs_due.push_back(id);
-                    return self.split_piece(subcurve, None, "vertices_encroached");
+                    return self.split_subcurve(subcurve, None, "vertices_encroached");
                 }
                 Room::Clear if radius < born => return self.cut_ball(id, radius),
                 Room::Clear => return self.insert_arcs(id, arcs),
@@ -108,7 +108,7 @@ impl Lopping {
             if self.is_crowded(id, radius, at) {
                 return Room::Tight;
             }
-            for (_, subcurve) in self.cavity_pieces() {
+            for (_, subcurve) in self.cavity_subcurves() {
                 match self.room_beside(id, radius, at, subcurve) {
                     Room::Clear => {}
                     room => return room,
@@ -175,7 +175,7 @@ impl Lopping {
                 let carrier = Carrier::Arc(id, ball.arcs.len() as u32);
                 ball.arcs.push(arc);
                 let subcurve = self.state.subcurves.add(carrier, [0.0, 1.0], [from, to], Standing::Ordinary);
-                self.balls.get_mut(id).arc_pieces.push(subcurve);
+                self.balls.get_mut(id).arc_subcurves.push(subcurve);
                 self.state.enqueue(subcurve);
                 from = to;
             }

@@ -193,7 +193,7 @@ pub struct Lopping {
 enum Rule {
     ShrinkBall(BallId),
     Look(SubcurveId),
-    Carve,
+    Label,
     PlaceArcs(BallId),
     Split(Candidate),
     Rest,
@@ -233,9 +233,9 @@ impl Lopping {
 
     fn first_rule(&mut self) -> Rule {
         // A run that is stopped before there was a valid mesh has none to restore.
-        let hopeless =
+        let stuck =
             self.state.reason == StopReason::Arithmetic || self.state.reason == StopReason::Cancelled && !self.labelled;
-        if hopeless || self.origins.len() > self.most_vertices() {
+        if stuck || self.origins.len() > self.most_vertices() {
             return Rule::Rest;
         }
         if let Some(ball) = self.intruded.pop_front() {
@@ -245,7 +245,7 @@ impl Lopping {
             return Rule::Look(subcurve);
         }
         if !self.labelled || !self.fresh.is_empty() {
-            return Rule::Carve;
+            return Rule::Label;
         }
         if self.state.reason != StopReason::Done {
             return Rule::Rest;
@@ -282,10 +282,10 @@ impl Lopping {
     /// first.
     fn unresolved(&mut self) -> (usize, Vec<Point>) {
         const PLACES: usize = 16;
-        let mut pieces: Vec<(f64, Point)> = self.state.queue.iter().map(|&id| self.length_and_place(id)).collect();
-        pieces.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
-        let mut unresolved = pieces.len();
-        let mut places: Vec<Point> = pieces.into_iter().map(|(_, at)| at).take(PLACES).collect();
+        let mut subcurves: Vec<(f64, Point)> = self.state.queue.iter().map(|&id| self.length_and_place(id)).collect();
+        subcurves.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+        let mut unresolved = subcurves.len();
+        let mut places: Vec<Point> = subcurves.into_iter().map(|(_, at)| at).take(PLACES).collect();
         let (triangles, more) = self.state.bad.unresolved(&self.delaunay, PLACES - places.len());
         unresolved += triangles;
         places.extend(more);
@@ -305,8 +305,8 @@ impl Engine for Lopping {
     fn step(&mut self) -> bool {
         match self.first_rule() {
             Rule::ShrinkBall(ball) => self.shrink_ball(ball),
-            Rule::Look(subcurve) => self.look_at_piece(subcurve),
-            Rule::Carve => self.label(),
+            Rule::Look(subcurve) => self.look_at_subcurve(subcurve),
+            Rule::Label => self.label(),
             Rule::PlaceArcs(ball) => self.place_arcs(ball),
             Rule::Split(candidate) => self.split_triangle(candidate),
             Rule::Rest => return false,

@@ -69,7 +69,7 @@ impl Lopping {
         let end = if subcurve.ends[0] == corner { End::Start } else { End::Finish };
         let shape = self.shape(subcurve.carrier);
         let x = shape.leaves_ball(end, radius, subcurve.t[0], subcurve.t[1]).unwrap_or(f64::NAN);
-        let [head, tail] = self.split_piece_at(spoke, x, "vertices_ball")?;
+        let [head, tail] = self.split_subcurve_at(spoke, x, "vertices_ball")?;
         let inner = if end == End::Start { head } else { tail };
         self.state.subcurves.get_mut(inner).standing = Standing::Spoke(ball);
         Some(inner)
@@ -78,13 +78,13 @@ impl Lopping {
     /// Takes the arcs of a ball out of C′; their vertices stay.
     fn withdraw_arcs(&mut self, id: BallId) {
         self.balls.get_mut(id).arcs.clear();
-        for subcurve in std::mem::take(&mut self.balls.get_mut(id).arc_pieces) {
+        for subcurve in std::mem::take(&mut self.balls.get_mut(id).arc_subcurves) {
             let Some(side) = self.side_of(subcurve) else {
                 self.state.subcurves.retire(subcurve);
                 continue;
             };
             if self.delaunay.topology().subcurve(side) == Some(subcurve) {
-                self.delaunay.topology_mut().set_piece(side, None);
+                self.delaunay.topology_mut().set_subcurve(side, None);
             }
             self.state.subcurves.retire(subcurve);
         }

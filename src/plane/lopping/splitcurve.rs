@@ -31,7 +31,7 @@ impl Lopping {
     }
 
     /// Tests a subcurve: marks its edge where nothing encroaches it, and splits it where it is encroached or too large.
-    pub(super) fn look_at_piece(&mut self, id: SubcurveId) {
+    pub(super) fn look_at_subcurve(&mut self, id: SubcurveId) {
         self.state.subcurves.get_mut(id).queued = false;
         let subcurve = *self.state.subcurves.get(id);
         if subcurve.is_gone() {
@@ -39,9 +39,9 @@ impl Lopping {
         }
         match self.encroacher(id) {
             Look::Free(side) => {
-                self.delaunay.topology_mut().set_piece(side, Some(id));
+                self.delaunay.topology_mut().set_subcurve(side, Some(id));
                 if self.is_too_large(id) {
-                    self.split_piece(id, None, "vertices_size");
+                    self.split_subcurve(id, None, "vertices_size");
                 }
             }
             Look::Encroached(_) if subcurve.is_spoke() => {
@@ -51,7 +51,7 @@ impl Lopping {
             }
             Look::Encroached(z) => {
                 let z = self.delaunay.point(z);
-                self.split_piece(id, Some(z), "vertices_encroached");
+                self.split_subcurve(id, Some(z), "vertices_encroached");
             }
         }
     }
@@ -173,15 +173,15 @@ impl Lopping {
 
     /// splitcurve: splits a subcurve at the point that the midpoint rule gives. `z` is the vertex that encroaches it,
     /// if one does; `why` names the counter.
-    pub(super) fn split_piece(&mut self, id: SubcurveId, z: Option<Point>, why: &'static str) {
+    pub(super) fn split_subcurve(&mut self, id: SubcurveId, z: Option<Point>, why: &'static str) {
         let subcurve = *self.state.subcurves.get(id);
         let t = split_parameter(self.shape(subcurve.carrier), subcurve.t, z, self.options.rules.midpoint);
-        self.split_piece_at(id, t, why);
+        self.split_subcurve_at(id, t, why);
     }
 
     /// Splits a subcurve at a parameter into two. Returns them in order. `None`, and the run ends, where coordinates
     /// cannot hold the vertex.
-    pub(super) fn split_piece_at(&mut self, id: SubcurveId, t: f64, why: &'static str) -> Option<[SubcurveId; 2]> {
+    pub(super) fn split_subcurve_at(&mut self, id: SubcurveId, t: f64, why: &'static str) -> Option<[SubcurveId; 2]> {
         let subcurve = *self.state.subcurves.get(id);
         let at = self.shape(subcurve.carrier).point(t);
         let [x, y] = subcurve.ends.map(|v| self.delaunay.point(v));
@@ -198,7 +198,7 @@ impl Lopping {
         let near = side.map_or_else(|| self.triangle_at(subcurve.ends[0]), HalfEdge::triangle);
         self.look_at_cavity(at, near, x)?;
         if let Some(side) = side {
-            self.delaunay.topology_mut().set_piece(side, None);
+            self.delaunay.topology_mut().set_subcurve(side, None);
         }
         self.state.subcurves.retire(id);
         self.disturb(at, Some(id));
@@ -209,7 +209,7 @@ impl Lopping {
         self.state.enqueue(head);
         self.state.enqueue(tail);
         if let Carrier::Arc(ball, _) = subcurve.carrier {
-            self.balls.get_mut(ball).arc_pieces.extend([head, tail]);
+            self.balls.get_mut(ball).arc_subcurves.extend([head, tail]);
         }
         self.watch_balls(at, origin);
         Some([head, tail])
@@ -241,10 +241,10 @@ impl Lopping {
     /// filled. `split`: the subcurve that the point splits.
     pub(super) fn disturb(&mut self, at: Point, split: Option<SubcurveId>) {
         let border = self.sorted_border();
-        for (side, subcurve) in self.cavity_pieces() {
+        for (side, subcurve) in self.cavity_subcurves() {
             let inner = border.binary_search(&side).is_err();
             if inner {
-                self.delaunay.topology_mut().set_piece(side, None);
+                self.delaunay.topology_mut().set_subcurve(side, None);
             }
             if Some(subcurve) != split && (inner || self.encroaches(at, subcurve)) {
                 self.state.enqueue(subcurve);
@@ -261,7 +261,7 @@ impl Lopping {
     }
 
     /// The subcurves on edges of the cavity's triangles, each once, with a half-edge.
-    pub(super) fn cavity_pieces(&self) -> Vec<(HalfEdge, SubcurveId)> {
+    pub(super) fn cavity_subcurves(&self) -> Vec<(HalfEdge, SubcurveId)> {
         let topology = self.delaunay.topology();
         let mut found: Vec<(SubcurveId, HalfEdge)> = Vec::new();
         for &t in &self.state.cavity.triangles {

@@ -93,7 +93,7 @@ impl Lopping {
             Some(_) if self.options.corner_arcs.is_none() && self.state.field.excess(region, corners) <= 1.0 => {
                 self.exempt(candidate, center);
             }
-            _ => self.kill(candidate, center),
+            _ => self.remove_triangle(candidate, center),
         }
     }
 
@@ -105,7 +105,7 @@ impl Lopping {
     }
 
     /// Removes a triangle: inserts its circumcenter, or splits the longest subcurve that the circumcenter encroaches.
-    fn kill(&mut self, candidate: Candidate, center: Point) {
+    fn remove_triangle(&mut self, candidate: Candidate, center: Point) {
         let (t, corners) = candidate;
         let place = self.delaunay.point(corners[0]);
         if !insert::in_range(center) {
@@ -120,10 +120,10 @@ impl Lopping {
             // By rounding the circumcenter lies outside the circle of its own triangle.
             return self.state.too_near.push(place);
         }
-        let pieces = self.cavity_pieces();
-        if let Some(subcurve) = self.longest_encroached(center, &pieces) {
+        let subcurves = self.cavity_subcurves();
+        if let Some(subcurve) = self.longest_encroached(center, &subcurves) {
             self.state.counters.add("rejected_circumcenters", 1);
-            self.split_piece(subcurve, None, "vertices_rejected_circumcenter");
+            self.split_subcurve(subcurve, None, "vertices_rejected_circumcenter");
             if !self.is_stale(&candidate) {
                 self.state.bad.push_skinny(candidate, 0.0);
             }
@@ -132,7 +132,7 @@ impl Lopping {
         // A subcurve inside the cavity that is not encroached is a spoke, by rounding. A center in a ball whose arcs it
         // does not encroach is there by rounding, too.
         let border = self.sorted_border();
-        let hides_spoke = pieces.iter().any(|(side, _)| border.binary_search(side).is_err());
+        let hides_spoke = subcurves.iter().any(|(side, _)| border.binary_search(side).is_err());
         let in_ball = self.balls.holding(center).is_some();
         if in_ball && self.options.corner_arcs.is_none() {
             return self.exempt(candidate, center);
@@ -150,9 +150,9 @@ impl Lopping {
     }
 
     /// The longest subcurve, spokes apart, that a point encroaches.
-    fn longest_encroached(&self, at: Point, pieces: &[(HalfEdge, SubcurveId)]) -> Option<SubcurveId> {
+    fn longest_encroached(&self, at: Point, subcurves: &[(HalfEdge, SubcurveId)]) -> Option<SubcurveId> {
         let length = |subcurve: SubcurveId| self.length_and_place(subcurve).0;
-        pieces
+        subcurves
             .iter()
             .map(|&(_, subcurve)| subcurve)
             .filter(|&subcurve| !self.state.subcurves.get(subcurve).is_spoke() && self.encroaches(at, subcurve))
