@@ -46,7 +46,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let verdict = verify(Some(&domain), &mesh, &options.promise(false, false));
     let met = sensors.iter().filter(|&s| mesh.nodes.iter().any(|n| n == s)).count();
     println!(
-        "{} triangles, {met} of {} sensors on vertices, promise kept: {}",
+        "{} triangles, {met} of {} sensors on vertices, every guarantee holds: {}",
         mesh.triangles.len(),
         sensors.len(),
         verdict.kept()

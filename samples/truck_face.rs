@@ -22,7 +22,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     };
     std::fs::write(&path, encode(mesh, &[], Format::Vtu, &WriteOptions::default())?.concat())?;
     let names: Vec<_> = mesh.names.iter().map(|(_, name)| name).collect();
-    println!("{path}: {} triangles, named {}; every promise kept", mesh.triangles.len(), names.join(", "));
+    println!("{path}: {} triangles, named {}; every guarantee holds", mesh.triangles.len(), names.join(", "));
     Ok(())
 }
 

@@ -1,6 +1,7 @@
-//! How formats are listed: a line each, of which the enum, the list of all and the way to their facts are made.
+//! Lists of formats. Each format is one line, from which the macro makes the enum, the list of all and the access to
+//! facts.
 
-/// An enum of formats with `ALL`, in the order of the lines, and `facts`, what there is to know of each.
+/// Makes an enum of formats with `ALL`, in the order of the lines, and `facts`, the properties of each format.
 macro_rules! formats {
     ($(#[$about:meta])* pub enum Format: $Facts:ident { $($(#[$doc:meta])* $format:ident = $facts:path,)* }) => {
         $(#[$about])*

@@ -1,8 +1,8 @@
-//! Seeded hard inputs: complexes of curves that meet at every angle down to zero.
+//! Hard inputs from a seed: complexes of curves that meet at all angles down to zero.
 //!
-//! A complex is a grid of cells in a frame; each cell holds one *motif*, turned and sized at random, so that nothing
-//! crosses by accident. Curves that share a tangent at a point differ there in curvature by at least 0.1 / radius:
-//! below it, the separation σ of the pair asks for more vertices than a test can hold.
+//! A complex is a grid of cells in a frame. Each cell holds one *motif* of random size and rotation, so nothing crosses
+//! by accident. Curves that share a tangent at a point differ there in curvature by at least 0.1 / radius. With a
+//! smaller difference, the separation σ of the pair would take more vertices than a test can hold.
 
 pub mod known;
 
@@ -12,7 +12,7 @@ pub use crate::geometry::rng::Rng;
 use crate::geometry::{Point, Vec2};
 use std::f64::consts::{PI, TAU};
 
-/// A place to draw in: a turned frame whose unit is the cell's usable radius.
+/// A rotated frame in a cell; its unit is the cell's usable radius.
 struct Place {
     center: Point,
     radius: f64,
@@ -44,7 +44,7 @@ pub fn curved_complex(seed: u64) -> Drawing {
     drawing
 }
 
-/// A square of side `size`, or one with a bulging side.
+/// A square of side `size`; some of its sides may bulge.
 fn frame(drawing: &mut Drawing, rng: &mut Rng, size: f64) {
     let corners = [(0.0, 0.0), (size, 0.0), (size, size), (0.0, size)].map(|(x, y)| Point::new(x, y));
     for i in 0..4 {
@@ -72,7 +72,7 @@ fn motif(drawing: &mut Drawing, rng: &mut Rng, place: &Place) {
     }
 }
 
-/// Two circles that touch from inside or outside.
+/// Two circles that touch, one inside the other or side by side.
 fn tangent_circles(drawing: &mut Drawing, rng: &mut Rng, place: &Place) {
     let inner = rng.below(2) == 0;
     let (r, s) = if inner { (0.9, rng.between(0.2, 0.8)) } else { (0.45, rng.between(0.15, 0.45)) };
@@ -85,19 +85,19 @@ fn tangent_circles(drawing: &mut Drawing, rng: &mut Rng, place: &Place) {
     }
 }
 
-/// A circle centered on the frame's x axis that starts at an angle of the frame.
+/// A circle with its center on the frame's x axis, which starts at the angle `start` of the frame.
 fn circle_from(place: &Place, x: f64, radius: f64, start: f64) -> Result<Curve, crate::curve::CurveError> {
     Curve::arc(place.at(x, 0.0), radius * place.radius, place.turn + start, TAU)
 }
 
-/// Arcs that leave one point along one tangent, each with its own curvature.
+/// Arcs that leave one point along one tangent with different curvatures.
 fn tangent_fan(drawing: &mut Drawing, rng: &mut Rng, place: &Place) {
     let k = 2 + rng.below(4);
     let root = place.at(-0.8, 0.0);
     for i in 0..k {
         let curvature = (i as f64 - (k - 1) as f64 / 2.0) * 0.45 + rng.between(-0.15, 0.15);
         let length = rng.between(0.8, 1.4);
-        // End of the arc of that curvature and length that leaves the root along +x of the frame.
+        // The end of the arc with this curvature and length that leaves the root along the frame's x axis.
         let half = curvature * length / 2.0;
         let chord = if half.abs() < 1e-9 { length } else { length * libm::sin(half) / half };
         let end = place.at(-0.8 + chord * libm::cos(half), chord * libm::sin(half));
@@ -125,7 +125,7 @@ fn tangent_cubics(drawing: &mut Drawing, rng: &mut Rng, place: &Place) {
     }
 }
 
-/// A closed spline through points round a circle.
+/// A closed spline through points around a circle.
 fn blob(drawing: &mut Drawing, rng: &mut Rng, place: &Place) {
     let n = 5 + rng.below(8);
     let points: Vec<Point> = (0..n)

@@ -1,4 +1,4 @@
-//! Every index has a type. Arithmetic on ids lives here and in storage, nowhere else.
+//! Every index has a type. Arithmetic on ids is done only here and in storage.
 
 use serde::{Deserialize, Serialize};
 use std::marker::PhantomData;
@@ -48,7 +48,7 @@ ids! {
     SegmentId,
     /// A facet of a solid: a polygon, with holes, of one plane.
     FacetId,
-    /// A piece of a curve (or of a corner arc) in C′, the subcurves of a refinement.
+    /// A subcurve: a part of a curve (or of a corner arc) in C′, the subcurves of a refinement.
     SubcurveId,
     /// A kept region of a domain.
     RegionId,
@@ -56,15 +56,15 @@ ids! {
     NameId,
     /// A filled shape of a picture.
     ShapeId,
-    /// What shapes and curves of a picture are cut by.
+    /// A clip of shapes and curves of a picture.
     ClipId,
-    /// What is seen on a face of a picture: the shapes that are painted on it.
+    /// A list of the shapes that are painted on a face of a picture.
     SeenId,
     /// A layer of a drawing.
     LayerId,
     /// A protecting ball around an acute corner.
     BallId,
-    /// Curves around a sharp corner that are cut together.
+    /// A fan: curves around a sharp corner that are cut together.
     FanId,
 }
 
@@ -85,7 +85,7 @@ impl<I: Id, T> IdVec<I, T> {
         Self { items: Vec::new(), kind: PhantomData }
     }
 
-    /// A vector without items that holds `n` before it allocates again.
+    /// A vector without items, with room for `n` of them.
     pub fn with_capacity(n: usize) -> Self {
         Vec::with_capacity(n).into()
     }
@@ -122,7 +122,7 @@ impl<I: Id, T> IdVec<I, T> {
         self.items.iter()
     }
 
-    /// The items by ascending id, to be changed.
+    /// The items by ascending id, mutable.
     pub fn iter_mut(&mut self) -> std::slice::IterMut<'_, T> {
         self.items.iter_mut()
     }
@@ -137,7 +137,7 @@ impl<I: Id, T> IdVec<I, T> {
         &self.items
     }
 
-    /// Cuts the vector to `n` items, or appends copies of `item` until it has `n`.
+    /// Truncates the vector to `n` items, or appends copies of `item` until it has `n`.
     pub fn resize(&mut self, n: usize, item: T)
     where
         T: Clone,
@@ -213,18 +213,18 @@ impl Names {
     }
 }
 
-/// Sets of things that are numbered from 0, joined two by two. The least of each set stands for it.
+/// Disjoint sets of the numbers from 0 (union–find). The least number of a set is its root.
 pub struct Forest {
     parent: Vec<usize>,
 }
 
 impl Forest {
-    /// `n` sets of one each.
+    /// `n` sets of one number each.
     pub fn new(n: usize) -> Self {
         Self { parent: (0..n).collect() }
     }
 
-    /// What stands for the set of `i`.
+    /// The root of the set of `i`.
     pub fn root(&mut self, mut i: usize) -> usize {
         while self.parent[i] != i {
             self.parent[i] = self.parent[self.parent[i]];
@@ -233,7 +233,7 @@ impl Forest {
         i
     }
 
-    /// Makes one set of two.
+    /// Makes one set of the sets of `a` and `b`.
     pub fn join(&mut self, a: usize, b: usize) {
         let (a, b) = (self.root(a), self.root(b));
         self.parent[a.max(b)] = a.min(b);

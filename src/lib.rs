@@ -1,8 +1,8 @@
 //! squinch: provably good triangle meshes of domains with curved boundaries.
 //!
 //! Curves stay curves: lines, arcs, Béziers, splines and clothoids are split to a bounded turning and meshed by
-//! corner-lopping Delaunay refinement (Pav & Walkington 2005), which ends whatever angles they meet at. An independent
-//! judge then checks the mesh against the curves.
+//! corner-lopping Delaunay refinement (Pav & Walkington 2005), which ends for any angle between them. An independent
+//! verifier then checks the mesh against the curves.
 //!
 //! ```
 //! use squinch::plane::lopping::{Options, refine};
@@ -22,7 +22,7 @@
 //! let verdict = verify(Some(&domain), &mesh, &options.promise(false));
 //! assert!(verdict.kept());
 //! assert!(mesh.edges_of("bore").count() > 0);
-//! assert_eq!(verdict.exempt.len(), 1); // the corner where the circles touch excuses the sharp triangles there
+//! assert_eq!(verdict.exempt.len(), 1); // the corner where the circles touch: its sharp triangles are exempt
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!

@@ -1,8 +1,8 @@
-//! What an option is: a field of the options of the room that it is for, written once.
+//! Options: each is written once, as a field of the options struct of its room.
 //!
-//! The field's name in kebab-case is its key, on the command line, in a `--config` file and in a case file alike. Its
-//! doc comment is its help, the default of its struct is its default, and `#[schemars(extend(…))]` says what no type
-//! can:
+//! The field's name in kebab-case is its key on the command line, in a `--config` file and in a case file. Its doc
+//! comment is its help, the default of its struct is its default, and `#[schemars(extend(…))]` adds what the type does
+//! not express:
 //!
 //! | attribute | says |
 //! |---|---|
@@ -21,7 +21,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::fmt;
 
-/// Headings of options, in the order in which they are told.
+/// The headings of options, in the order of the help.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Group {
@@ -29,28 +29,28 @@ pub enum Group {
     Engine,
     /// Bounds on angles, sizes and the distance from the curves.
     Bounds,
-    /// How a drawing is read, healed and named.
+    /// Options on reading, healing and naming a drawing.
     Input,
-    /// Where refinement stops early: vertices and seconds.
+    /// Limits that end refinement early: vertices and seconds.
     Budget,
     /// Only for airfoil coordinates.
     Airfoils,
     /// Only for solids (STEP).
     Solids,
-    /// Of the engine for generalized constrained refinement.
+    /// Only for the engine of generalized constrained refinement.
     Gcdr,
 }
 
-/// An option, as its field describes it.
+/// An option, as described by its field.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Described {
-    /// Name in kebab-case, without dashes before it: `min-angle`.
+    /// Its key: the name in kebab-case, without leading dashes: `min-angle`.
     pub key: String,
     /// The heading under which the help lists it.
     pub group: Group,
-    /// What stands for its value in the help: `LENGTH`.
+    /// The placeholder of its value in the help: `LENGTH`.
     pub value: String,
-    /// A sentence without its full stop, and the default where there is one.
+    /// A sentence without its full stop, with the default if there is one.
     pub help: String,
     /// Name in the report, in snake case, with the unit where it has one: `timeout_s`.
     pub report: String,
@@ -62,26 +62,26 @@ pub struct Described {
     pub file: bool,
     /// Whether several values may stand between commas.
     pub commas: bool,
-    /// What values it takes.
+    /// The kind of its values.
     pub kind: Kind,
 }
 
-/// What an option's value is.
+/// The kind of an option's value.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// A number, whole or not.
     Number,
     /// A whole number, not negative.
     Integer,
-    /// One of some words, each with what it means.
+    /// One of some words, each with its meaning.
     Word(Vec<(String, Option<String>)>),
-    /// What the option's own type reads: a number with a sign, a word or a number, a pair.
+    /// A text that the option's own type parses: a number with a sign, a word or a number, a pair.
     Text,
     /// Any number of texts.
     Texts,
 }
 
-/// The options of a struct, those of the structs that it gathers among them, in the order of its fields.
+/// The options of a struct, including those of the structs that it flattens, in the order of its fields.
 pub fn described<T: JsonSchema>() -> Vec<Described> {
     let inline = |settings: &mut SchemaSettings| settings.inline_subschemas = true;
     let settings = SchemaSettings::draft2020_12().with(inline);
@@ -118,12 +118,12 @@ impl Described {
     }
 }
 
-/// A doc comment as a line of help.
+/// Turns a doc comment into a line of help.
 fn sentence(comment: &str) -> String {
     comment.replace('\n', " ").trim_end_matches('.').to_owned()
 }
 
-/// A number as people write it: 20, not 20.0.
+/// A number as people write it: 20 instead of 20.0.
 fn plain(number: &serde_json::Number) -> String {
     number.as_f64().map_or_else(|| number.to_string(), |value| value.to_string())
 }
@@ -142,8 +142,8 @@ impl Kind {
     }
 }
 
-/// The words of a choice, from the schema of its enum: in their order where each has a doc comment, else those without
-/// one first.
+/// The words of a choice, from the schema of its enum: in their order if each has a doc comment, else those without one
+/// first.
 fn words(field: &Value) -> Option<Vec<(String, Option<String>)>> {
     let word = |choice: &Value, help: Option<String>| {
         let list = choice["enum"].as_array().into_iter().flatten();
@@ -154,7 +154,7 @@ fn words(field: &Value) -> Option<Vec<(String, Option<String>)>> {
             let documented = |choice: &Value| -> Vec<_> { word(choice, choice["description"].as_str().map(sentence)) };
             choices.iter().flat_map(documented).collect()
         }
-        // The description beside the words is the option's.
+        // Here the description belongs to the option, not to the words.
         None => word(field, None),
     };
     (!choices.is_empty()).then_some(choices)
@@ -182,11 +182,11 @@ impl Switch {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("--{option} {value}: {why}")]
 pub struct OutOfBounds {
-    /// The option's key, without dashes before it.
+    /// The option's key, without leading dashes.
     pub option: &'static str,
     /// The refused value, as text.
     pub value: String,
-    /// The bounds, as a phrase: what is needed instead.
+    /// The bounds, as a phrase that says what is needed.
     pub why: &'static str,
 }
 
@@ -199,7 +199,7 @@ impl OutOfBounds {
         if holds { Ok(()) } else { Err(Self { option, value: value.to_string(), why }) }
     }
 
-    /// Refuses numbers that are given and not positive.
+    /// Refuses given numbers that are not positive and finite.
     ///
     /// # Errors
     /// With the first such option.
@@ -212,7 +212,7 @@ impl OutOfBounds {
     }
 }
 
-/// A number, or a word or a number with a sign behind it: how mixed options stand in a file.
+/// The form of mixed options in a file: a number, or a word or a number with a sign behind it.
 #[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum Scalar {
@@ -228,8 +228,8 @@ impl From<String> for Scalar {
     }
 }
 
-/// Lets types that are written as text (`FromStr`, `Display`) stand in a file as a [`Scalar`]: for
-/// `#[serde(try_from, into)]`.
+/// Implements the conversions from and to a [`Scalar`] for types with `FromStr` and `Display`, for `#[serde(try_from,
+/// into)]`.
 macro_rules! scalar {
     ($($name:ident),*) => {$(
         impl TryFrom<$crate::options::Scalar> for $name {
@@ -250,7 +250,7 @@ macro_rules! scalar {
 }
 pub(crate) use scalar;
 
-/// A number from text, for the types of options.
+/// Parses a number, for the types of options.
 ///
 /// # Errors
 /// A sentence with the text.

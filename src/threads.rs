@@ -1,8 +1,7 @@
-//! Work on several threads; one after the other without the feature `parallel`. What comes of it is the same either
-//! way.
+//! Work on several threads; without the feature `parallel`, sequentially. The result is the same either way.
 //!
-//! The threads are a pool of squinch's own, made at its first use: a process that forks after that has none of them in
-//! its child, which makes a pool of its own then.
+//! The threads belong to a pool of squinch, which is made at its first use. The child of a fork after that has none of
+//! these threads, and makes a pool of its own.
 
 #[cfg(feature = "parallel")]
 pub use pooled::{count, for_each, join, map, set_count};
@@ -16,9 +15,9 @@ mod pooled {
     use std::sync::atomic::{AtomicUsize, Ordering};
     use std::sync::{Arc, Mutex, PoisonError};
 
-    /// The pool that is made first.
+    /// The pool, once it is made.
     static POOL: Mutex<Option<Made>> = Mutex::new(None);
-    /// Threads asked for; 0: as many as cores.
+    /// The number of threads to make; 0: as many as cores.
     static COUNT: AtomicUsize = AtomicUsize::new(0);
 
     /// A pool, and the process that made it.
@@ -27,30 +26,30 @@ mod pooled {
         pool: Arc<ThreadPool>,
     }
 
-    /// Sets how many threads there are, before any work: the pool that is made first keeps its size. 0: as many as
-    /// cores.
+    /// Sets the number of threads; 0: as many as cores. Call it before any work: once the pool is made, its size is
+    /// fixed.
     pub fn set_count(threads: usize) {
         COUNT.store(threads, Ordering::Relaxed);
     }
 
-    /// How many threads there are.
+    /// The number of threads.
     pub fn count() -> usize {
         pool().map_or(1, |pool| pool.current_num_threads())
     }
 
-    /// `None` where the system has no threads to give.
+    /// The pool of this process; `None` where the system cannot make threads.
     fn pool() -> Option<Arc<ThreadPool>> {
         let mut made = POOL.lock().unwrap_or_else(PoisonError::into_inner);
         pool_of(std::process::id(), &mut made, COUNT.load(Ordering::Relaxed))
     }
 
-    /// The pool of a process: the one that it made, or a new one of so many threads.
+    /// The pool of a process: the one that it made, or a new one with `threads` threads.
     fn pool_of(process: u32, made: &mut Option<Made>, threads: usize) -> Option<Arc<ThreadPool>> {
         if let Some(made) = made.as_ref().filter(|made| made.process == process) {
             return Some(made.pool.clone());
         }
         let pool = Arc::new(ThreadPoolBuilder::new().num_threads(threads).build().ok()?);
-        // The threads of a pool of another process are not here to be ended.
+        // The threads of a parent's pool do not exist in this process, so the pool must not be dropped.
         std::mem::forget(made.replace(Made { process, pool: pool.clone() }));
         Some(pool)
     }
@@ -62,17 +61,17 @@ mod pooled {
         }
     }
 
-    /// Both, at the same time if there are threads.
+    /// Runs both, at the same time if there are threads.
     pub fn join<A: Send, B: Send>(a: impl FnOnce() -> A + Send, b: impl FnOnce() -> B + Send) -> (A, B) {
         within(|| rayon::join(a, b))
     }
 
-    /// Each of 0, 1, … below `n`, in any order.
+    /// Runs `work` for each of 0, 1, … below `n`, in any order.
     pub fn for_each(n: usize, work: impl Fn(usize) + Send + Sync) {
         within(|| (0..n).into_par_iter().for_each(work));
     }
 
-    /// What comes of each item, in their order.
+    /// The results of `work` for all items, in their order.
     pub fn map<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> R + Send + Sync) -> Vec<R> {
         within(|| items.par_iter().map(work).collect())
     }
@@ -109,12 +108,12 @@ mod pooled {
 
 #[cfg(not(feature = "parallel"))]
 mod serial {
-    /// How many threads there are.
+    /// The number of threads.
     pub fn count() -> usize {
         1
     }
 
-    /// Both, one after the other.
+    /// Runs both, one after the other.
     pub fn join<A, B>(a: impl FnOnce() -> A, b: impl FnOnce() -> B) -> (A, B) {
         (a(), b())
     }
@@ -124,7 +123,7 @@ mod serial {
         (0..n).for_each(work);
     }
 
-    /// What comes of each item, in their order.
+    /// The results of `work` for all items, in their order.
     pub fn map<T, R>(items: &[T], work: impl Fn(&T) -> R) -> Vec<R> {
         items.iter().map(work).collect()
     }

@@ -1,5 +1,5 @@
-//! What the program suggests works when typed: options that messages, helps and notes name, examples of the help, commands of README.
-//! And what it notices of an input is told wherever one looks: at the end of a run, in its report, in the lines of a batch.
+//! Whatever the program suggests works when typed: options in messages, helps and notes, examples in the help, commands
+//! in the README. Notes about an input appear at the end of a run, in its report, and in the lines of a batch.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -36,8 +36,8 @@ impl Bench {
         said.split_whitespace().collect::<Vec<_>>().join(" ")
     }
 
-    /// Runs a line, takes `option` with its value from what is said, types it in the place of what stood there, and runs that:
-    /// the line that was typed in the end, and what was said then.
+    /// Runs a line, takes `option` with its value from what is said, types it in the place of what stood there, and
+    /// runs that: the line that was typed in the end, and what was said then.
     fn follow(&self, line: &str, exit: i32, option: &str) -> (Vec<String>, String) {
         let arguments = words(line);
         let said = self.said(&arguments, exit);
@@ -77,7 +77,8 @@ fn words(line: &str) -> Vec<String> {
     words
 }
 
-/// An option as a message suggests it, with its value where it takes one: the first of several, as in `--format: vtu, vtk`.
+/// An option as a message suggests it, with its value where it takes one: the first of several, as in `--format: vtu,
+/// vtk`.
 fn advised(said: &str, option: &str) -> Vec<String> {
     let named = |end: &str| said.rfind(&format!("{option}{end}"));
     let at = named(" ").or_else(|| named(":")).unwrap_or_else(|| panic!("{option} is not suggested in: {said}"));

@@ -55,7 +55,8 @@ fn near(a: f64, b: f64, tolerance: f64) {
     assert!((a - b).abs() <= tolerance * b.abs(), "{a}, not {b}");
 }
 
-/// A cambered section of `n` points a side and a trailing edge of height `gap`, from its upper end over the nose to its lower end.
+/// A cambered section of `n` points a side and a trailing edge of height `gap`, from its upper end over the nose to its
+/// lower end.
 fn section(n: usize, gap: f64) -> Vec<(f64, f64)> {
     let half = |x: f64| {
         0.6 * (0.2969 * x.sqrt() - 0.126 * x - 0.3516 * x * x + 0.2843 * x.powi(3) - 0.1036 * x.powi(4)) + 0.5 * gap * x

@@ -1,4 +1,5 @@
-//! Planar faces of STEP files and of truck's solids, against areas in closed form, whichever way faces, bounds and edges are turned.
+//! Planar faces of STEP files and of truck's solids, against areas in closed form, whichever way faces, bounds and
+//! edges are turned.
 #![cfg(feature = "cad")]
 
 use approx::assert_relative_eq;
@@ -231,7 +232,8 @@ fn every_turn() -> impl Iterator<Item = Turned> {
     (0..16).map(move |n| Turned { plane: bit(n, 0), bounds: bit(n, 1), curves: bit(n, 2), edges: bit(n, 3) })
 }
 
-/// Every turn of a shape has the area, and the normal of the plane looks out of the solid, whatever the plane's own does.
+/// Every turn of a shape has the area, and the normal of the plane looks out of the solid, whatever the plane's own
+/// does.
 fn has_area(wanted: f64, shape: impl Fn(&mut Step)) {
     for turned in every_turn() {
         let mut step = Step::new(tilted(), turned);
@@ -497,7 +499,7 @@ fn a_mesh_file_in_space_is_read_back_into_its_plane_and_judged() {
     let drawing = read(&text);
     let arranged = drawing.arrange(&ArrangeOptions::default()).unwrap();
     let (domain, plan) = Plan::new(&drawing, &arranged, &Request::default(), &mut |_| true).unwrap();
-    let (verdict, untied) = plan.judge_file(Some(&domain), &back);
+    let (verdict, untied) = plan.verify_file(Some(&domain), &back);
     assert!(verdict.kept() && untied.is_none());
 }
 

@@ -1,4 +1,5 @@
-//! Runs that once went wrong, each as its case file: they end with a verified mesh, at an announced limit, or with a located refusal.
+//! Runs that once went wrong, each as its case file: they end with a verified mesh, at an announced limit, or with a
+//! located refusal.
 
 use squinch::import::Format;
 use squinch::run::case::Case;

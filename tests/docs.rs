@@ -1,4 +1,4 @@
-//! The documents keep to what they speak of: tables of guarantees are what their formulas give, and links lead to files.
+//! Checks the documents: tables of guarantees equal what their formulas give, and links lead to files.
 
 use squinch::promise::guaranteed_angle;
 use std::f64::consts::{FRAC_PI_3, SQRT_2};

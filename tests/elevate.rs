@@ -82,20 +82,20 @@ fn a_cell_between_tangent_curves_has_its_curved_side_straightened() {
     assert_eq!(status(&outcome, "on_curve"), Status::Proven);
 }
 
-/// The outcome's mesh judged after a change.
-fn judged_after(outcome: &Outcome, change: impl FnOnce(&mut Mesh)) -> Vec<&'static str> {
+/// The checks that break after a change of the mesh.
+fn verified_after(outcome: &Outcome, change: impl FnOnce(&mut Mesh)) -> Vec<&'static str> {
     let mut mesh = outcome.mesh.clone().unwrap();
     change(&mut mesh);
     let plan = run::Plan::without_domain(&Request::default());
-    run::broken(&plan.judge(outcome.domain.as_ref(), &mesh))
+    run::broken(&plan.verify(outcome.domain.as_ref(), &mesh))
 }
 
 #[test]
-fn the_judge_finds_a_folded_cell_a_stray_node_and_a_torn_edge() {
+fn the_verifier_finds_a_folded_cell_a_stray_node_and_a_torn_edge() {
     let outcome = meshed(r#"{"squinch": 1, "curves": [{"circle": {"center": [0, 0], "radius": 1}}]}"#, second());
-    assert_eq!(judged_after(&outcome, |_| {}), [""; 0]);
+    assert_eq!(verified_after(&outcome, |_| {}), [""; 0]);
     // The node of an inner edge moved to a corner: the cell has no angle there.
-    let folded = judged_after(&outcome, |mesh| {
+    let folded = verified_after(&outcome, |mesh| {
         let t =
             mesh.triangles.ids().find(|&t| mesh.triangle_mids[t].iter().all(|v| !mesh.edge_mids.contains(v))).unwrap();
         let corner = mesh.nodes[mesh.triangles[t][0]];
@@ -104,19 +104,19 @@ fn the_judge_finds_a_folded_cell_a_stray_node_and_a_torn_edge() {
     });
     assert_eq!(folded, ["jacobian"]);
     // A node on the rim pushed off it.
-    let stray = judged_after(&outcome, |mesh| {
+    let stray = verified_after(&outcome, |mesh| {
         let mid = mesh.edge_mids[0];
         mesh.nodes[mid] = (mesh.nodes[mid].to_vec2() * 1.001).to_point();
     });
     assert_eq!(stray, ["on_curve"]);
-    let torn = judged_after(&outcome, |mesh| {
+    let torn = verified_after(&outcome, |mesh| {
         let edge = mesh.triangles.ids().find(|&t| mesh.triangle_mids[t].iter().all(|v| !mesh.edge_mids.contains(v)));
         let t = edge.unwrap();
         let twin = mesh.nodes.push(mesh.nodes[mesh.triangle_mids[t][0]]);
         mesh.triangle_mids[t][0] = twin;
     });
     assert_eq!(torn, ["jacobian"]);
-    let short = judged_after(&outcome, |mesh| mesh.edge_mids.truncate(1));
+    let short = verified_after(&outcome, |mesh| mesh.edge_mids.truncate(1));
     assert_eq!(short, ["manifold"]);
 }
 

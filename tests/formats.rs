@@ -1,5 +1,5 @@
-//! Every writer, read back: names with their numbers of cells, coordinates bit for bit where the format has the digits, order 2;
-//! and no bytes do harm to any reader.
+//! Every writer, read back: names with their numbers of cells, coordinates bit for bit where the format has the digits,
+//! order 2; and no bytes do harm to any reader.
 
 use proptest::prelude::*;
 use squinch::geometry::{Frame, Point};
@@ -9,8 +9,8 @@ use squinch::mesh::{CurveEdge, Mesh};
 use squinch::meshio::{Format, MeshFile, WriteOptions, XdmfGrids, encode, read};
 use std::collections::BTreeMap;
 
-/// Three regions (two of one name) in a strip of n × 2 squares, its rim and the line between the rows named; far from the origin, with
-/// endless digits.
+/// Three regions (two of one name) in a strip of n × 2 squares, its rim and the line between the rows named; far from
+/// the origin, with endless digits.
 fn strip(n: u32, names: [&str; 5]) -> Mesh {
     let mut mesh = Mesh { unit: Some("mm".into()), ..Mesh::default() };
     for i in 0..=n {
@@ -396,20 +396,20 @@ fn inp_names_are_legal_and_faces_are_right() {
     assert!(text.lines().filter(|l| l.starts_with('*') && !l.starts_with("**")).all(str::is_ascii));
 }
 
-/// A mesh that is given as a drawing is refused with what can be done with it: a mesh that is read here by other verbs, one that is not by
-/// another program.
+/// A mesh that is given as a drawing is refused with what can be done with it: a mesh that is read here by other verbs,
+/// one that is not by another program.
 #[test]
 fn a_mesh_is_no_drawing() {
     let refused = |name: &str, bytes: &[u8]| import::tell_format(name.as_ref(), bytes).expect_err("no drawing").help;
     for format in Format::ALL {
-        let way = if format.reading().is_some() { "meshes are judged" } else { "Gmsh or meshio" };
+        let way = if format.reading().is_some() { "verifies meshes" } else { "Gmsh or meshio" };
         let suffix = format.reading().map_or(format.suffixes()[0], |reading| reading.suffix);
         assert!(refused(&format!("mesh.{suffix}"), b"").contains(way), ".{suffix} is not in import/foreign.rs");
         let file = encode(&strip(2, PLAIN), &[], format, &WriteOptions::default()).expect("written").remove(0);
         if let Some(told) = Format::sniff(&file) {
             assert_eq!(told.reading().map(|reading| reading.suffix), Some(suffix), "{format:?}");
             assert!(
-                refused("mesh", &file).contains("meshes are judged"),
+                refused("mesh", &file).contains("verifies meshes"),
                 "{format:?} is not among the signs of import/foreign.rs"
             );
         }
@@ -663,7 +663,7 @@ fn what_cannot_be_read_is_said() {
         ("v 0 0 0\nf 1 2 3\n", Format::Obj, "a cell has the node 1, but there are 1"),
         ("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\n", Format::Obj, "the mesh is not flat: node 3 lies"),
         ("1 3 0\n1 1 2 3\n", Format::Triangle, "there is no .node file beside the .ele file"),
-        ("hello", Format::Stl, "this is no STL"),
+        ("hello", Format::Stl, "this is not STL"),
     ] {
         let error = read(bytes.as_bytes(), format, &[]).expect_err(what);
         assert!(error.what.starts_with(what), "{} is not {what}", error.what);

@@ -347,14 +347,14 @@ fn looking_changes_nothing_and_finds_just_the_triangles_in_conflict() {
 }
 
 /// Labels of a side by its ends, so that they can be followed through changes of ids.
-fn pieces(t: &Triangulation) -> BTreeSet<(u32, u32, u32)> {
+fn subcurves(t: &Triangulation) -> BTreeSet<(u32, u32, u32)> {
     let sides = t.triangles().flat_map(|t| (0..3).map(move |i| t.side_of(i)));
     sides.filter_map(|s| t.subcurve(s).map(|subcurve| (t.origin(s).0, t.target(s).0, subcurve.0))).collect()
 }
 
 #[test]
 fn filling_carries_pieces_and_regions() {
-    // A square of two regions, parted by the line x = 4 that is a chain of pieces.
+    // A square of two regions, parted by the line x = 4 that is a chain of subcurves.
     let points: Vec<Whole> = distinct(grid(9).into_iter().filter(|p| p.0 == 4 || p.0 % 4 == 0 || p.1 % 4 == 0));
     let mut d = Kernel::new(PLAIN.place_all(&points)).unwrap();
     let on_line = |d: &Kernel, v: VertexId| d.point(v).x == 4.0;
@@ -366,18 +366,18 @@ fn filling_carries_pieces_and_regions() {
             let (a, b) = (d.topology().origin(s), d.topology().target(s));
             if on_line(&d, a) && on_line(&d, b) {
                 let subcurve = SubcurveId(d.point(a).y.min(d.point(b).y) as u32);
-                d.topology_mut().set_piece(s, Some(subcurve));
+                d.topology_mut().set_subcurve(s, Some(subcurve));
             }
         }
     }
-    let before = pieces(d.topology());
-    assert_eq!(before.len(), 16, "eight pieces, each from both sides");
+    let before = subcurves(d.topology());
+    assert_eq!(before.len(), 16, "eight subcurves, each from both sides");
     let mut cavity = Cavity::default();
     // Points far enough from the line to leave it alone: no cavity crosses it.
     for p in [(2.1, 2.3), (6.2, 2.1), (1.9, 6.2), (6.3, 5.7), (2.0, 2.0), (1.5, 0.0)] {
         insert(&mut d, Point::new(p.0, p.1), TriangleId(3), &mut cavity);
         assert_eq!(d.flaws(), Vec::<String>::new());
-        assert_eq!(pieces(d.topology()), before);
+        assert_eq!(subcurves(d.topology()), before);
     }
     for t in d.topology().triangles() {
         let right = d.topology().corners(t).iter().any(|&v| d.point(v).x > 4.0);
@@ -385,17 +385,17 @@ fn filling_carries_pieces_and_regions() {
     }
     let ghosts = d.topology().sides_from(GHOST).map(HalfEdge::triangle);
     assert!(ghosts.into_iter().all(|t| d.topology().region(t).is_none()));
-    // Removal keeps the pieces of other sides too.
+    // Removal keeps the subcurves of other sides too.
     let last = d.points().len() as u32 - 1;
     for v in last - 5..=last {
         assert!(d.remove(VertexId(v)));
-        assert_eq!(pieces(d.topology()), before);
+        assert_eq!(subcurves(d.topology()), before);
         assert_eq!(d.flaws(), Vec::<String>::new());
     }
     let s = d.topology().triangles().map(|t| t.side_of(0)).find(|&s| d.topology().subcurve(s).is_some());
     if let Some(s) = s {
-        d.topology_mut().set_piece(s, None);
-        assert_eq!(pieces(d.topology()).len(), before.len() - 2, "a subcurve goes from both twins");
+        d.topology_mut().set_subcurve(s, None);
+        assert_eq!(subcurves(d.topology()).len(), before.len() - 2, "a subcurve goes from both twins");
     }
 }
 

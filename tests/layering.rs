@@ -1,7 +1,8 @@
-//! Who may import whom: the table of `src/README.md`, kept.
+//! Checks the sources against the table "Who may import whom" of `src/README.md`.
 //!
-//! The sources are read as text: every path outside comments that begins with `crate`, `squinch` or `super` must lead to a room that its own
-//! room may know. A row may be of a part of a room, as `import/step`: it may import what its room may, and what its own row adds.
+//! The sources are read as text: every path outside comments that begins with `crate`, `squinch` or `super` must lead
+//! to a room that its own room may know. A row may be of a part of a room, as `import/step`: it may import what its
+//! room may, and what its own row adds.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -81,20 +82,20 @@ fn every_room_has_a_row() {
     assert!(gone.is_empty(), "without a source: {gone:?}");
 }
 
-/// No two rooms know each other, neither directly nor by way of others. The same holds within a room, on each of its floors: what lies side by
-/// side in one folder has an order in which one could read it.
+/// No imports form a cycle, directly or through others: neither between rooms nor between the files of one folder. So
+/// each folder has an order in which one can read it.
 ///
 /// ```text
 ///   domain/                      `domain` imports `curve`, so `curve` imports nothing that leads back to `domain`.
-///   ├── mod.rs                   A `mod.rs` declares what lies beside it and holds what all of it shares: that its children import from
-///   ├── locate.rs ◀────────╮     it, and it from them, is no circle.
+///   ├── mod.rs                   A `mod.rs` declares its children and holds what they share.
+///   ├── locate.rs ◀────────╮     It and its children may import each other.
 ///   └── arrange/           │
 ///       ├── mod.rs         │
 ///       ├── fill.rs ───▶ trace.rs ──╳──▶ fill.rs     Two that import each other are one module in two files.
 ///       └── faces.rs ◀── fill.rs
 /// ```
 ///
-/// A file counts with all that lies in the folder of its name: `clip/part.rs` imports for `clip`, and is imported as `clip`.
+/// A file and the folder of its name count as one: `clip/part.rs` imports for `clip`, and is imported as `clip`.
 #[test]
 fn no_imports_run_in_a_circle() {
     let modules: BTreeSet<String> = sources().iter().map(|file| module_of(file).to_owned()).collect();
@@ -142,7 +143,8 @@ fn module_with<'m>(path: &str, modules: &'m BTreeSet<String>) -> Option<&'m str>
     }
 }
 
-/// The folder in which the ways to two modules part, and what each way goes on with; `None` where one lies within the other.
+/// The folder in which the ways to two modules part, and what each way goes on with; `None` where one lies within the
+/// other.
 fn floor_between(from: &str, to: &str) -> Option<(String, [String; 2])> {
     let (from, to): (Vec<&str>, Vec<&str>) = (from.split('/').collect(), to.split('/').collect());
     let common = from.iter().zip(&to).take_while(|(a, b)| a == b).count();

@@ -1,6 +1,8 @@
-//! Broken files of every kind, each to every reader: a clear error with its line, or a drawing; in bounded time and memory.
+//! Broken files of every kind, each to every reader: a clear error with its line, or a drawing; in bounded time and
+//! memory.
 //!
-//! What a format says of its own broken files is tested beside the rest of it (`svg.rs`, `dxf.rs`, `import.rs`, `formats.rs`, `vtu.rs`); here is what is common.
+//! What a format says of its own broken files is tested beside the rest of it (`svg.rs`, `dxf.rs`, `import.rs`,
+//! `formats.rs`, `vtu.rs`); here is what is common.
 
 use squinch::domain::{Drawing, Loose};
 use squinch::import::{self, DxfOptions, Format, ImportError, LineTypes, Options, Strokes};

@@ -338,7 +338,7 @@ fn what_cannot_be_read_is_said() {
         (" 5\n 5", " 5\n 3", "cell 1 of type 3 has 3 corners"),
         (" 1\n 1\n 2.5", " 1\n 1\n 3", "the mesh is not flat: node 3 lies 4.472e-1 off the plane of the others"),
         (" 1\n 1\n 2.5", " 1\n nan\n 2.5", "point 2 is at (1, NaN, 2.5)"),
-        (" 2\n 3\n", " 2\n 4\n", "cell 1 has a corner 4 that is no point"),
+        (" 2\n 3\n", " 2\n 4\n", "cell 1 has a corner 4 that is not a point"),
         (" 2\n 3\n", " 2\n -1\n", "array 'connectivity' holds -1"),
         (" 3\n 6\n 8", " 3\n 2\n 8", "cell 1 has no corners"),
         ("NumberOfCells=\"4\"", "NumberOfCells=\"99999999999\"", "4 types and 4 offsets for 99999999999 cells"),
@@ -367,7 +367,7 @@ fn links_and_balls_out_of_range_are_refused() {
     assert_eq!(read(&written(&mesh, &[])).expect_err("no radius").what, "a ball has the radius inf");
     mesh.edges[1].link = Some(CurveLink { curve: CurveId(0), t: [0.5, 1.5] });
     let error = read(&written(&mesh, &[])).expect_err("no parameter");
-    assert_eq!(error.what, "array 't' holds 1.5, which is no parameter of a curve (0 to 1)");
+    assert_eq!(error.what, "array 't' holds 1.5, which is not a parameter of a curve (0 to 1)");
 }
 
 #[test]

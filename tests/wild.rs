@@ -1,4 +1,5 @@
-//! Drawings that cross, nearly touch, nearly coincide, and lie at awkward scales and places: their areas come out as the formulas say.
+//! Drawings that cross, nearly touch, nearly coincide, and lie at awkward scales and places: their areas come out as
+//! the formulas say.
 
 use squinch::domain::{ArrangeOptions, Domain, Drawing};
 use squinch::generate::known::{self, Known, Near};

@@ -1,4 +1,4 @@
-//! One edge of a face: a curve in space, trimmed by its vertices, laid into the plane of the face in its own kind.
+//! One edge of a face: a curve in space, trimmed by its vertices, projected into the plane of the face in its own kind.
 
 use super::{FaceError, SLACK, diagonal};
 use crate::curve::{Curve, CurveError, End};
@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 /// An untrimmed curve in space.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SpaceCurve {
-    /// A straight line; the edge's vertices say which part.
+    /// A straight line; the edge's vertices bound the part.
     Line,
     /// center + cos θ · u + sin θ · v, for perpendicular half axes; a circle where they are equally long.
     Ellipse { center: [f64; 3], u: [f64; 3], v: [f64; 3] },
@@ -24,13 +24,15 @@ pub enum SpaceCurve {
 /// A part of a curve between two vertices.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Edge {
+    /// The curve along which the edge runs.
     pub curve: SpaceCurve,
-    /// The vertices, first and last; the same of a closed curve once around.
+    /// The first and the last vertex; equal for a closed curve once around.
     pub ends: [[f64; 3]; 2],
-    /// Whether the edge runs from first to last the way its curve runs.
+    /// Whether the edge, from first to last, runs in the direction of its curve.
     pub same_sense: bool,
-    /// Whether its loop passes it from last to first.
+    /// Whether its loop runs along it from last to first.
     pub backward: bool,
+    /// The name of its boundary.
     pub name: String,
     /// Where it came from, for messages: "EDGE_CURVE #123 of face #45".
     pub entity: String,
@@ -38,11 +40,11 @@ pub struct Edge {
 
 /// An edge in the plane.
 pub(super) struct FlatEdge {
-    /// One curve; two where the vertex of a closed spline is not where the spline begins.
+    /// One curve; two where the vertex of a closed spline is not at the start of the spline.
     pub curves: Vec<Curve>,
-    /// How far the edge leaves the plane.
+    /// The largest distance of the edge from the plane.
     pub off_plane: f64,
-    /// How far its curve misses its vertices.
+    /// The largest distance of its curve's ends from its vertices.
     pub gap: f64,
 }
 
@@ -58,11 +60,13 @@ impl Edge {
         self.ends[0] == self.ends[1]
     }
 
+    /// The error that names this edge, at its first vertex.
     pub(super) fn error(&self, what: String) -> FaceError {
         FaceError { entity: self.entity.clone(), what, at: self.ends[0] }
     }
 
-    /// The edge in the plane of a frame, the way that its loop passes it, from vertex to vertex bit for bit.
+    /// The edge in the plane of a frame, in the direction of its loop, from vertex to vertex bit for bit. `uncertainty`
+    /// is the accuracy that the file states, as a length.
     pub(super) fn flat(&self, frame: &Frame, uncertainty: f64) -> Laid {
         let ends = self.ends.map(|end| frame.flat(end));
         let mut laid = match &self.curve {
@@ -121,7 +125,8 @@ impl Edge {
         let curve = net.curve(&flat).map_err(invalid)?;
         let slack = uncertainty.max(SLACK * diagonal(flat.iter().copied()));
         let (parts, gap) = self.trimmed(&curve, ends, slack)?;
-        // The hull of the control points is enough, where it is flat; else the part that the edge is of counts.
+        // A flat hull of control points is sufficient. Otherwise the part of the curve along which the edge runs is
+        // measured.
         let heights: Vec<Point> = net.points.iter().map(|p| Point::new(frame.height(*p), 0.0)).collect();
         let mut off_plane = heights.iter().map(|h| h.x.abs()).fold(0.0, f64::max);
         if off_plane > slack {
@@ -141,7 +146,8 @@ impl Edge {
         Ok(FlatEdge { curves, off_plane, gap })
     }
 
-    /// The ranges of a curve that the edge runs along, in the curve's order, and how far the curve misses the vertices.
+    /// The ranges of a curve along which the edge runs, in the curve's order, and the distance of the curve from the
+    /// vertices.
     fn trimmed(&self, curve: &Curve, ends: [Point; 2], slack: f64) -> Result<(Vec<(f64, f64)>, f64), String> {
         let [from, to] = if self.same_sense { ends } else { [ends[1], ends[0]] };
         let place = |p: Point, side: End| {
@@ -149,7 +155,7 @@ impl Edge {
                 End::Start => (0.0, curve.start()),
                 End::Finish => (1.0, curve.end()),
             };
-            // At the seam of a closed curve either end is as near; the edge's own tells which is meant.
+            // At the seam of a closed curve both ends are equally near; the end of the edge decides.
             if seam.distance(p) <= slack { (t, seam.distance(p)) } else { curve.nearest(p, 0.0, 1.0) }
         };
         let ((t0, gap0), (t1, gap1)) = (place(from, End::Start), place(to, End::Finish));
@@ -158,7 +164,7 @@ impl Edge {
         let parts = match t0 < t1 && !(self.is_closed() && (t0, t1) != (0.0, 1.0)) {
             true => vec![(t0, t1)],
             false if around => vec![(t0, 1.0), (0.0, t1)],
-            // An open curve has but one part between two points, whatever the file says of its sense.
+            // An open curve has only one part between two points, whatever sense the file states.
             false if t1 < t0 => vec![(t1, t0)],
             false => return Err("begins and ends at one point of an open curve".into()),
         };
@@ -166,8 +172,8 @@ impl Edge {
     }
 }
 
-/// Ends the first and the last of some curves at the vertices, bit for bit, and those between where the one before
-/// ends.
+/// Moves the ends of a chain of curves to the vertices, bit for bit; each inner curve begins at the end of the one
+/// before.
 fn meet_ends(curves: &mut [Curve], ends: [Point; 2]) {
     let last = curves.len().saturating_sub(1);
     let mut from = ends[0];
@@ -179,12 +185,12 @@ fn meet_ends(curves: &mut [Curve], ends: [Point; 2]) {
 }
 
 fn line([a, b]: [Point; 2]) -> Laid {
-    // Of no length: nothing to draw, as where an edge shrinks to the apex of a cone.
+    // An edge of no length is not drawn, as at the apex of a cone.
     let curves = if a == b { Vec::new() } else { vec![Curve::line(a, b).map_err(invalid)?] };
     Ok(FlatEdge { curves, off_plane: 0.0, gap: 0.0 })
 }
 
-/// Between two parameters: points at their squares along u, the tangents' meeting between.
+/// The part of a parabola between two parameters: the middle control point is where the tangents at the ends meet.
 fn parabola(ends: [Point; 2], conic: &Conic) -> Laid {
     conic.check()?;
     let [s, t] = ends.map(|p| conic.coordinates(p).1);
@@ -197,7 +203,8 @@ fn parabola(ends: [Point; 2], conic: &Conic) -> Laid {
     Ok(conic_edge(curve, ends, off_plane))
 }
 
-/// Between two parameters: the rational quadratic whose middle weight is cosh of half their difference.
+/// The part of a hyperbola between two parameters: the rational quadratic whose middle weight is cosh of half their
+/// difference.
 fn hyperbola(ends: [Point; 2], conic: &Conic) -> Laid {
     conic.check()?;
     let [s, t] = ends.map(|p| libm::asinh(conic.coordinates(p).1));
@@ -223,7 +230,7 @@ struct Conic {
     center: Point,
     u: Vec2,
     v: Vec2,
-    /// Of the axes in space.
+    /// The lengths of the axes in space.
     lengths: [f64; 2],
     heights: [f64; 3],
 }
@@ -240,20 +247,20 @@ impl Conic {
         }
     }
 
-    /// A conic that stands across the plane has no shape in it.
+    /// Refuses a conic that is perpendicular to the plane, or nearly so.
     fn check(&self) -> Result<(), String> {
         let [u, v] = self.lengths;
         let upright = self.u.cross(self.v).abs() <= 0.5 * u * v;
         if upright { Err("stands across the plane of its face".into()) } else { Ok(()) }
     }
 
-    /// a and b of p = center + a · u + b · v.
+    /// The coordinates a and b in p = center + a · u + b · v.
     fn coordinates(&self, p: Point) -> (f64, f64) {
         let (d, area) = (p - self.center, self.u.cross(self.v));
         (d.cross(self.v) / area, self.u.cross(d) / area)
     }
 
-    /// The largest height over a part, from seventeen places of it: the height is a smooth function without bends
+    /// The largest height over a part, sampled at seventeen places: the height is a smooth function that hardly bends
     /// between them.
     fn off_plane(&self, at: impl Fn(f64) -> (f64, f64)) -> f64 {
         let [center, u, v] = self.heights;
@@ -265,7 +272,7 @@ impl Conic {
     }
 }
 
-/// What a NURBS is made of.
+/// The data of a NURBS.
 struct Net<'a> {
     degree: usize,
     knots: &'a [f64],
@@ -274,7 +281,7 @@ struct Net<'a> {
 }
 
 impl Net<'_> {
-    /// The curve over these knots and weights with the control points' images in the plane.
+    /// The curve with these knots and weights and the given images of the control points.
     fn curve(&self, images: &[Point]) -> Result<Curve, CurveError> {
         Curve::nurbs(self.degree, self.knots, images, self.weights)
     }

@@ -1,7 +1,8 @@
-//! Planar faces of solids → [`Drawing`]: curves in space are laid into the plane of the face, each in its own kind.
+//! From planar faces of solids to a [`Drawing`]: curves in space are projected into the plane of the face, each in its
+//! own kind.
 //!
-//! `truck.rs` brings the faces of truck's solids, `import/step.rs` those of STEP files. Curved faces and solids are
-//! later work.
+//! `truck.rs` provides the faces of truck's solids, `import/step.rs` those of STEP files. Curved faces and solids are
+//! future work.
 
 mod edge;
 pub mod truck;
@@ -12,33 +13,35 @@ use crate::curve::Curve;
 use crate::domain::{Drawing, DrawnCurve, FillRule, Shape};
 use crate::geometry::{Frame, Point, Rect, bounds_of};
 
-/// How far, as a share of the face's diagonal, an edge may leave the plane or miss its vertices, where the file does
-/// not ask for more: what modellers with six digits write. It is also the widest gap that [`Drawing::arrange`] closes
-/// unasked.
+/// The largest distance, as a share of the face's diagonal, of an edge from the plane or from its vertices, unless the
+/// file states more: the accuracy of modellers that write six digits. It is also the widest gap that
+/// [`Drawing::arrange`] closes by default.
 const SLACK: f64 = 1e-6;
-/// From this share of the diagonal on, what was projected is told.
+/// Projections farther than this share of the diagonal are reported in a note.
 const ROUNDING: f64 = 1e-9;
 
 /// A planar face in space: a region of its plane, bounded by closed loops of edges.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Face {
-    /// Its normal points out of the solid.
+    /// The frame of its plane; the normal points out of the solid.
     pub frame: Frame,
+    /// The name of the face.
     pub name: String,
     /// Where it came from, for messages: "ADVANCED_FACE #12".
     pub entity: String,
-    /// The edges of each loop, end to end, in whatever sense.
+    /// The edges of each loop, end to end, in either sense.
     pub loops: Vec<Vec<Edge>>,
-    /// How exact the file says that it is, as a length; 0 where it does not say.
+    /// The accuracy that the file states, as a length; 0 where it does not.
     pub uncertainty: f64,
 }
 
-/// Why a face cannot be laid into its plane.
+/// Why a face cannot be projected into its plane.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{entity} {what} near ({}, {}, {})", at[0], at[1], at[2])]
 pub struct FaceError {
-    /// The face, or the edge of it.
+    /// The face, or an edge of it.
     pub entity: String,
+    /// What is wrong, as a predicate of the entity.
     pub what: String,
     /// A place in space.
     pub at: [f64; 3],
@@ -47,12 +50,13 @@ pub struct FaceError {
 /// A face in its plane.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FlatFace {
-    /// Curves of each edge, in the order of the loops, with the edge's index in its loop.
+    /// By loop: the curves of its edges in order, each with the index of its edge.
     loops: Vec<Vec<(Curve, usize)>>,
+    /// The area, in the square of the unit of length.
     pub area: f64,
-    /// How far the edges leave the plane at most.
+    /// The largest distance of the edges from the plane.
     pub off_plane: f64,
-    /// How far the curves miss the vertices at most.
+    /// The largest distance of the curves from the vertices.
     pub gap: f64,
     /// The diagonal of the box around it.
     pub diagonal: f64,
@@ -62,7 +66,7 @@ impl Face {
     /// The face's curves in the coordinates of its frame.
     ///
     /// # Errors
-    /// Where an edge leaves the plane or misses its vertices by more than the file's tolerance, or is no curve at all.
+    /// Where an edge leaves the plane or misses its vertices by more than the tolerance, or is no valid curve.
     pub fn flat(&self) -> Result<FlatFace, FaceError> {
         let mut flat = FlatFace { loops: Vec::new(), area: 0.0, off_plane: 0.0, gap: 0.0, diagonal: 0.0 };
         let mut worst: [Option<&Edge>; 2] = [None; 2];
@@ -96,7 +100,8 @@ impl Face {
         Err(FaceError { entity: self.entity.clone(), what: "encloses no area".into(), at: self.frame.origin })
     }
 
-    /// The face as a drawing: one shape of the face's name, filled between its loops, and a boundary a named edge.
+    /// The face as a drawing: one shape with the face's name, filled between its loops, and a boundary for each name of
+    /// edges.
     ///
     /// # Errors
     /// Those of [`Face::flat`].
@@ -126,8 +131,8 @@ impl Face {
 }
 
 impl FlatFace {
-    /// Fills in the diagonal and the area: that of the largest loop less the others', whatever the file says of which
-    /// is the outer one and which way it runs.
+    /// Computes the diagonal and the area. The area is that of the largest loop minus those of the others, whichever
+    /// loop the file calls the outer one and whatever their directions.
     fn measure(&mut self) {
         let boxes = self.loops.iter().flatten().map(|(curve, _)| curve.bounds());
         let Some(bounds) = boxes.reduce(|a, b| a.union(b)) else { return };
@@ -142,7 +147,7 @@ impl FlatFace {
     }
 }
 
-/// The box around points, and its diagonal; 0 of none.
+/// The diagonal of the box around points; 0 where there are none.
 fn diagonal(points: impl IntoIterator<Item = Point>) -> f64 {
     bounds_of(points).map_or(0.0, |b: Rect| libm::hypot(b.width(), b.height()))
 }

@@ -1,19 +1,19 @@
 //! Faces of truck-modeling's solids.
 //!
-//! truck keeps circular arcs as rational quadratic splines; they arrive as such, exact. The axes of its planes need be
-//! neither of unit length nor at right angles, so the frame is made anew from the normal.
+//! truck stores circular arcs as rational quadratic splines, and they arrive as such, exact. The axes of its planes
+//! need be neither unit vectors nor perpendicular, so the frame is computed from the normal.
 
 use super::{Edge, Face, FaceError, SpaceCurve};
 use crate::domain::Drawing;
 use crate::geometry::Frame;
 use truck_modeling::{Curve, Point3, Surface, Vector3};
 
-/// A planar face as a drawing in an orthonormal frame of its plane, its normal that of the oriented face. The region is
-/// named `face`, boundaries `edge 1`, `edge 2`, … in the order of the face's loops.
+/// A planar face as a drawing in an orthonormal frame of its plane, with the normal of the oriented face. The region is
+/// named `face`, the boundaries `edge 1`, `edge 2`, … in the order of the face's loops.
 ///
 /// # Errors
-/// Of a curved face, of an edge that is an intersection curve, and where an edge leaves the plane; [`FaceError`] says
-/// where.
+/// For a curved face, for an edge that is an intersection curve, and where an edge leaves the plane; [`FaceError`] has
+/// the place.
 pub fn drawing_of_truck_face(face: &truck_modeling::Face) -> Result<Drawing, FaceError> {
     let fail = |what: &str, at| FaceError { entity: "the face".into(), what: what.into(), at };
     let Surface::Plane(plane) = face.oriented_surface() else {
@@ -51,7 +51,7 @@ fn edge_of(curve: &Curve, ends: [[f64; 3]; 2], number: usize) -> Result<Edge, Fa
         Curve::NurbsCurve(nurbs) => SpaceCurve::Nurbs {
             degree: nurbs.degree(),
             knots: nurbs.knot_vec().iter().copied().collect(),
-            // Homogeneous in truck.
+            // The control points are homogeneous in truck.
             points: nurbs.control_points().iter().map(|p| [p.x / p.w, p.y / p.w, p.z / p.w]).collect(),
             weights: Some(nurbs.control_points().iter().map(|p| p.w).collect()),
         },

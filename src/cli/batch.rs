@@ -1,4 +1,4 @@
-//! `batch IN… --out-dir D --format F`: many inputs, in parallel, each for itself.
+//! `batch IN… --out-dir D --format F`: many inputs, in parallel, independent of each other.
 
 mod record;
 
@@ -23,6 +23,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
+/// Many drawings, in parallel, each for itself
 #[derive(Args)]
 pub struct Batch {
     /// Drawings, or folders of drawings
@@ -68,30 +69,30 @@ fn shard(text: &str) -> Result<Shard, String> {
 struct Job {
     input: PathBuf,
     name: PathBuf,
-    /// Of a solid whose faces are all meshed: the number of this one.
+    /// The number of the face, if each face of a solid is meshed.
     face: Option<u64>,
 }
 
 impl Job {
-    /// The input as it is shown and recorded.
+    /// The input as it is displayed and recorded.
     fn shown(&self) -> String {
         let face = self.face.map_or_else(String::new, |face| format!("#{face}"));
         format!("{}{face}", self.input.display())
     }
 
-    /// What is asked of it.
+    /// The request for it.
     fn request(&self, request: &Request) -> Request {
         let given = request.face.clone().filter(|face| face != EVERY_FACE);
         Request { face: self.face.map(|face| face.to_string()).or(given), ..request.clone() }
     }
 
-    /// A job for each planar face of a solid; itself where there are none, or the file cannot be read.
+    /// One job for each planar face of a solid; the job itself where there are none, or where the file cannot be read.
     fn by_faces(self, request: &Request, format: Option<import::Format>) -> Vec<Self> {
         let read = || {
             let drawing = run::read(&open(&self, format).ok()?.source(), &self.request(request)).ok()?;
             Some(drawing.faces)
         };
-        // What is wrong with the file is told when its job is done.
+        // A file that cannot be read is reported by its own job.
         let faces = case::caught(read).ok().flatten().unwrap_or_default();
         if faces.is_empty() {
             return vec![self];
@@ -101,13 +102,14 @@ impl Job {
     }
 }
 
-/// `--face` where every planar face of a solid is to have a mesh of its own.
+/// The value of `--face` that meshes each planar face of a solid.
 const EVERY_FACE: &str = "all";
 
-/// As much stack as the main thread has on most systems.
+/// Stack of a thread in bytes, as the main thread has on most systems.
 const STACK: usize = 8 << 20;
 
 impl Batch {
+    /// Runs the batch.
     pub fn run(self, volume: Volume) -> Result<Exit, Halt> {
         let start = Instant::now();
         self.writing.check()?;
@@ -132,8 +134,8 @@ impl Batch {
         let desk = Desk::new(record, &earlier, jobs.len(), volume);
         let next = AtomicUsize::new(0);
         let work = || {
-            // Each thread takes the next input. Not tasks of the pool: a task that waits may take up another there, and
-            // its time with it.
+            // Each thread takes the next input. Threads of their own, not tasks of the pool: a waiting task may take up
+            // another one, and its time with it.
             while let Some((k, job)) = Some(next.fetch_add(1, Ordering::Relaxed)).and_then(|k| Some((k, jobs.get(k)?)))
             {
                 let line = match desk.begin(&job.shown()) {
@@ -152,14 +154,14 @@ impl Batch {
         desk.close(start)
     }
 
-    /// One input from its bytes to its files. Nothing that it does ends the batch.
+    /// Reads, meshes and writes one input. A failure does not end the batch.
     fn one(&self, job: &Job, request: &Request, format: Option<import::Format>) -> Line {
         let start = Instant::now();
         let line = match case::caught(|| self.mesh(job, request, format)) {
             Ok(Ok(line)) => line,
             Ok(Err(failure)) => Line::failed(job.shown(), failure),
             Err(panic) => {
-                let what = format!("squinch broke down: {panic}");
+                let what = format!("squinch failed by a bug of its own: {panic}");
                 self.keep_case(job, request, format, &format!("panic: {panic}"));
                 let help = "please send us the case file beside the outputs";
                 Line::failed(job.shown(), FailureReport::new(FailureKind::Bug, what, help))
@@ -183,7 +185,7 @@ impl Batch {
         })
     }
 
-    /// Writes every format and, where asked, the report; the names of the meshes.
+    /// Writes each format and, if asked for, the report. Returns the names of the mesh files.
     fn write(&self, job: &Job, request: &Request, outcome: &Outcome) -> io::Result<Vec<String>> {
         let (mut staged, mut names) = (Staged::default(), Vec::new());
         let path = |suffix: &str| {
@@ -213,14 +215,14 @@ impl Batch {
         Ok(names)
     }
 
-    /// Leaves what is needed to repeat a run that broke down beside the outputs.
+    /// Writes a case file beside the outputs, for a run that failed by our bug.
     fn keep_case(&self, job: &Job, request: &Request, format: Option<import::Format>, outcome: &str) {
         let Ok(input) = open(job, format) else { return };
         let mut path = self.out_dir.join(&job.name).into_os_string();
         path.push(".case");
         let mut staged = Staged::default();
         let bytes = input.case(outcome, request).to_toml();
-        // The line of the record tells of the failure; that its case is missing too would be no news to act on.
+        // The record tells of the failure. A missing case file is not reported.
         let _ = staged.add(Path::new(&path), bytes.as_bytes()).and_then(|()| staged.commit());
     }
 }
@@ -228,12 +230,12 @@ impl Batch {
 fn open(job: &Job, format: Option<import::Format>) -> Result<Input, FailureReport> {
     Input::open(&job.input, format).map_err(|halt| match halt {
         Halt::Unreadable(what) => {
-            FailureReport::new(FailureKind::Unreadable, what, "look at the name and who may read it")
+            FailureReport::new(FailureKind::Unreadable, what, "check the file name and the permission to read it")
         }
         _ => FailureReport::new(
             FailureKind::Unreadable,
             "the file cannot be read",
-            "look at the name and who may read it",
+            "check the file name and the permission to read it",
         ),
     })
 }
@@ -242,8 +244,8 @@ fn unwritable(path: &Path, error: &io::Error) -> Halt {
     Halt::Unwritable(format!("{}: {error}", path.display()))
 }
 
-/// The inputs in the order given, folders unfolded in the order of names, each with a name of its own for its outputs:
-/// that of the file without its suffix, below the folders that it came through; with it where two would be the same.
+/// The inputs in the order given, with folders expanded in the order of names. The outputs of an input are named after
+/// the file without its suffix, below the folders that led to it; with the suffix where two names would be equal.
 fn jobs(inputs: &[PathBuf]) -> Result<Vec<Job>, Halt> {
     let mut files: Vec<(PathBuf, PathBuf)> = Vec::new();
     for input in inputs {
@@ -269,10 +271,10 @@ fn jobs(inputs: &[PathBuf]) -> Result<Vec<Job>, Halt> {
     Ok(named.collect())
 }
 
-/// Folders within folders are looked into so deep.
+/// Largest nesting of folders that are searched.
 const DEPTH: usize = 32;
 
-/// Drawings in a folder and the folders in it, by their paths below it, in the order of names.
+/// The drawings in a folder and in folders within it, by their paths below it, in the order of names.
 fn drawings_in(folder: &Path) -> io::Result<Vec<PathBuf>> {
     let mut found = Vec::new();
     let mut waiting = vec![PathBuf::new()];
@@ -291,8 +293,8 @@ fn drawings_in(folder: &Path) -> io::Result<Vec<PathBuf>> {
     Ok(found)
 }
 
-/// Whether a file of a folder is taken for a drawing, by its suffix: not texts, which are mostly about the others, nor
-/// vertices, which belong to a `.poly`.
+/// Whether a file of a folder is taken for a drawing, by its suffix. Texts are not, as most of them describe other
+/// files; nor are vertices, which belong to a `.poly`.
 fn is_drawing(path: &Path) -> bool {
     let is_text = path.extension().is_some_and(|suffix| suffix.eq_ignore_ascii_case("txt"));
     import::format_of(path).is_some_and(|format| format != import::Format::Node) && !is_text

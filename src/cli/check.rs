@@ -1,4 +1,4 @@
-//! `check MESH`: the judge's verdict on a mesh file, ours or not.
+//! `check MESH`: verifies a mesh file, ours or not.
 
 use super::files::{Input, Staged, unwritable};
 use super::options::{Options, Resolved};
@@ -13,18 +13,19 @@ use squinch::run::{self, Exit, Plan};
 use squinch::verify::Status;
 use std::path::{Path, PathBuf};
 
+/// Verify a mesh file, ours or not
 #[derive(Args)]
 pub struct Check {
     /// A mesh file: .vtu, .vtk, .msh, .su2, .inp, .obj, .stl, .ele; - for standard input
     #[arg(value_name = "MESH")]
     mesh: PathBuf,
-    /// The drawing that the mesh is of: without it, checks that need the curves are n/a
+    /// The drawing of the mesh; without it, checks that need the curves are n/a
     #[arg(long, value_name = "IN")]
     against: Option<PathBuf>,
     /// The report as JSON; - for standard output
     #[arg(long, value_name = "FILE.json")]
     report: Option<PathBuf>,
-    /// What the mesh is held to. A mesh of ours says what it was asked for, which holds where nothing is given here
+    /// The bounds that are checked. A mesh of ours holds those of its run, which apply where none is given here
     #[command(flatten)]
     options: Options,
 }
@@ -58,14 +59,14 @@ pub fn read(input: &Input) -> Result<MeshFile, Halt> {
     })
 }
 
-/// Key under which our mesh files say what they were asked for: the options, as in a `--config` file.
+/// The key under which our mesh files hold the options of their run, in the form of a `--config` file.
 pub const REQUEST_STAMP: &str = "request";
 
-/// Said of a mesh whose links are missing or do not fit.
-const BY_PLACE: &str =
-    "The mesh does not say, or not rightly, which curves its edges lie on: it was judged by where its nodes lie.";
+/// The note about a mesh whose links are missing or wrong.
+const BY_PLACE: &str = "The mesh does not say, or says wrongly, on which curves its edges lie: the verifier went by the places of its nodes.";
 
 impl Check {
+    /// Verifies the mesh and prints the verdict.
     pub fn run(self, volume: Volume) -> Result<Exit, Halt> {
         let input = Input::open(&self.mesh, None)?;
         let MeshFile { mesh, stamps, notes } = read(&input)?;
@@ -78,7 +79,7 @@ impl Check {
             None => None,
         };
         let (domain, plan) = against.map_or_else(|| (None, Plan::without_domain(&request)), |(d, p)| (Some(d), p));
-        let (verdict, untied) = plan.judge_file(domain.as_ref(), &mesh);
+        let (verdict, untied) = plan.verify_file(domain.as_ref(), &mesh);
         report.input.notes.extend(notes);
         report.input.notes.extend(untied.is_some().then(|| BY_PLACE.to_owned()));
         let mesh = untied.unwrap_or(mesh);
@@ -91,7 +92,7 @@ impl Check {
         }
         if volume > Volume::Quiet {
             let ink = say::Ink::stderr();
-            say::line(&format!("{} {path}: {}", ink.bold("squinch"), say::promise(&verdict, ink)));
+            say::line(&format!("{} {path}: {}", ink.bold("squinch"), say::guarantees(&verdict, ink)));
             report.input.notes.iter().for_each(|note| say::line(&format!("    {} {note}", ink.dim("note:"))));
             let shown = verdict.checks.iter().filter(|c| volume == Volume::Verbose || c.status != Status::NotAsked);
             shown.flat_map(|check| say::check_lines(check, ink)).for_each(|text| say::line(&text));
@@ -100,7 +101,7 @@ impl Check {
     }
 }
 
-/// The domain that a mesh is to be of, and what is asked of it.
+/// The domain of the mesh, and the plan for it.
 fn against(input: &Input, request: &Request, report: &mut Report) -> Result<(Domain, Plan), Halt> {
     remember(input, request);
     let clock = clock();

@@ -8,6 +8,7 @@ use clap::Args;
 use squinch::run::Exit;
 use std::path::PathBuf;
 
+/// One mesh format to another, names kept
 #[derive(Args)]
 pub struct Convert {
     /// A mesh file: .vtu, .vtk, .msh, .su2, .inp, .obj, .stl, .ele; - for standard input
@@ -16,7 +17,7 @@ pub struct Convert {
     /// Where the mesh goes; - for standard output
     #[arg(value_name = "OUT")]
     output: PathBuf,
-    /// The format of the output, where the suffix is not to tell
+    /// The format of the output, where its suffix gives none
     #[arg(long, value_parser = Output::named, value_name = "FORMAT")]
     format: Option<Output>,
     #[command(flatten)]
@@ -24,6 +25,7 @@ pub struct Convert {
 }
 
 impl Convert {
+    /// Converts the mesh.
     pub fn run(self, volume: Volume) -> Result<Exit, Halt> {
         self.writing.check()?;
         let format = Output::of(&self.output, self.format)?;

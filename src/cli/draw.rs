@@ -1,4 +1,4 @@
-//! `draw IN --stage S -o X.svg|X.png`: a picture of any stage of a drawing, or of a mesh file.
+//! `draw IN --stage S -o X.svg|X.png`: a picture of a stage of a drawing, or of a mesh file.
 
 use super::files::{self, Input, Staged, unwritable};
 use super::options::{Options, Resolved};
@@ -15,6 +15,7 @@ use squinch::run::{self, Exit, Plan};
 use squinch::watch::Watch;
 use std::path::PathBuf;
 
+/// A picture of any stage of a file, or of a mesh
 #[derive(Args)]
 pub struct Draw {
     /// A drawing, or a mesh (.vtu, .msh, …); - for standard input
@@ -41,7 +42,7 @@ pub struct Draw {
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Stage {
-    /// The curves as found, what is mended in them or, with --tolerance 0, is not, and where the first flaw is
+    /// The curves as found, their repairs or (with --tolerance 0) the flaws that stay, and the place of the first error
     Drawing,
     /// Welded, split and named: regions, points, sharp corners, and every repair by its kind
     Domain,
@@ -56,6 +57,7 @@ enum Stage {
 }
 
 impl Draw {
+    /// Draws the picture.
     pub fn run(self, _volume: Volume) -> Result<Exit, Halt> {
         if self.colour == Colour::Layer && self.shown() != Stage::Drawing {
             return Err(Halt::Usage("--colour layer: only with --stage drawing".into()));
@@ -96,7 +98,7 @@ impl Draw {
         let mut picture = self.picture(drawing.title.clone(), self.shown() != Stage::Mesh);
         if matches!(self.shown(), Stage::Drawing | Stage::Domain) {
             picture.repairs = arranged.as_ref().map(|domain| domain.repairs().to_vec()).unwrap_or_default();
-            // A picture shows no notes.
+            // Pictures have no notes.
             picture.unhealed = run::unhealed(&drawing, request, &mut Vec::new(), watch);
         }
         if self.shown() == Stage::Drawing {
@@ -145,7 +147,7 @@ impl Draw {
     }
 }
 
-/// Where a flaw is, what it is at the first of its places.
+/// The places of a flaw, with its text at the first one.
 fn marks(failure: FailureReport) -> Vec<(Point, String)> {
     let words = std::iter::once(failure.what).chain(std::iter::repeat(String::new()));
     let places = failure.at.into_iter().chain(failure.also_at);

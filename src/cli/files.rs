@@ -1,4 +1,4 @@
-//! Files in and out: inputs with their bytes, outputs that are whole or not there.
+//! Files: inputs with their bytes, and outputs that are written whole or not at all.
 
 use super::Halt;
 use squinch::import::Format;
@@ -15,7 +15,9 @@ use std::sync::{Mutex, PoisonError};
 pub struct Input {
     /// As given; `-` for standard input.
     pub path: String,
+    /// The bytes.
     pub bytes: Vec<u8>,
+    /// The format, if an option gives it.
     pub format: Option<Format>,
     /// The `.node` file beside a `.poly` file.
     pub nodes: Option<Vec<u8>>,
@@ -34,6 +36,7 @@ impl Input {
         Ok(Self { path: shown, bytes, format, nodes })
     }
 
+    /// The input of a run.
     pub fn source(&self) -> Source<'_> {
         Source {
             path: &self.path,
@@ -44,6 +47,7 @@ impl Input {
         }
     }
 
+    /// A case of this input.
     pub fn case(&self, outcome: &str, request: &Request) -> Case {
         Case::new(outcome, &self.source(), request)
     }
@@ -59,14 +63,14 @@ pub fn read(path: &Path) -> io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// Every output has a folder that takes it: said before the work, not after.
+/// Checks that each output can be written in its folder, before the work begins.
 pub fn can_be_written<'a>(files: impl IntoIterator<Item = &'a PathBuf>) -> Result<(), Halt> {
     files.into_iter().filter(|path| path.as_os_str() != "-").try_for_each(|path| {
         let target = fs::canonicalize(path).unwrap_or_else(|_| path.clone());
         let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
         match fs::metadata(&target) {
             Ok(there) if there.is_dir() => return Err(Halt::Unwritable(format!("{}: is a folder", path.display()))),
-            // A device, or a pipe.
+            // A device or a pipe.
             Ok(there) if !there.is_file() => return Ok(()),
             _ => {}
         }
@@ -75,13 +79,13 @@ pub fn can_be_written<'a>(files: impl IntoIterator<Item = &'a PathBuf>) -> Resul
             let what = format!("{}: there is no folder {folder}: make it first (mkdir -p {folder})", path.display());
             return Err(Halt::Unwritable(what));
         }
-        // Only trying tells whether a file system takes files.
+        // Only a trial tells whether a file system accepts files.
         let mut trial = Staged::default();
         trial.add(path, &[]).map_err(unwritable)
     })
 }
 
-/// No output may be the input, or another output.
+/// Checks that no output is the input or another output.
 pub fn each_once(files: impl IntoIterator<Item = PathBuf>) -> Result<(), Halt> {
     let mut seen: Vec<PathBuf> = Vec::new();
     for path in files.into_iter().filter(|path| path.as_os_str() != "-" && !path.starts_with("/dev")) {
@@ -94,10 +98,10 @@ pub fn each_once(files: impl IntoIterator<Item = PathBuf>) -> Result<(), Halt> {
     Ok(())
 }
 
-/// Temporary files that exist now, for whoever ends the program early.
+/// The temporary files that exist now. Ctrl-C removes them.
 static TEMPORARY: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
-/// Removes every temporary file there is.
+/// Removes all temporary files.
 pub fn remove_temporaries() {
     for path in TEMPORARY.lock().unwrap_or_else(PoisonError::into_inner).drain(..) {
         let _ = fs::remove_file(path); // nothing better can be done on the way out
@@ -108,12 +112,12 @@ fn forget(path: &Path) {
     TEMPORARY.lock().unwrap_or_else(PoisonError::into_inner).retain(|p| p != path);
 }
 
-/// Outputs under temporary names: all appear together by [`Staged::commit`], or none does.
+/// Outputs under temporary names. [`Staged::commit`] gives all of them their names; without it none appears.
 #[derive(Default)]
 pub struct Staged {
     /// Temporary and final name.
     files: Vec<(PathBuf, PathBuf)>,
-    /// What goes to standard output.
+    /// The bytes for standard output.
     stdout: Vec<u8>,
 }
 
@@ -125,7 +129,7 @@ impl Staged {
             return Ok(());
         }
         let named = |e: io::Error| io::Error::new(e.kind(), format!("{}: {e}", path.display()));
-        // Through a link to the file that it names; a device or a pipe cannot be renamed over.
+        // A link is followed to its file. A device or a pipe cannot be renamed over.
         let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
         match fs::metadata(&target) {
             Ok(there) if there.is_dir() => return Err(named(io::ErrorKind::IsADirectory.into())),
@@ -170,6 +174,7 @@ pub fn print(text: &str) -> Result<(), Halt> {
     staged.add(Path::new("-"), text.as_bytes()).and_then(|()| staged.commit()).map_err(unwritable)
 }
 
+/// The error of an output.
 pub fn unwritable(error: io::Error) -> Halt {
     Halt::Unwritable(error.to_string())
 }

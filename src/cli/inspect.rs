@@ -1,4 +1,4 @@
-//! `inspect IN`: what is in a file, every repair and every flaw with its place.
+//! `inspect IN`: the contents of a file, with each repair and each flaw and its place.
 
 use super::files::{self, Input, Staged, unwritable};
 use super::options::{Options, Resolved};
@@ -15,6 +15,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 use std::path::PathBuf;
 
+/// What is in a file: curves, names, regions, corners, every repair and flaw with its place
 #[derive(Args)]
 pub struct Inspect {
     /// A drawing: .svg, .dxf, .step, airfoil .dat, .poly, .node, outline .json; - for standard input
@@ -23,7 +24,7 @@ pub struct Inspect {
     /// As JSON
     #[arg(long)]
     json: bool,
-    /// The drawing as read, its curves exact, as an outline of ours: to be changed by hand or script, and meshed
+    /// The drawing as read, with exact curves, in our outline format: edit it by hand or script, then mesh it
     #[arg(long, value_name = "FILE.json")]
     outline: Option<PathBuf>,
     #[command(flatten)]
@@ -31,6 +32,7 @@ pub struct Inspect {
 }
 
 impl Inspect {
+    /// Prints the contents.
     pub fn run(self, volume: Volume) -> Result<Exit, Halt> {
         let Resolved { request, input_format } = self.options.resolve()?;
         let input = Input::open(&self.input, input_format)?;
@@ -61,7 +63,7 @@ impl Inspect {
     }
 }
 
-/// What was found in a file. Lengths in the drawing's unit.
+/// The contents of a file. Lengths are in the drawing's unit.
 #[derive(Serialize)]
 struct Findings {
     schema: u32,
@@ -76,30 +78,30 @@ struct Findings {
     curves: BTreeMap<&'static str, usize>,
     points: usize,
     seeds: usize,
-    /// Of formats that have layers.
+    /// Of formats with layers.
     layers: Vec<LayerFindings>,
     boundaries: Vec<Boundary>,
     /// Absent where the drawing could not be arranged.
     domain: Option<DomainFindings>,
-    /// Of a solid: its planar faces, one of which was read.
+    /// The planar faces of a solid, one of which was read.
     faces: Vec<FaceInfo>,
     skipped: Vec<Skipped>,
     notes: Vec<String>,
     repairs: Vec<Repair>,
-    /// With `--tolerance 0`: what the default would have mended.
+    /// With `--tolerance 0`: the repairs of the default tolerance.
     unhealed: Vec<Repair>,
     flaws: Vec<Flaw>,
 }
 
-/// A layer, by itself.
+/// A layer, without the others.
 #[derive(Serialize)]
 struct LayerFindings {
     name: String,
     entities: usize,
-    /// How many of them in which line type.
+    /// Number of entities by line type.
     line_types: BTreeMap<String, usize>,
     closed_loops: usize,
-    /// Within its closed loops; absent where they cannot be arranged.
+    /// The area within its closed loops; absent where they cannot be arranged.
     area: Option<f64>,
 }
 
@@ -244,10 +246,10 @@ fn face_row(face: &FaceInfo) -> String {
 fn layers(drawing: &Drawing, watch: &mut Watch) -> Vec<LayerFindings> {
     let options = ArrangeOptions { loose: Loose::Drop, ..ArrangeOptions::default() };
     let mut finding = |id: LayerId, layer: &Layer| {
-        // What clips are made of is of no layer, and cuts those of all.
+        // Curves of clips have no layer and cut those of all layers.
         let of_clip = |c: &DrawnCurve| c.shape.is_some_and(|shape| drawing.shapes[shape].part_of.is_some());
         let on_it = drawing.curves.iter().filter(|c| c.layer == Some(id) || of_clip(c));
-        // Alone, it needs no layer.
+        // By itself it needs no layer.
         let curves: Vec<_> = on_it.map(|c| DrawnCurve { layer: None, ..c.clone() }).collect();
         let alone = Drawing {
             curves,
@@ -269,7 +271,7 @@ fn layers(drawing: &Drawing, watch: &mut Watch) -> Vec<LayerFindings> {
     drawing.layers.enumerate().map(|(id, layer)| finding(id, layer)).collect()
 }
 
-/// The number of outlines that hang together nowhere.
+/// The number of connected components of outlines.
 fn closed_loops(domain: &Domain) -> usize {
     let mut above: IdVec<PointId, PointId> = domain.points().ids().collect();
     let mut loops = BTreeSet::new();
@@ -282,7 +284,7 @@ fn closed_loops(domain: &Domain) -> usize {
     loops.len()
 }
 
-/// The point that stands for all that hang together with this one; ways to it are halved as they are gone.
+/// The representative point of a component. Paths to it are halved on the way.
 fn root(above: &mut IdVec<PointId, PointId>, mut point: PointId) -> PointId {
     while above[point] != point {
         above[point] = above[above[point]];

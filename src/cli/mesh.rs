@@ -29,6 +29,7 @@ By job:
 
 --help shows every option, those of the engines too.";
 
+/// Read, arrange, mesh, verify, write
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Mesh {
@@ -39,8 +40,8 @@ pub struct Mesh {
     /// .svg, .png; - for standard output; may be repeated
     #[arg(short, long, value_name = "OUT", required = true, help_heading = "Output")]
     output: Vec<PathBuf>,
-    /// Formats of the outputs, in their order, where the suffix is not to tell (msh22 is Gmsh 2.2; vtk-text is VTK as
-    /// text; triangle is .node/.ele/.poly)
+    /// Formats of the outputs, in their order, where the suffix gives none (msh22 is Gmsh 2.2; vtk-text is VTK as text;
+    /// triangle is .node/.ele/.poly)
     #[arg(long, value_parser = Output::named, value_name = "FORMAT", value_delimiter = ',', help_heading = "Output")]
     format: Vec<Output>,
     /// The report as JSON; - for standard output
@@ -56,6 +57,7 @@ pub struct Mesh {
 }
 
 impl Mesh {
+    /// Runs the verb.
     pub fn run(self, volume: Volume) -> Result<Exit, Halt> {
         self.writing.check()?;
         let outputs = self.outputs()?;
@@ -78,7 +80,7 @@ impl Mesh {
         let wrote = written?;
         say::summary(&outcome, &wrote, volume);
         if let (Some(mesh), false, Volume::Verbose) = (&outcome.mesh, wrote.is_empty(), volume) {
-            // That a picture holds no mesh goes without saying.
+            // A picture never holds a mesh, so nothing is reported for it.
             let files = outputs.iter().filter(|(_, format)| matches!(format, Output::Mesh(_)));
             files.for_each(|(path, format)| say::losses(*format, &self.writing.losses(*format, mesh, path)));
         }
@@ -106,7 +108,7 @@ impl Mesh {
         formats.collect()
     }
 
-    /// Writes what there is to write; the names of the mesh files.
+    /// Writes the outputs, and returns the names of the mesh files.
     fn write(
         &self,
         outputs: &[(&Path, Output)],
@@ -117,7 +119,7 @@ impl Mesh {
         let start = Instant::now();
         let mut staged = Staged::default();
         let mut wrote = Vec::new();
-        // A mesh that broke down in our hands must not reach a solver.
+        // A mesh with a broken guarantee of ours must not reach a solver.
         if let (Some(mesh), false) = (&outcome.mesh, outcome.exit == Exit::Bug) {
             for (path, format) in outputs {
                 let stamps = stamps(outcome, request);
@@ -145,7 +147,7 @@ impl Mesh {
     }
 }
 
-/// The run under a progress line.
+/// A run with a progress line.
 pub fn mesh_with_progress(input: &Input, request: &Request, volume: Volume) -> Outcome {
     let mut bar = say::Bar::new(volume);
     let mut watch = |progress: &Progress| {
@@ -155,7 +157,7 @@ pub fn mesh_with_progress(input: &Input, request: &Request, volume: Volume) -> O
     run::run(&input.source(), request, Extent::Whole(&mut watch), &clock())
 }
 
-/// What a mesh file is stamped with: what it was asked for, and the tolerance where that had to be raised.
+/// The stamps of a mesh file: its request, with the tolerance if that was raised.
 pub fn stamps(outcome: &Outcome, request: &Request) -> [(String, String); 2] {
     let raised = outcome.report.input.repairs.first().filter(|repair| repair.kind == RepairKind::ToleranceRaised);
     let tolerance = raised.map(|repair| repair.size).or(request.tolerance);

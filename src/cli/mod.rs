@@ -1,4 +1,4 @@
-//! The command line: one file a verb, what they share, and the exit code.
+//! The command line: one file for each verb, shared types, and the exit code.
 
 mod batch;
 mod check;
@@ -48,7 +48,7 @@ struct Cli {
     verbose: bool,
 }
 
-/// Version, commit and features: what a report of a bug needs.
+/// Version, commit and features, for bug reports.
 const VERSION: &str =
     concat!(env!("CARGO_PKG_VERSION"), " (", env!("SQUINCH_COMMIT"), "; features: ", env!("SQUINCH_FEATURES"), ")");
 
@@ -71,7 +71,7 @@ squinch VERB -h shows the options of a verb; --help shows all of them, and the e
 
 const EXIT_CODES: &str = "\
 Exit codes:
-  0    done, every promise kept
+  0    done, every guarantee holds
   1    batch: an input ended otherwise
   2    usage
   3    input unreadable
@@ -85,7 +85,7 @@ Exit codes:
 enum Verb {
     /// Read, arrange, mesh, verify, write
     Mesh(Box<mesh::Mesh>),
-    /// The judge's verdict on a mesh file
+    /// Verify a mesh file, ours or not
     Check(Box<check::Check>),
     /// Many drawings, in parallel, each for itself
     Batch(Box<batch::Batch>),
@@ -103,7 +103,7 @@ enum Verb {
     Reduce(reduce::Reduce),
 }
 
-/// How much is said on stderr.
+/// How much is printed on stderr.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Volume {
     Quiet,
@@ -113,11 +113,11 @@ enum Volume {
 
 /// What ends a verb early.
 enum Halt {
-    /// All is said.
+    /// The message was printed already.
     Said(Exit),
     Usage(String),
     Unreadable(String),
-    /// Told by a stage, with the file to point into.
+    /// The failure of a stage, with the input for pointing into it.
     Failure(Box<FailureReport>, Option<Box<Input>>),
     Unwritable(String),
 }
@@ -128,7 +128,7 @@ pub fn run() -> ExitCode {
         Ok(cli) => cli,
         Err(error) => return usage(error),
     };
-    // Without a handler Ctrl-C still ends the program, only temporary files would stay.
+    // Without this handler Ctrl-C would leave temporary files.
     let _ = ctrlc::set_handler(|| {
         files::remove_temporaries();
         say::line("cancelled");
@@ -144,7 +144,7 @@ pub fn run() -> ExitCode {
         Ok(Err(halt)) => say::halt(halt),
         Err(panic) => {
             files::remove_temporaries();
-            say::error(&format!("squinch broke down: {panic}"));
+            say::error(&format!("squinch failed by a bug of its own: {panic}"));
             write_case(&format!("panic: {panic}"), "panic");
             Exit::Bug
         }
@@ -185,15 +185,15 @@ fn usage(error: clap::Error) -> ExitCode {
     ExitCode::from(error.exit_code() as u8)
 }
 
-/// The run that is under way, to be recorded should we break down.
+/// The current run. A case file records it if squinch fails by a bug.
 static UNDER_WAY: Mutex<Option<Case>> = Mutex::new(None);
 
-/// Notes what a panic from here on is to be blamed on.
+/// Records the input and the request, for the case file of a panic.
 fn remember(input: &Input, request: &Request) {
     *UNDER_WAY.lock().unwrap_or_else(PoisonError::into_inner) = Some(input.case("", request));
 }
 
-/// Writes the run under way as `squinch-<kind>-<fingerprint>.case` in the working folder, and says so.
+/// Writes the current run as `squinch-<kind>-<fingerprint>.case` in the working folder, and says so.
 fn write_case(outcome: &str, kind: &str) {
     let Some(mut case) = UNDER_WAY.lock().unwrap_or_else(PoisonError::into_inner).take() else { return };
     let name = format!("squinch-{kind}-{}.case", case.fingerprint());

@@ -1,7 +1,6 @@
 //! The options of a run, on the command line and in a `--config` file alike; the command line wins.
 //!
-//! Both are made of the options that a [`Request`] gathers ([`squinch::options`]): what is added there is an option
-//! here.
+//! Both are made from the options of a [`Request`] ([`squinch::options`]): a new field there is an option here.
 
 use super::Halt;
 use super::say;
@@ -38,7 +37,7 @@ struct Manner {
     /// Threads; the result does not depend on it [default: all]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..), allow_hyphen_values = true, help_heading = "General")]
     threads: Option<u64>,
-    /// Format of the input, where suffix and content do not tell: airfoil, poly, node, outline, dxf, svg, step
+    /// Format of the input, where suffix and content give none: airfoil, poly, node, outline, dxf, svg, step
     #[arg(long, value_name = "FORMAT", help_heading = "Input")]
     input_format: Option<String>,
 }
@@ -71,7 +70,7 @@ impl FromArgMatches for Options {
     }
 }
 
-/// The argument by which an option is given.
+/// The argument of an option.
 fn argument(option: &'static Described) -> Arg {
     let argument = Arg::new(&*option.key)
         .long(&*option.key)
@@ -100,10 +99,10 @@ fn heading(group: Group) -> &'static str {
     }
 }
 
-/// Text → the value that the option's own type reads.
+/// The parser of an option: text → a value of the option's type.
 fn parser(option: &'static Described) -> ValueParser {
     let checked = |value: Value| {
-        // What may stand in a file is read with that file.
+        // The content of a file is read later, with the file.
         if option.file { Ok(value) } else { check(option, value) }
     };
     match &option.kind {
@@ -123,7 +122,7 @@ fn parser(option: &'static Described) -> ValueParser {
     }
 }
 
-/// A value of an option, if a request can hold it.
+/// A value of an option, if the request accepts it.
 fn check(option: &Described, value: Value) -> Result<Value, String> {
     let whole = if option.kind == Kind::Texts { Value::Array(vec![value.clone()]) } else { value.clone() };
     let asked: Table = [(option.key.clone(), whole)].into_iter().collect();
@@ -131,19 +130,22 @@ fn check(option: &Described, value: Value) -> Result<Value, String> {
     Ok(value)
 }
 
-/// Options resolved: what to make, and how to read the input.
+/// Resolved options: the request, and the format of the input.
 pub struct Resolved {
+    /// The request.
     pub request: Request,
+    /// The format of the input, if given.
     pub input_format: Option<Format>,
 }
 
 impl Options {
-    /// Defaults, under the config file, under the command line; checked, and the threads set.
+    /// Defaults, overridden by the config file, overridden by the command line. Checks them and sets the number of
+    /// threads.
     pub fn resolve(&self) -> Result<Resolved, Halt> {
         self.resolve_over("")
     }
 
-    /// As [`Options::resolve`], with a request recorded as TOML between the defaults and the config file.
+    /// As [`Options::resolve`], with a recorded request (TOML) between the defaults and the config file.
     pub fn resolve_over(&self, recorded: &str) -> Result<Resolved, Halt> {
         let mut asked: Table = recorded.parse().map_err(usage)?;
         let mut manner = self.manner.clone();
@@ -159,7 +161,8 @@ impl Options {
         let request: Request = Value::Table(asked).try_into().map_err(usage)?;
         request.validate().map_err(usage)?;
         if let Some(threads) = manner.threads {
-            // More threads than cores only cost their stacks: the bytes of the result are the same with any number.
+            // More threads than cores cost their stacks and gain nothing. The bytes of the result do not depend on the
+            // number.
             let cores = std::thread::available_parallelism().map_or(1, usize::from);
             squinch::threads::set_count(usize::try_from(threads).unwrap_or(usize::MAX).min(cores));
         }
@@ -168,7 +171,7 @@ impl Options {
     }
 }
 
-/// Puts the sizes of a file, or an expression, in the place of its text: a recorded run holds the sizes themselves.
+/// Replaces the name of a file of sizes by its content, so that a case holds the sizes.
 fn read_sizes(asked: &mut Table) -> Result<(), Halt> {
     let Some(Value::String(given)) = asked.get("size") else { return Ok(()) };
     let wrong = |e: String| Halt::Usage(format!("--size {given}: {e}"));
@@ -182,7 +185,7 @@ fn read_sizes(asked: &mut Table) -> Result<(), Halt> {
     Ok(())
 }
 
-/// Puts a pitch, or the places of a file, in the place of its text.
+/// Replaces the name of a file of places by its content.
 fn read_snap(asked: &mut Table) -> Result<(), Halt> {
     let Some(Value::String(given)) = asked.get("snap") else { return Ok(()) };
     let wrong = |e: String| Halt::Usage(format!("--snap {given}: {e}"));
@@ -209,7 +212,7 @@ fn input_format(name: &str) -> Result<Format, Halt> {
     })
 }
 
-/// The options of a file. What is wrong is pointed at.
+/// The options of a file. An error points to its place.
 fn read_config(path: &Path) -> Result<Options, Halt> {
     let shown = path.display().to_string();
     let text = std::fs::read_to_string(path).map_err(|e| Halt::Usage(format!("--config {shown}: {e}")))?;
@@ -229,7 +232,7 @@ fn read_config(path: &Path) -> Result<Options, Halt> {
 }
 
 impl Options {
-    /// Takes an entry of a file; what is wrong with it, and where.
+    /// Reads an entry of a file. The error has its place.
     fn take(
         &mut self,
         key: Spanned<DeString>,
@@ -257,7 +260,7 @@ impl Options {
     }
 }
 
-/// Says that there is no such option, and which one is the most alike.
+/// The message about an unknown option, with the most similar one.
 fn unknown(key: &str) -> String {
     let likeness = |option: &&Described| strsim::jaro_winkler(&option.key, key);
     let near = Request::options().iter().max_by(|a, b| likeness(a).total_cmp(&likeness(b)));
@@ -286,7 +289,7 @@ mod tests {
         let manner = ["config", "threads", "input-format"];
         let options = Request::options().iter().map(|option| option.key.as_str());
         assert_eq!(given, options.chain(manner).collect());
-        // A request has no key that is no option.
+        // A key of a request is an option, and nothing else.
         let written = toml::Table::try_from(Request::default()).unwrap();
         assert!(written.keys().all(|key| given.contains(key.as_str())), "{written:?}");
     }

@@ -1,5 +1,4 @@
-//! What an output is: a mesh file or a picture of the mesh, by which name it is asked for, and the files that it
-//! consists of.
+//! Outputs: mesh files or pictures of the mesh, their names, and the files of each.
 
 use super::Halt;
 use squinch::meshio;
@@ -12,7 +11,7 @@ use std::path::{Path, PathBuf};
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Output {
     Mesh(meshio::Format),
-    /// Holds no mesh.
+    /// A picture, which holds no mesh.
     Picture(picture::Format),
 }
 
@@ -48,7 +47,7 @@ impl Output {
         found.ok_or_else(|| format!("one of {}", Self::names()))
     }
 
-    /// The format of an output: as asked for, else by its suffix.
+    /// The format of an output: as given, else by its suffix.
     pub fn of(path: &Path, asked: Option<Self>) -> Result<Self, Halt> {
         let by_suffix = || {
             let mesh = meshio::Format::to_write(path).map(Self::Mesh);
@@ -64,8 +63,8 @@ impl Output {
         Ok(output)
     }
 
-    /// The files that an output consists of: the one named, or of a format of several those beside it. Where the first
-    /// keeps the name that was given, there is nothing beside it without a [`stem`].
+    /// The files of an output: the one named, and for some formats others beside it. Where the first file has the
+    /// user's name, the others need a [`stem`].
     pub fn files(self, path: &Path) -> Vec<PathBuf> {
         let several = self.suffixes();
         let as_named = match self {
@@ -88,7 +87,7 @@ impl Output {
         }
     }
 
-    /// A format that cannot hold what is asked for is refused before there is a mesh.
+    /// Refuses a format that cannot hold the requested order, before there is a mesh.
     pub fn hold_order(self, request: &Request) -> Result<(), Halt> {
         let order = u64::from(request.order);
         match self {
@@ -100,8 +99,8 @@ impl Output {
     }
 }
 
-/// The name without suffix by which files beside an output call it; `None` of a stream, and of a name that no text can
-/// hold.
+/// The name without suffix by which other files of an output refer to it; `None` for a stream, and for a name that is
+/// not text.
 pub fn stem(path: &Path) -> Option<String> {
     let is_stream =
         path.as_os_str() == "-" || fs::metadata(path).is_ok_and(|there| !there.is_file() && !there.is_dir());

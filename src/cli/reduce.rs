@@ -11,6 +11,7 @@ use squinch::run::request::Request;
 use squinch::run::{self, Exit};
 use std::path::{Path, PathBuf};
 
+/// Shrink a recorded run while it ends the same way
 #[derive(Args)]
 pub struct Reduce {
     /// A case file; - for standard input
@@ -19,22 +20,23 @@ pub struct Reduce {
     /// Where the smaller case goes, its input as an outline; - for standard output
     #[arg(short, long, value_name = "OUT")]
     output: PathBuf,
-    /// Runs after which to be content
+    /// Largest number of runs
     #[arg(long, value_name = "N", default_value_t = 2000)]
     runs: usize,
 }
 
 impl Reduce {
+    /// Reduces the case.
     pub fn run(self, volume: Volume) -> Result<Exit, Halt> {
         let (case, input) = replay::open(&self.case)?;
         if volume > Volume::Quiet {
             replay::tell_version(&case);
         }
         let drawing = case::caught(|| run::read(&input.source(), &case.request)).map_err(|panic| {
-            Halt::Unreadable(format!("the reader breaks down before there is a drawing to reduce: {panic}"))
+            Halt::Unreadable(format!("the reader fails before there is a drawing to reduce: {panic}"))
         })?;
         let drawing = drawing.map_err(|failure| Halt::Failure(Box::new(failure), Some(Box::new(input))))?;
-        // Unit and scale are in the drawing now.
+        // The drawing has unit and scale applied.
         let request = Request { unit: None, scale: None, ..case.request.clone() };
         let mut told = 0;
         let reduced = reduce(&drawing, &request, self.runs, &mut |runs, curves| {
@@ -46,7 +48,7 @@ impl Reduce {
         self.write(&reduced, &request)?;
         if volume > Volume::Quiet {
             say::line(&format!(
-                "{} of {} curves left after {} runs, which end alike: {}",
+                "{} of {} curves left after {} runs, each of which ended the same way: {}",
                 reduced.drawing.curves.len(),
                 drawing.curves.len(),
                 reduced.runs,

@@ -9,17 +9,18 @@ use squinch::run::case::Case;
 use squinch::run::{self, Exit, Extent};
 use std::path::{Path, PathBuf};
 
+/// Repeat a recorded run
 #[derive(Args)]
 pub struct Replay {
     /// A case file; - for standard input
     #[arg(value_name = "CASE")]
     case: PathBuf,
-    /// Stop after this many steps of the engine, and judge what there is
+    /// Stop after this many steps of the engine, and verify the mesh as it is then
     #[arg(long, value_name = "N")]
     until: Option<u64>,
 }
 
-/// Reads a case file: the record, and its input as if it had been read from a file.
+/// Reads a case file: the record, and its input as if read from a file.
 pub fn open(path: &Path) -> Result<(Case, Input), Halt> {
     let unreadable = |e: &dyn std::fmt::Display| Halt::Unreadable(format!("{}: {e}", path.display()));
     let bytes = files::read(path).map_err(|e| unreadable(&e))?;
@@ -35,7 +36,7 @@ pub fn open(path: &Path) -> Result<(Case, Input), Halt> {
     Ok((case, input))
 }
 
-/// Remarks on a case that another version recorded.
+/// A note about a case of another version.
 pub fn tell_version(case: &Case) {
     let ours = env!("CARGO_PKG_VERSION");
     if case.squinch != ours {
@@ -44,6 +45,7 @@ pub fn tell_version(case: &Case) {
 }
 
 impl Replay {
+    /// Repeats the run.
     pub fn run(self, volume: Volume) -> Result<Exit, Halt> {
         let (case, input) = open(&self.case)?;
         remember(&input, &case.request);

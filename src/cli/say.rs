@@ -1,4 +1,4 @@
-//! What people read on stderr: errors that point at the input, the summary, the progress.
+//! The text that people read on stderr: errors that point into the input, the summary, the progress.
 
 use super::files::Input;
 use super::output::Output;
@@ -17,14 +17,13 @@ use std::io::{self, IsTerminal, Write};
 use std::ops::Range;
 use std::time::{Duration, Instant};
 
-/// One line on stderr, [`harmless`]. A closed stderr is no reason to fail.
+/// Prints a line on stderr, [`harmless`]. Errors of a closed stderr are ignored.
 pub fn line(text: &str) {
     let _ = writeln!(io::stderr(), "{}", harmless(text));
 }
 
-/// A text as one line for people, whatever bytes of a file are in it: control characters, which could steer a terminal,
-/// are written by their numbers, and the middle of a text longer than anybody reads is left out. The door of all that
-/// people read; [`Ink`] goes through.
+/// A text as one line that is safe for a terminal. Control characters, which could steer a terminal, are written as
+/// numbers. The middle of a very long text is left out. All text for people goes through here; [`Ink`] passes.
 pub fn harmless(text: &str) -> String {
     const HEAD: usize = 3000;
     const TAIL: usize = 500;
@@ -39,11 +38,11 @@ pub fn harmless(text: &str) -> String {
         .collect()
 }
 
-/// A character that does nothing to a terminal but appear.
+/// A character without an effect on a terminal other than being shown.
 fn shown(c: char) -> String {
     match c {
         '\t' => " ".into(),
-        // Control characters, and those that turn the direction of writing.
+        // Control characters, and those that change the direction of writing.
         _ if c.is_control()
             || matches!(c, '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}') =>
         {
@@ -53,15 +52,17 @@ fn shown(c: char) -> String {
     }
 }
 
+/// Prints an error.
 pub fn error(text: &str) {
     line(&format!("{} {text}", Ink::stderr().red("error:")));
 }
 
+/// Prints advice.
 pub fn help(text: &str) {
     line(&format!("  {} {text}", Ink::stderr().dim("help:")));
 }
 
-/// Says why a verb ended early; the exit code that belongs to it.
+/// Prints why a verb ended early, and returns the exit code.
 pub fn halt(halt: Halt) -> Exit {
     match halt {
         Halt::Said(exit) => exit,
@@ -84,7 +85,7 @@ pub fn halt(halt: Halt) -> Exit {
     }
 }
 
-/// What stood in the way: with the line of the input where it is known, else with coordinates.
+/// Prints a failure: with the line of the input if it is known, else with coordinates.
 pub fn failure(report: &FailureReport, input: Option<&Input>) {
     if let (Some(input), Some(number)) = (input, report.line) {
         let text = String::from_utf8_lossy(&input.bytes);
@@ -98,7 +99,7 @@ pub fn failure(report: &FailureReport, input: Option<&Input>) {
     }
 }
 
-/// What is wrong, with the place where the words do not name it.
+/// What is wrong, with the place unless the text names it.
 pub fn located(what: &str, at: Option<[f64; 2]>) -> String {
     match at.map(place) {
         Some(place) if !what.contains(&place) => format!("{what} at {place}"),
@@ -106,9 +107,9 @@ pub fn located(what: &str, at: Option<[f64; 2]>) -> String {
     }
 }
 
-/// What was noticed of an input that failed, as far as a few lines tell it: it may be why.
+/// Prints a few lines about an input that failed, which may explain the failure.
 pub fn remarks(input: &InputReport, volume: Volume) {
-    // Otherwise nothing is said of it, or all.
+    // Quiet runs print none of this, and verbose runs print all of it elsewhere.
     if volume != Volume::Normal {
         return;
     }
@@ -117,12 +118,12 @@ pub fn remarks(input: &InputReport, volume: Volume) {
     repair_rows(&[], &input.unhealed, volume, &mut |name, text| row(name, text));
 }
 
-/// What of a mesh an output does not hold.
+/// Prints what an output does not hold of a mesh.
 pub fn losses(output: Output, losses: &[&str]) {
     losses.iter().for_each(|loss| line(&format!("  not kept by {}: {loss}", output.name())));
 }
 
-/// A message that points into a text.
+/// Prints a message that points into a text.
 pub fn pointing(what: &str, advice: Option<&str>, path: &str, text: &str, span: Range<usize>) {
     let (excerpt, span) = excerpt(text, span);
     let mut diagnostic = MietteDiagnostic::new(harmless(what)).with_label(LabeledSpan::at(span, "here"));
@@ -131,10 +132,10 @@ pub fn pointing(what: &str, advice: Option<&str>, path: &str, text: &str, span: 
     let _ = writeln!(io::stderr(), "{report:?}");
 }
 
-/// The line of a span and its neighbours, harmless and cut to what fits beside each other, below as many empty lines as
-/// stand before them; and where the span is in that.
+/// The line of a span and its neighbours, harmless and cut to a readable width, after as many empty lines as precede
+/// them; and the place of the span in that.
 fn excerpt(text: &str, span: Range<usize>) -> (String, Range<usize>) {
-    /// Characters shown of a line before the span, and from it on.
+    /// Number of characters of a line that are shown before the span, and from it on.
     const BEFORE: usize = 60;
     const FROM: usize = 100;
     let start = text[..span.start].rfind('\n').map_or(0, |i| i + 1);
@@ -157,7 +158,7 @@ fn excerpt(text: &str, span: Range<usize>) -> (String, Range<usize>) {
     (excerpt, at)
 }
 
-/// Bytes of a line counted from 1, from a column counted from 1 on.
+/// The bytes of a line (from 1), beginning at a column (from 1).
 fn span_of_line(text: &str, number: usize, column: Option<usize>) -> Range<usize> {
     let start: usize = text.split_inclusive('\n').take(number.saturating_sub(1)).map(str::len).sum();
     let length = text[start..].lines().next().map_or(0, str::len);
@@ -166,21 +167,23 @@ fn span_of_line(text: &str, number: usize, column: Option<usize>) -> Range<usize
     from..start + length
 }
 
-/// Colours, where they are seen.
+/// Colours, on a terminal.
 #[derive(Clone, Copy)]
 pub struct Ink(bool);
 
 impl Ink {
+    /// Colours for stderr.
     pub fn stderr() -> Self {
         Self(io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none())
     }
 
+    /// Colours for stdout.
     pub fn stdout() -> Self {
         Self(io::stdout().is_terminal() && std::env::var_os("NO_COLOR").is_none())
     }
 
-    /// What [`harmless`] makes of the characters that stand for colours until then: of no text's own, and no text can
-    /// steer by them.
+    /// The escape code of a character that stands for a colour. [`harmless`] replaces these noncharacters, which occur
+    /// in no valid text, so no text can steer a terminal by them.
     fn code(c: char) -> Option<&'static str> {
         match c {
             '\u{fdd0}' => Some("\x1b[0m"),
@@ -196,24 +199,28 @@ impl Ink {
         if self.0 { format!("{colour}{text}\u{fdd0}") } else { text.to_owned() }
     }
 
+    /// A text in red.
     pub fn red(self, text: &str) -> String {
         self.paint('\u{fdd1}', text)
     }
 
+    /// A text in green.
     pub fn green(self, text: &str) -> String {
         self.paint('\u{fdd2}', text)
     }
 
+    /// A bold text.
     pub fn bold(self, text: &str) -> String {
         self.paint('\u{fdd3}', text)
     }
 
+    /// A dim text.
     pub fn dim(self, text: &str) -> String {
         self.paint('\u{fdd4}', text)
     }
 }
 
-/// A count with thin groups of three: 1 234 567.
+/// A count with thin spaces between groups of three digits: 1 234 567.
 pub fn count(n: usize) -> String {
     let digits = n.to_string();
     let mut text = String::with_capacity(digits.len() + digits.len() / 3);
@@ -226,7 +233,7 @@ pub fn count(n: usize) -> String {
     text
 }
 
-/// A number to so many significant digits, without an exponent where it is read better so.
+/// A number with this many significant digits, without an exponent where that is readable.
 pub fn number(x: f64, digits: usize) -> String {
     let short = format!("{x:.*e}", digits.saturating_sub(1));
     match short.parse::<f64>() {
@@ -236,7 +243,7 @@ pub fn number(x: f64, digits: usize) -> String {
     }
 }
 
-/// A place to nine significant digits.
+/// A place with nine significant digits.
 pub fn place(at: impl Into<Place>) -> String {
     let coordinates: Vec<String> = at.into().coordinates().iter().map(|&x| number(x, 9)).collect();
     format!("({})", coordinates.join(", "))
@@ -247,7 +254,7 @@ pub fn plural(n: usize, one: &str, many: &str) -> String {
     format!("{} {}", count(n), if n == 1 { one } else { many })
 }
 
-/// "3 lines, 1 arc" of kinds and their counts.
+/// "3 lines, 1 arc" from kinds and their counts.
 pub fn kinds(kinds: &BTreeMap<&'static str, usize>) -> String {
     let parts: Vec<_> = kinds.iter().map(|(kind, n)| plural(*n, kind, &many(kind))).collect();
     if parts.is_empty() { "no curves".into() } else { parts.join(", ") }
@@ -261,7 +268,7 @@ fn many(kind: &str) -> String {
     }
 }
 
-/// "3 welds, 1 split" of repairs.
+/// "3 welds, 1 split" from repairs.
 fn repair_kinds(repairs: &[Repair]) -> String {
     let mut kinds: BTreeMap<RepairKind, usize> = BTreeMap::new();
     for repair in repairs {
@@ -272,20 +279,20 @@ fn repair_kinds(repairs: &[Repair]) -> String {
     parts.join(", ")
 }
 
-/// One line a repair.
+/// The line of one repair.
 fn repair_line(repair: &Repair) -> String {
     let size = if repair.size > 0.0 { format!(", by {}", number(repair.size, 3)) } else { String::new() };
     format!("{} {}{size}", place(repair.at), repair.what)
 }
 
-/// How a batch ended: how many inputs with each exit code, `earlier` of them in an earlier run.
+/// Prints the number of inputs with each exit code. `earlier` of them were done in an earlier run.
 pub fn batch(exits: &BTreeMap<u8, usize>, earlier: usize, seconds: f64) {
     let inputs: usize = exits.values().sum();
-    let before = if earlier > 0 { format!(", {} of them earlier", count(earlier)) } else { String::new() };
+    let before = if earlier > 0 { format!(", {} of them in an earlier run", count(earlier)) } else { String::new() };
     line(&format!("{} {}{before}, {seconds:.1} s", Ink::stderr().bold("squinch"), plural(inputs, "input", "inputs")));
     for (exit, n) in exits {
         let what = match exit {
-            0 => "done, every promise kept",
+            0 => "done, every guarantee holds",
             2 => "with options that do not fit",
             3 => "unreadable",
             4 => "geometry invalid",
@@ -297,7 +304,7 @@ pub fn batch(exits: &BTreeMap<u8, usize>, earlier: usize, seconds: f64) {
     }
 }
 
-/// The end of a run: what went in, what came out, what of it is promised. Without a mesh the failure says it all.
+/// Prints the end of a run: input, mesh and guarantees. Without a mesh the failure says all.
 pub fn summary(outcome: &Outcome, wrote: &[String], volume: Volume) {
     let report = &outcome.report;
     if volume == Volume::Quiet || report.mesh.is_none() && volume < Volume::Verbose {
@@ -318,10 +325,10 @@ pub fn summary(outcome: &Outcome, wrote: &[String], volume: Volume) {
                 plural(mesh.boundary_edges, "edge", "edges"),
             ),
         );
-        row("angles", &format!("{:.2}° to {:.2}°{}", quality.min_angle_deg, quality.max_angle_deg, excused(report)));
+        row("angles", &format!("{:.2}° to {:.2}°{}", quality.min_angle_deg, quality.max_angle_deg, exemptions(report)));
     }
     if let Some(verdict) = &outcome.verdict {
-        row("promise", &promise(verdict, ink));
+        row("checks", &guarantees(verdict, ink));
         let shown = verdict.checks.iter().filter(|c| volume == Volume::Verbose || c.status == Status::Broken);
         shown.for_each(|check| check_lines(check, ink).iter().for_each(|text| line(text)));
     }
@@ -349,11 +356,12 @@ fn input_rows(report: &Report, volume: Volume, row: &dyn Fn(&str, &str)) {
     repair_rows(&input.repairs, &input.unhealed, volume, &mut |name, text| row(name, text));
 }
 
-/// What was noticed of the input: a few notes or, where asked for, all.
+/// Prints notes about the input: a few, or all with `-v`.
 fn note_rows(notes: &[String], volume: Volume, row: &dyn Fn(&str, &str)) {
     const FEW: usize = 4;
     let shown = if volume == Volume::Verbose { notes.len() } else { FEW };
-    // What is said of an option (it begins with its dashes) is an answer to the command line: first, and all of it.
+    // Notes about an option (they begin with its dashes) answer the command line. They come first, and all of them are
+    // printed.
     let (answers, remarks): (Vec<&String>, Vec<&String>) = notes.iter().partition(|note| note.starts_with("--"));
     answers.iter().chain(remarks.iter().take(shown)).for_each(|note| row("note", note));
     if remarks.len() > shown {
@@ -361,7 +369,7 @@ fn note_rows(notes: &[String], volume: Volume, row: &dyn Fn(&str, &str)) {
     }
 }
 
-/// What was mended, and what by `--tolerance 0` was not: counted by kinds or, where asked for, one by one.
+/// Prints repairs, and those that `--tolerance 0` left: counted by kinds, or one by one with `-v`.
 pub fn repair_rows(repairs: &[Repair], unhealed: &[Repair], volume: Volume, row: &mut dyn FnMut(&str, &str)) {
     if volume == Volume::Verbose {
         repairs.iter().for_each(|repair| row("repair", &repair_line(repair)));
@@ -376,18 +384,19 @@ pub fn repair_rows(repairs: &[Repair], unhealed: &[Repair], volume: Volume, row:
     }
 }
 
-fn excused(report: &Report) -> String {
+/// How many triangles are exempt from the smallest angle, and the smallest angle of the others.
+fn exemptions(report: &Report) -> String {
     let (Some(quality), Some(promise)) = (&report.quality, &report.promise) else { return String::new() };
     let triangles = |n: usize| plural(n, "triangle", "triangles");
     let (by_size, corners): (Vec<_>, Vec<_>) = promise.excused.by_corner.iter().partition(|e| e.why == "min_edge");
-    let cells = |excuses: &[&Exemption]| excuses.iter().map(|e| e.cells.len()).sum::<usize>();
+    let cells = |exempt: &[&Exemption]| exempt.iter().map(|e| e.cells.len()).sum::<usize>();
     let mut parts = Vec::new();
     if !corners.is_empty() {
         let places = plural(corners.len(), "sharp corner", "sharp corners");
         parts.push(format!("{} at {places}", triangles(cells(&corners))));
     }
     if !by_size.is_empty() {
-        parts.push(format!("{} left alone for --min-edge", triangles(cells(&by_size))));
+        parts.push(format!("{} not refined because of --min-edge", triangles(cells(&by_size))));
     }
     match parts.is_empty() {
         true => String::new(),
@@ -395,8 +404,8 @@ fn excused(report: &Report) -> String {
     }
 }
 
-/// "kept (3 proven, 2 reached)" or what is broken.
-pub fn promise(verdict: &Verdict, ink: Ink) -> String {
+/// "every guarantee holds, 3 proven; reached, not proven: …", or the broken checks.
+pub fn guarantees(verdict: &Verdict, ink: Ink) -> String {
     let names = |status: Status| -> Vec<&str> {
         verdict.checks.iter().filter(|c| c.status == status).map(|c| c.name).collect()
     };
@@ -408,10 +417,10 @@ pub fn promise(verdict: &Verdict, ink: Ink) -> String {
     let proven = names(Status::Proven).len();
     let rest =
         if reached.is_empty() { String::new() } else { format!("; reached, not proven: {}", reached.join(", ")) };
-    format!("{}, {proven} proven{rest}", ink.green("kept"))
+    format!("{}, {proven} proven{rest}", ink.green("every guarantee holds"))
 }
 
-/// A check with its worst value and the first of its flaws.
+/// The lines of a check: its worst value and its first flaws.
 pub fn check_lines(check: &Check, ink: Ink) -> Vec<String> {
     let status = match check.status {
         Status::Proven => ink.green("proven "),
@@ -437,15 +446,15 @@ fn stop_row(report: &Report, row: &dyn Fn(&str, &str)) {
         StopReason::VertexBudget => "the vertex budget ran out",
         StopReason::Cancelled => "it was cancelled",
         StopReason::TimedOut => "the time ran out",
-        StopReason::Arithmetic => "coordinates cannot be told apart any more",
+        StopReason::Arithmetic => "the coordinates cannot hold a finer mesh",
         StopReason::NoProgress => "the angles got no larger",
     };
     let place = stop.places.first().map_or_else(String::new, |at| format!(", one at {}", place(*at)));
     row("stopped", &format!("{reason}; {} unresolved{place}", plural(stop.unresolved, "cell", "cells")));
     let held = report.quality.as_ref().map(|quality| quality.min_unexcused_angle_deg);
     if let (Some(angle), Some(held)) = (stop.angle_deg, held) {
-        let held = format!("the mesh holds {:.2}° outside of excused places", (held * 100.0).floor() / 100.0);
-        row("", &format!("{held}: --min-angle {angle} asks for no more, and is kept"));
+        let held = format!("the mesh has {:.2}° or more outside of exempt places", (held * 100.0).floor() / 100.0);
+        row("", &format!("{held}; --min-angle {angle} asks for no more than that"));
     }
 }
 
@@ -458,7 +467,7 @@ fn time(report: &Report) -> String {
     )
 }
 
-/// A line of progress where stderr is a terminal and the work lasts.
+/// A progress line, on a terminal and for work that lasts.
 pub struct Bar {
     begun: Instant,
     bar: Option<ProgressBar>,
@@ -466,13 +475,15 @@ pub struct Bar {
 }
 
 impl Bar {
-    /// Work shorter than this is over before a line is read.
+    /// Shorter work needs no progress line.
     const PATIENCE: Duration = Duration::from_millis(400);
 
+    /// A bar that is not shown yet.
     pub fn new(volume: Volume) -> Self {
         Self { begun: Instant::now(), bar: None, shown: volume > Volume::Quiet && io::stderr().is_terminal() }
     }
 
+    /// Shows progress.
     pub fn tell(&mut self, progress: &Progress) {
         if !self.shown || self.begun.elapsed() < Self::PATIENCE {
             return;
@@ -488,10 +499,11 @@ impl Bar {
     }
 }
 
-/// How many inputs of a batch are done, while it lasts.
+/// The number of inputs of a batch that are done.
 pub struct Count(Option<ProgressBar>);
 
 impl Count {
+    /// A bar for this number of inputs.
     pub fn new(volume: Volume, inputs: usize) -> Self {
         let shown = volume > Volume::Quiet && io::stderr().is_terminal();
         Self(shown.then(|| {
@@ -502,15 +514,16 @@ impl Count {
         }))
     }
 
+    /// Counts an input.
     pub fn one_more(&self) {
         if let Some(bar) = &self.0 {
             bar.inc(1);
         }
     }
 
-    /// Says above the bar how an input failed.
+    /// Prints above the bar how an input failed.
     pub fn failed(&self, input: &str, ending: &str, advice: &str) {
-        // Where the file itself cannot be read, the words begin with its name.
+        // If the file itself cannot be read, the message begins with its name.
         let named = if ending.starts_with(input) { String::new() } else { format!("{input}: ") };
         let say = || {
             error(&format!("{named}{ending}"));

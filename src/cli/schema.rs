@@ -1,4 +1,4 @@
-//! `schema`: the JSON schemas of what is read and written as JSON.
+//! `schema`: the JSON schemas of all JSON that squinch reads and writes.
 
 use super::{Halt, batch, files};
 use clap::{Args, ValueEnum};
@@ -7,9 +7,10 @@ use squinch::import::outline;
 use squinch::run::Exit;
 use squinch::run::report::{Report, schema_of};
 
+/// The JSON schemas of outlines, reports and batch lines
 #[derive(Args)]
 pub struct Schema {
-    /// One of them; all under their names where none is named
+    /// Which schema; all of them under their names where none is named
     #[arg(value_enum, value_name = "WHICH")]
     which: Option<Which>,
 }
@@ -25,6 +26,7 @@ enum Which {
 }
 
 impl Schema {
+    /// Prints the schemas.
     pub fn run(self) -> Result<Exit, Halt> {
         let schemas = match self.which {
             Some(which) => which.schema(),

@@ -1,11 +1,11 @@
-//! What a picture shows, as options say it: colours, and the window.
+//! Options of pictures: colours, and the window.
 
 use clap::ValueEnum;
 use serde::Serialize;
 use squinch::geometry::Rect;
 use squinch::picture::MeshColour;
 
-/// What triangles are coloured by.
+/// What colours the triangles.
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Colour {
@@ -17,18 +17,20 @@ pub enum Colour {
 }
 
 impl Colour {
+    /// The colouring of a mesh.
     pub fn of_mesh(self) -> MeshColour {
         match self {
             Self::Quality => MeshColour::Quality,
             Self::Region => MeshColour::Region,
             Self::Size => MeshColour::Size,
             Self::Paint => MeshColour::Paint,
-            // Of drawings only; a mesh has regions.
+            // Layers colour drawings only. A mesh is coloured by region.
             Self::Layer => MeshColour::Region,
         }
     }
 }
 
+/// Parses a window.
 pub fn window(text: &str) -> Result<Rect, String> {
     let numbers: Result<Vec<f64>, _> = text.split(',').map(|part| part.trim().parse::<f64>()).collect();
     match numbers.as_deref() {

@@ -14,7 +14,7 @@ use squinch::picture::{MeshColour, PictureOptions, picture_of_mesh};
 use std::io;
 use std::path::Path;
 
-/// How meshes are written where a format, or a reader of it, leaves a choice.
+/// Choices of writing, where a format or a reader of it leaves one.
 #[derive(Args, Clone, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub struct Writing {
@@ -39,13 +39,13 @@ pub struct Writing {
     view: Option<Rect>,
 }
 
-/// A window as it is given.
+/// A window in the form in which it is given.
 fn corners<S: serde::Serializer>(view: &Option<Rect>, serializer: S) -> Result<S::Ok, S::Error> {
     view.map(|r| [r.x0, r.y0, r.x1, r.y1]).serialize(serializer)
 }
 
 impl Writing {
-    /// What meshes do not have is refused before there is one.
+    /// Refuses `--colour layer`, which meshes do not have, before there is a mesh.
     pub fn check(&self) -> Result<(), Halt> {
         match self.colour {
             Colour::Layer => Err(Halt::Usage(
@@ -66,12 +66,12 @@ impl Writing {
         }
     }
 
-    /// What triangles of a picture are coloured by, and how it is made.
+    /// The colouring and the options of a picture.
     fn picture(&self) -> (MeshColour, PictureOptions) {
         (self.colour.of_mesh(), PictureOptions { view: self.view, ..PictureOptions::default() })
     }
 
-    /// What of this mesh an output does not hold.
+    /// What an output does not hold of this mesh.
     pub fn losses(&self, output: Output, mesh: &Mesh, path: &Path) -> Vec<&'static str> {
         match output {
             Output::Mesh(format) => format.losses(mesh, &self.options(path)),
@@ -79,7 +79,7 @@ impl Writing {
         }
     }
 
-    /// The bytes of each file of an output. Pictures have the exact curves where the domain is given.
+    /// The bytes of each file of an output. Pictures show the exact curves if the domain is given.
     pub fn encode(
         &self,
         output: Output,
@@ -97,7 +97,7 @@ impl Writing {
         }
     }
 
-    /// Says which of the options given none of the outputs has a use for.
+    /// Reports options that no output uses.
     pub fn tell_unused(&self, outputs: &[Output], volume: Volume) {
         let leaves = |choice| outputs.iter().any(|output| matches!(output, Output::Mesh(f) if f.leaves(choice)));
         let pictures = outputs.iter().any(|output| matches!(output, Output::Picture(_)));

@@ -1,4 +1,4 @@
-//! Part of a circle.
+//! A part of a circle.
 
 use super::kind::Kind;
 use super::span::Span;
@@ -14,16 +14,17 @@ fn on_circle(angle: f64) -> (Vec2, Vec2) {
     (Vec2::new(cos, sin), Vec2::new(-sin, cos))
 }
 
-/// What an affine map does that is a similarity.
+/// The parts of an affine map that is a similarity.
 pub(super) struct SimilarityOf {
+    /// The factor of all lengths.
     pub scale: f64,
-    /// Where the x axis is turned to.
+    /// The direction of the image of the x axis, in radians.
     pub turn_rad: f64,
-    /// 1, or −1 where it mirrors.
+    /// 1, or −1 for a map that mirrors.
     pub hand: f64,
 }
 
-/// The similarity that a map is, up to 4 ulp; `None` where it is none.
+/// The map as a similarity, if it is one up to 4 units in the last place.
 pub(super) fn similarity_of(map: kurbo::Affine) -> Option<SimilarityOf> {
     let [a, b, c, d, _, _] = map.as_coeffs();
     let scale = length(Vec2::new(a, b));
@@ -39,6 +40,7 @@ pub(super) fn similarity_of(map: kurbo::Affine) -> Option<SimilarityOf> {
 }
 
 impl CircularArc {
+    /// See [`Curve::arc`](super::Curve::arc).
     pub(super) fn new(center: Point, radius: f64, start_rad: f64, sweep_rad: f64) -> Result<Self, CurveError> {
         check_finite([center.x, center.y, radius, start_rad, sweep_rad])?;
         if radius <= 0.0 {
@@ -51,7 +53,15 @@ impl CircularArc {
         Ok(CircularArc { center, radius, start_rad, sweep_rad, ends: [start, end] })
     }
 
-    /// The arc over a chord; the sweep is neither 0 nor a full turn.
+    /// The arc with the given ends and sweep, which is neither 0 nor a full turn.
+    ///
+    /// ```text
+    ///            ╭───────╮            The angle between the chord and the tangents at both ends is half the sweep; the
+    ///     start ●─────────● end       distance of the center from the chord's middle is ½ |chord| cos(½ sweep) / sin(½
+    ///            ╲       ╱            sweep).
+    ///              ╲   ╱
+    ///                · center
+    /// ```
     pub(super) fn over_chord(start: Point, end: Point, sweep_rad: f64) -> Result<Self, CurveError> {
         check_finite([start.x, start.y, end.x, end.y, sweep_rad])?;
         let chord = end - start;
@@ -63,14 +73,14 @@ impl CircularArc {
         let to_center = Vec2::new(-chord.y, chord.x) * (0.5 * cos / sin);
         let center = start + (chord * 0.5 + to_center);
         check_finite([center.x, center.y])?;
-        // Halfway the tangent is parallel to the chord.
+        // At the middle of the arc the tangent is parallel to the chord.
         let start_rad = libm::atan2(chord.y, chord.x) - 0.5 * sweep_rad - FRAC_PI_2.copysign(sweep_rad);
         Ok(CircularArc { center, radius, start_rad, sweep_rad, ends: [start, end] })
     }
 
-    /// Whether the ends lie off the circle by more than rounding explains, as an arc of more than half a circle is left
-    /// where its ends were moved ([`Curve::with_ends`](super::Curve::with_ends)): the rest of it winds from one to the
-    /// other. Its parts of up to half a circle are arcs of circles of their own.
+    /// Whether the ends lie off the circle by more than rounding. Such is the result where the ends of an arc of more
+    /// than half a circle were moved ([`Curve::with_ends`](super::Curve::with_ends)): the arc winds from one end to the
+    /// other. Its parts of up to half a circle are arcs of other circles.
     pub(crate) fn is_spiral(&self) -> bool {
         let slack = 64.0 * f64::EPSILON * (self.center.x.abs() + self.center.y.abs() + self.radius);
         let angles = [self.start_rad, self.start_rad + self.sweep_rad];
@@ -85,7 +95,7 @@ impl CircularArc {
         EllipticArc { center, u, v, start_rad, sweep_rad, ends }
     }
 
-    /// The image under a similarity (up to 4 ulp); `None` where the map is none.
+    /// The image under a similarity (up to 4 units in the last place); `None` where the map is none.
     fn image(&self, map: kurbo::Affine) -> Option<Self> {
         let SimilarityOf { scale, turn_rad, hand } = similarity_of(map)?;
         let (start_rad, sweep_rad) = (turn_rad + self.start_rad * hand, self.sweep_rad * hand);
@@ -98,8 +108,8 @@ impl CircularArc {
         on_circle(self.start_rad + self.sweep_rad * t).1 * 1f64.copysign(self.sweep_rad)
     }
 
-    /// Candidates for the nearest point: the two where the circle's normal passes through p, by their angles from the
-    /// start, which keep their digits however flat the arc is.
+    /// Candidates for the nearest point: the two where the circle's normal passes through p. They are computed by their
+    /// angles from the start, which stay accurate however flat the arc is.
     fn normals_through(&self, p: Point, t0: f64, t1: f64) -> Vec<f64> {
         let outward = on_circle(self.start_rad).0;
         let offset = p - self.ends[0];
@@ -107,8 +117,9 @@ impl CircularArc {
         passages(0.0, self.sweep_rad, angle, PI, t0, t1)
     }
 
-    /// Where the line meets the circle: with u = tan(φ/2) of the angle φ from the start, h the distance of the start
-    /// from the line and n the line's unit normal, (h/R − 2 n·e) u² + 2 (n·e⊥) u + h/R = 0.
+    /// The parameters where the line meets the circle. Let u = tan(φ/2) for the angle φ from the start, h the signed
+    /// distance of the start from the line, n the line's unit normal and e the unit vector from the center to the
+    /// start. Then (h/R − 2 n·e) u² + 2 (n·e⊥) u + h/R = 0.
     fn circle_crossings(&self, a: Point, direction: Vec2, t0: f64, t1: f64) -> Vec<f64> {
         let normal = Vec2::new(-direction.y, direction.x) / length(direction);
         let (outward, along) = on_circle(self.start_rad);
@@ -118,7 +129,7 @@ impl CircularArc {
         if discriminant <= 0.0 || discriminant.is_nan() {
             return Vec::new();
         }
-        // The sum without cancellation; the other root by the product of the two.
+        // The sum without cancellation; the other root follows from the product of the two.
         let sum = -(half_linear + discriminant.sqrt().copysign(half_linear));
         let mut found = passages(0.0, self.sweep_rad, 2.0 * libm::atan2(sum, square), TAU, t0, t1);
         found.extend(passages(0.0, self.sweep_rad, 2.0 * libm::atan2(start, sum), TAU, t0, t1));
@@ -126,7 +137,7 @@ impl CircularArc {
         found
     }
 
-    /// One Newton step from a parameter near the foot of the perpendicular from p, where it comes nearer.
+    /// One Newton step from a parameter near the foot of the perpendicular from p, if the step decreases the distance.
     fn polished_foot(&self, p: Point, t: f64, t0: f64, t1: f64) -> f64 {
         let (offset, d, dd) = (self.point(t) - p, self.derivative(t), self.second_derivative(t));
         let step = offset.dot(d) / (d.dot(d) + offset.dot(dd));
@@ -142,8 +153,9 @@ impl Kind for CircularArc {
     fn ends(&self) -> [Point; 2] {
         self.ends
     }
-    /// Up to half a circle the point comes from the chord and the sweep alone, so it is as exact as the ends however
-    /// far away the center of a flat arc is; beyond that the ends' rounding is spread along the arc.
+    /// Up to half a circle the point is computed from the chord and the sweep alone. So it is as accurate as the ends,
+    /// however distant the center of a flat arc is. Beyond half a circle the rounding of the ends is spread along the
+    /// arc.
     fn inner_point(&self, t: f64) -> Point {
         let [start, end] = self.ends;
         let half = 0.5 * self.sweep_rad;
@@ -191,7 +203,7 @@ impl Kind for CircularArc {
         let (center, radius) = (scale(self.center), self.radius * factor);
         Curve::Arc(CircularArc { center, radius, ends: self.ends.map(scale), ..*self })
     }
-    /// Part of an ellipse where the map is no similarity.
+    /// A part of an ellipse where the map is no similarity.
     fn transformed(&self, map: kurbo::Affine) -> Curve {
         self.image(map).map_or_else(|| self.elliptic().transformed(map), Curve::Arc)
     }
@@ -199,7 +211,7 @@ impl Kind for CircularArc {
         let (center, radius) = (map.point(self.center), self.radius * map.scale());
         Curve::Arc(CircularArc { center, radius, start_rad: self.start_rad + map.turn_rad(), ends, ..*self })
     }
-    /// The circle moves by the mean of both, and [`Kind::inner_point`] spreads the rest.
+    /// The circle moves by the mean of both moves, and [`Kind::inner_point`] spreads the rest.
     fn spread(&self, moves: [Vec2; 2], ends: [Point; 2]) -> Curve {
         Curve::Arc(CircularArc { center: self.center + spread_to(moves, 0.5), ends, ..*self })
     }
@@ -267,7 +279,7 @@ impl Kind for CircularArc {
     }
     fn leaves_ball(&self, end: End, radius: f64, t0: f64, t1: f64) -> Option<f64> {
         let sine = radius / (2.0 * self.radius);
-        // asin of a rounded quotient: some ulp past the end still is the end.
+        // The quotient is rounded: a few units in the last place beyond the end count as the end.
         let slack = 1.0 + 4.0 * f64::EPSILON;
         if !(0.0..=slack).contains(&sine) {
             return None;

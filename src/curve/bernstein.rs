@@ -1,17 +1,26 @@
 //! Polynomials in Bernstein form over [0, 1]: values, products, subdivision, and sign changes by Descartes' rule.
 //!
-//! The number of sign variations of the coefficients bounds the number of roots and has its parity (Lane & Riesenfeld
-//! 1981), so halving until a piece has none or one isolates every sign change, for any degree.
+//! The number of sign variations of the coefficients is an upper bound of the number of roots in (0, 1), and has the
+//! same parity (variation diminishing; Lane & Riesenfeld 1981). So halving until each part has at most one variation
+//! isolates every sign change, for any degree.
+//!
+//! ```text
+//!   c₀ ●             ● c₃       The polynomial crosses 0 at most as often as its control polygon c₀ … c₃. The signs +
+//!       ╲           ╱           − − + have two variations: no root or two. Halved at ½, the coefficients of the left
+//!   ─────╲─────────╱───── 0     part go from + to − once, those of the right part from − to + once: one root each.
+//!         ●───────●
+//!        c₁       c₂
+//! ```
 
 use crate::geometry::Vec2;
 use std::borrow::Cow;
 use std::ops::{Add, Mul, Sub};
 
-/// Rows of Pascal's triangle that are kept.
+/// Rows of Pascal's triangle that are stored.
 const ROWS: usize = 48;
-/// Coefficients that are collapsed on the stack.
+/// The largest number of coefficients that are evaluated on the stack.
 const SMALL: usize = 16;
-/// Pieces that a search for sign changes may look at: 50 halvings for each of some dozens of roots.
+/// The budget of parts in a search for sign changes: 50 halvings for each of some dozens of roots.
 const PIECE_BUDGET: usize = 1 << 13;
 
 static PASCAL: [[f64; ROWS]; ROWS] = pascal();
@@ -41,17 +50,17 @@ fn binomials(n: usize, scale: f64) -> Vec<f64> {
     row
 }
 
-/// What coefficients may be: numbers, vectors, homogeneous points.
+/// The types of coefficients: numbers, vectors, homogeneous points.
 pub(super) trait Coefficient: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<f64, Output = Self> {}
 impl<T: Copy + Add<Output = T> + Sub<Output = T> + Mul<f64, Output = T>> Coefficient for T {}
 
-/// Exact at t = 0 and t = 1.
+/// a + t (b − a), exact at t = 0 and t = 1.
 fn lerp<T: Coefficient>(a: T, b: T, t: f64) -> T {
     a * (1.0 - t) + b * t
 }
 
-/// Value at t of the polynomial with `count` ≥ 1 coefficients: by de Casteljau's algorithm, or, where there are many,
-/// in linear time.
+/// The value at t of the polynomial with `count` ≥ 1 coefficients: by de Casteljau's algorithm, or in linear time where
+/// there are many.
 pub(super) fn value_by<T: Coefficient>(count: usize, coefficient: impl Fn(usize) -> T, t: f64) -> T {
     if count <= SMALL {
         let mut b = [coefficient(0); SMALL];
@@ -64,9 +73,9 @@ pub(super) fn value_by<T: Coefficient>(count: usize, coefficient: impl Fn(usize)
     }
 }
 
-/// Value at t as the mean of the coefficients, weighted by the Bernstein polynomials of degree n. Their ratios are
-/// followed both ways from the greatest: the weights are at most 1 and each is right to 3n roundings, as in de
-/// Casteljau's algorithm, for n steps instead of n²/2.
+/// The value at t as the mean of the coefficients, weighted by the Bernstein polynomials of degree n. The weights
+/// follow from their ratios, in both directions from the greatest one. So they are at most 1, and each is accurate to
+/// 3n roundings, as in de Casteljau's algorithm, in n steps instead of n²/2.
 fn mean_from_mode<T: Coefficient>(n: usize, coefficient: impl Fn(usize) -> T, t: f64) -> T {
     let mode = (((n + 1) as f64 * t) as usize).min(n);
     let (mut sum, mut total) = (coefficient(mode), 1.0);
@@ -83,6 +92,7 @@ fn mean_from_mode<T: Coefficient>(n: usize, coefficient: impl Fn(usize) -> T, t:
     sum * (1.0 / total)
 }
 
+/// The value at t of the polynomial with coefficients `c`.
 pub(super) fn value<T: Coefficient>(c: &[T], t: f64) -> T {
     value_by(c.len(), |i| c[i], t)
 }
@@ -115,7 +125,7 @@ pub(super) fn restricted<T: Coefficient>(c: &[T], t0: f64, t1: f64) -> Vec<T> {
     if t0 > 0.0 { split(&head, t0 / t1.min(1.0)).1 } else { head }
 }
 
-/// The derivative's coefficients (of a constant: one zero).
+/// The coefficients of the derivative (for a constant: one zero).
 pub(super) fn derivative<T: Coefficient>(c: &[T]) -> Vec<T> {
     let degree = (c.len() - 1) as f64;
     if c.len() == 1 {
@@ -140,8 +150,8 @@ pub(super) fn product<A: Copy, B: Copy, C: Coefficient>(a: &[A], b: &[B], times:
         .collect()
 }
 
-/// [`product`] where the binomial coefficients are many and large: they are scaled by powers of two about their middle
-/// size, and the sums run side by side.
+/// [`product`] for high degrees, where the binomial coefficients are large: they are scaled by powers of two to a
+/// middle size, and the sums are built in parallel.
 fn long_product<A: Copy, B: Copy, C: Coefficient>(a: &[A], b: &[B], times: impl Fn(A, B) -> C) -> Vec<C> {
     let (n, m) = (a.len() - 1, b.len() - 1);
     let [scale_a, scale_b] = [n, m].map(|n| libm::exp2(-((n / 2) as f64)));
@@ -169,10 +179,12 @@ pub(super) fn over_one_minus_t(c: &[f64]) -> Vec<f64> {
     (0..n).map(|i| c[i] * n as f64 / (n - i) as f64).collect()
 }
 
+/// The largest absolute value of the coefficients.
 pub(super) fn largest(c: &[f64]) -> f64 {
     c.iter().fold(0.0, |m, v| m.max(v.abs()))
 }
 
+/// The largest length of the coefficients.
 pub(super) fn longest(c: &[Vec2]) -> f64 {
     c.iter().fold(0.0, |m, v| m.max(super::length(*v)))
 }
@@ -180,12 +192,16 @@ pub(super) fn longest(c: &[Vec2]) -> f64 {
 /// An interval over which a function changes sign once (or an odd number of times).
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SignChange {
+    /// The start of the interval.
     pub lo: f64,
+    /// The end of the interval; may equal `lo`.
     pub hi: f64,
+    /// Whether the sign changes from negative to positive.
     pub rising: bool,
 }
 
-/// Signs of the coefficients beyond `noise`: the first, the last, and how often they change. `None` of noise alone.
+/// The signs of the coefficients above `noise`: whether the first and the last are positive, and the number of
+/// variations. `None` where all are noise.
 pub(super) fn variations(c: &[f64], noise: f64) -> Option<(bool, bool, usize)> {
     let mut signs = c.iter().filter(|v| v.abs() > noise).map(|v| *v > 0.0);
     let first = signs.next()?;
@@ -198,10 +214,10 @@ pub(super) fn variations(c: &[f64], noise: f64) -> Option<(bool, bool, usize)> {
     Some((first, last, count))
 }
 
-/// Where the polynomial changes sign in [0, 1], ascending; values within `noise` of zero have no sign. A double root is
-/// no change.
+/// Intervals in which the polynomial changes sign in [0, 1], ascending. Values within `noise` of zero have no sign. A
+/// double root is no change.
 pub(super) fn sign_changes(c: &[f64], noise: f64) -> Vec<SignChange> {
-    /// Halvings after which a piece holds no parameter between its ends but rounding.
+    /// After this many halvings there is no number between the ends of a part.
     const DEPTH: u32 = 52;
     let mut found = Vec::new();
     let mut before: Option<(bool, f64)> = None;
@@ -240,8 +256,8 @@ pub(super) fn roots(c: &[f64], noise: f64) -> Vec<f64> {
     found
 }
 
-/// The root of `f` in an interval over which it changes sign: Chandrupatla's method (1997), a bisection that is quick
-/// where it can be.
+/// The root of `f` in an interval over which it changes sign, by Chandrupatla's method (1997): bisection, with inverse
+/// quadratic interpolation where that is safe.
 pub(super) fn crossing(f: impl Fn(f64) -> f64, change: &SignChange) -> f64 {
     /// Bisection alone needs 1075 − 52 halvings at worst to reach the last bit next to zero; 200 reach 1e-60.
     const BUDGET: usize = 200;
@@ -252,12 +268,13 @@ pub(super) fn crossing(f: impl Fn(f64) -> f64, change: &SignChange) -> f64 {
     if hi <= lo {
         return lo;
     }
-    // The signs inside are known even where the value at an end is zero or lost in rounding (another root lies there).
+    // The signs inside the interval are given by `change`, even where the value at an end is 0 or below rounding
+    // (another root lies there).
     match (fa < 0.0, fb > 0.0) {
         (true, true) => {}
         (true, false) => fb = -fa,
         (false, true) => fa = -fb,
-        // Both are lost: as large as between them, so that the same steps are taken at every scale.
+        // Both values are lost: the value between them replaces them, so that the steps are the same at every scale.
         (false, false) => {
             fb = f(0.5 * (a + b)).abs().max(f64::MIN_POSITIVE);
             fa = -fb;

@@ -1,6 +1,6 @@
 //! A Bézier curve of any degree, polynomial or rational.
 //!
-//! All arithmetic is on differences from a nearby point, so a far offset costs one rounding at the end.
+//! All arithmetic uses differences from a nearby point, so a distant origin costs only one rounding at the end.
 
 use super::bernstein;
 use super::kind::Kind;
@@ -12,12 +12,13 @@ use super::{Bezier, Curve, CurveError, End, check_finite, check_points, length, 
 use crate::geometry::{Point, Vec2, scaled, unit_scale};
 use std::borrow::Cow;
 
-/// Above this, binomial coefficients of the products (three times the degree) leave the range of `f64`.
+/// The largest degree. Above it, binomial coefficients of the products (three times the degree) exceed the range of
+/// `f64`.
 const DEGREE_MAX: usize = 300;
 
 impl Bezier {
-    /// Whether all control points, and so the curve, lie on one side of the line through `a` along `direction`, clear
-    /// of rounding.
+    /// Whether all control points, and so the curve, lie on one side of the line through `a` along `direction`, farther
+    /// from it than rounding.
     pub(super) fn is_beside_line(&self, a: Point, direction: Vec2) -> bool {
         let farthest = self.points.iter().map(|p| (*p - a).hypot()).fold(0.0, f64::max);
         let clear = 64.0 * f64::EPSILON * farthest * direction.hypot();
@@ -26,6 +27,7 @@ impl Bezier {
         sides.all(|side| side.abs() > clear && (side > 0.0) == (first > 0.0))
     }
 
+    /// A Bézier curve from control points and weights, as in [`Curve::rational_bezier`]; the weights are not evened.
     pub(super) fn new(points: Vec<Point>, weights: Option<Vec<f64>>) -> Result<Self, CurveError> {
         check_points(&points)?;
         if !(2..=DEGREE_MAX + 1).contains(&points.len()) {
@@ -35,7 +37,8 @@ impl Bezier {
         if let Some(weights) = &weights {
             check_weights(weights, points.len())?;
         }
-        // Equal weights say nothing; a common factor neither, and products of weights must stay in range.
+        // Equal weights are dropped. A common factor has no effect, so it is chosen to keep products of weights in
+        // range.
         let weights = weights.filter(|w| w.iter().any(|v| *v != w[0])).map(|mut w| {
             let scale = unit_scale(bernstein::largest(&w));
             w.iter_mut().for_each(|v| *v *= scale);
@@ -44,6 +47,7 @@ impl Bezier {
         Ok(Bezier { points, weights })
     }
 
+    /// The degree: the number of control points minus one.
     pub(super) fn degree(&self) -> usize {
         self.points.len() - 1
     }
@@ -52,7 +56,7 @@ impl Bezier {
         Weighted { at: (self.points[i] - self.points[0]) * weights[i], weight: weights[i] }
     }
 
-    /// The point at t; an end where t is not inside.
+    /// The point at t; exactly an end where t ≤ 0 or t ≥ 1.
     pub(super) fn at(&self, t: f64) -> Point {
         let first = self.points[0];
         if t <= 0.0 {
@@ -79,8 +83,9 @@ impl Bezier {
         }
     }
 
-    /// Coefficients of a polynomial vector in the direction of the derivative: the derivative over the degree n, or
-    /// that times the squared denominator, (W N′ − N W′)/n = Σ wᵢ wⱼ₊₁ (Pⱼ₊₁ − Pᵢ) over the products of degree n − 1.
+    /// The coefficients of a polynomial vector in the direction of the derivative. For a polynomial curve it is the
+    /// derivative over the degree n. For a rational curve that is multiplied by the squared denominator: (W N′ − N
+    /// W′)/n = Σ wᵢ wⱼ₊₁ (Pⱼ₊₁ − Pᵢ), over the products of degree n − 1.
     pub(super) fn hodograph(&self) -> Vec<Vec2> {
         let p = &self.points;
         let Some(w) = &self.weights else {
@@ -90,11 +95,12 @@ impl Bezier {
         bernstein::product(&indices[..self.degree()], &indices[1..], |i, j| (p[j] - p[i]) * (w[i] * w[j]))
     }
 
-    /// How far a coefficient of the hodograph may be off because control points are rounded numbers.
+    /// The error of a coefficient of the hodograph that comes from the rounding of control points.
     pub(super) fn hodograph_noise(&self) -> f64 {
         let largest = self.points.iter().fold(0.0f64, |m, p| m.max(p.x.abs()).max(p.y.abs()));
         let weight = self.weights.as_ref().map_or(1.0, |w| w.iter().fold(0.0f64, |m, v| m.max(*v)));
-        // A difference of two points, each off by √2 · ½ ulp as given and once more where a part was cut or welded.
+        // A coefficient is a difference of two points. Each has an error of √2 · ½ units in the last place as given,
+        // and once more where a part was cut or welded.
         4.0 * f64::EPSILON * largest * weight * weight
     }
 
@@ -108,6 +114,7 @@ impl Bezier {
         Bezier { points, weights: polygon.weights() }
     }
 
+    /// The same curve followed the other way.
     pub(super) fn turned_round(&self) -> Self {
         let mut reversed = self.clone();
         reversed.points.reverse();
@@ -117,18 +124,19 @@ impl Bezier {
         reversed
     }
 
-    /// Moves of the ends spread by the parameter, of which the curve runs over t0..t1.
+    /// The span of a longer curve over its t0..t1, with the moves of that curve's ends spread by the parameter.
     pub(super) fn spread_over(&self, moves: [Vec2; 2], [t0, t1]: [f64; 2]) -> Self {
         let mut moved = self.clone();
         let last = moved.degree();
         for (i, p) in moved.points.iter_mut().enumerate() {
-            // Neighbours share the joint's move to the last bit.
+            // Neighbouring spans move their joint by the same bits.
             let t = if i == last { t1 } else { t0 + (t1 - t0) * (i as f64 / last as f64) };
             *p += spread_to(moves, t);
         }
         moved
     }
 
+    /// The curve with `map` applied to its control points; for affine maps its image.
     pub(super) fn mapped(&self, map: impl Fn(Point) -> Point) -> Self {
         Bezier { points: self.points.iter().map(|p| map(*p)).collect(), weights: self.weights.clone() }
     }
@@ -155,7 +163,7 @@ impl Bezier {
         0.5 * area_rate
     }
 
-    /// No control point leaves the chord, nor goes back along it, by more than rounding.
+    /// Whether no control point is off the chord, and no leg goes back along it, by more than `noise`.
     pub(super) fn is_straight_within(&self, noise: f64) -> bool {
         let chord = self.points[self.degree()] - self.points[0];
         let len = length(chord);
@@ -269,7 +277,7 @@ fn boxed(bezier: Bezier) -> Curve {
     Curve::Bezier(Box::new(bezier))
 }
 
-/// Gives a chain of spans its exact ends.
+/// Sets the exact ends of a chain of spans.
 pub(super) fn set_ends(spans: &mut [Bezier], [start, end]: [Point; 2]) {
     if let Some(first) = spans.first_mut().and_then(|span| span.points.first_mut()) {
         *first = start;
@@ -279,6 +287,7 @@ pub(super) fn set_ends(spans: &mut [Bezier], [start, end]: [Point; 2]) {
     }
 }
 
+/// Refuses weights that are not `count` positive finite numbers.
 pub(super) fn check_weights(weights: &[f64], count: usize) -> Result<(), CurveError> {
     if weights.len() != count {
         let needs = format!("{count} weights, one a control point");

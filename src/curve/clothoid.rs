@@ -1,20 +1,20 @@
-//! The clothoid, or Euler spiral: the curve whose curvature changes evenly along it. Rails, roads, turbine blades and
-//! wings join lines and circles by it.
+//! The clothoid, or Euler spiral: the curve whose curvature is linear in its arc length. It joins lines and circles in
+//! rails, roads, turbine blades and wings.
 //!
 //! ```text
-//!                              κ₁          t is the share of the length L; the curvature is κ(t) = κ₀ + (κ₁ − κ₀)t, so that
+//!                              κ₁      t is the share of the length L; the curvature is κ(t) = κ₀ + (κ₁ − κ₀)t, so
 //!                          _-  ●
-//!                       .´   .´            the heading is  θ(t) = θ₀ + L(κ₀t + (κ₁ − κ₀)t²/2), and
-//!            κ₀      _-´  _-´              the point is    P(t) = P₀ + L ∫₀ᵗ (cos θ, sin θ).
+//!                       .´   .´        the heading is  θ(t) = θ₀ + L(κ₀t + (κ₁ − κ₀)t²/2), and
+//!            κ₀      _-´  _-´          the point is    P(t) = P₀ + L ∫₀ᵗ (cos θ, sin θ).
 //!   P₀ ●────────---´  _-´
-//!       θ₀                                 Every piece turns a third of a radian at most, and is a Bézier of degree 11.
+//!       θ₀                             Every piece turns by a third of a radian at most: a Bézier of degree 11.
 //! ```
 //!
-//! It is no rational curve: the integral is Fresnel's. It is kept with a chain of Bézier pieces, made once: each has
-//! the clothoid's point and first five derivatives at both ends (two-point Hermite interpolation), and the points where
-//! pieces join come of Gauss–Legendre quadrature. A piece is off by |P⁽¹²⁾|/12! · 2⁻¹² at most, which is below
-//! rounding, so [`Kind::inner_point`] is the chain's, and all questions that go span by span are right to rounding.
-//! Heading, curvature, turning, inflection and length are closed forms.
+//! It is no rational curve: the integral is Fresnel's. It is stored with a chain of Bézier pieces, made once. Each
+//! piece has the clothoid's point and first five derivatives at both ends (two-point Hermite interpolation); the joints
+//! are computed by Gauss–Legendre quadrature. The error of a piece is at most |P⁽¹²⁾|/12! · 2⁻¹², which is below
+//! rounding. So [`Kind::inner_point`] is that of the chain, and all queries by span are accurate to rounding. Heading,
+//! curvature, turning, inflection and length have closed forms.
 
 use super::kind::Kind;
 use super::span::Span;
@@ -24,30 +24,30 @@ use crate::geometry::{Point, Vec2, scaled};
 use kurbo::common::GAUSS_LEGENDRE_COEFFS_8;
 use std::f64::consts::{PI, TAU};
 
-/// Degree of the pieces: six conditions at either end.
+/// The degree of the pieces: six conditions at either end.
 const DEGREE: usize = 11;
-/// Derivatives at each end that a piece shares with the clothoid, its point included.
+/// The number of derivatives at each end that a piece shares with the clothoid, including the point itself.
 const CONDITIONS: usize = 6;
-/// How far a piece turns at most, as if its curvature were the largest.
+/// The largest turning of a piece, computed with the largest curvature of the clothoid.
 const PIECE_TURN: f64 = 0.35;
-/// How much the curvature changes along a piece at most, times its length: near an inflection that is what bends it.
+/// The largest change of curvature along a piece, times its length: near an inflection this dominates.
 const PIECE_CHANGE: f64 = 0.05;
-/// How often a clothoid may go around: its numbers of pieces, and rounding of its heading, stay small.
+/// The largest number of turns of a clothoid: it limits the number of pieces and the rounding of the heading.
 const TURNS_MAX: f64 = 100.0;
-/// What `TURNS_MAX` comes to, and no more in any case.
+/// The largest number of pieces, which `TURNS_MAX` allows.
 const PIECES_MAX: f64 = 4096.0;
-/// A curvature at an end of a part below this share of the largest is the rounding of none.
+/// A curvature at an end of a part below this share of the largest is rounding, and taken as 0.
 const NO_CURVATURE: f64 = 4.0 * f64::EPSILON;
 
-/// What an end may be off by rounding, in the numbers that it comes of: of some hundred moves and turns.
+/// The relative rounding error of an end, after some hundred moves and turns.
 const ROUNDED_END: f64 = 512.0 * f64::EPSILON;
 
-/// `v` turned a quarter to the left.
+/// `v` turned by 90° to the left.
 fn left(v: Vec2) -> Vec2 {
     Vec2::new(-v.y, v.x)
 }
 
-/// The unit vector `u` turned as the unit vector `by` is from the x axis.
+/// The unit vector `u`, turned by the angle from the x axis to the unit vector `by`.
 fn turned(u: Vec2, by: Vec2) -> Vec2 {
     Vec2::new(by.x * u.x - by.y * u.y, by.y * u.x + by.x * u.y)
 }
@@ -57,10 +57,10 @@ fn unit_at(angle_rad: f64) -> Vec2 {
     Vec2::new(cos, sin)
 }
 
-/// A clothoid of length 1 that sets out from the origin along the x axis: all of its shape.
+/// A clothoid of length 1 that starts at the origin along the x axis.
 #[derive(Clone, Copy)]
 struct Shape {
-    /// The curvature at the start, and how much it changes.
+    /// The curvature at the start, and its change up to the end.
     start: f64,
     change: f64,
 }
@@ -70,7 +70,7 @@ impl Shape {
         self.start + self.change * t
     }
 
-    /// How far it turns over t0..t1, to the left.
+    /// The signed turn over t0..t1, positive to the left.
     fn turn(&self, t0: f64, t1: f64) -> f64 {
         (t1 - t0) * (self.start + 0.5 * self.change * (t0 + t1))
     }
@@ -79,7 +79,7 @@ impl Shape {
         unit_at(self.turn(0.0, t))
     }
 
-    /// The largest curvature, unsigned.
+    /// The largest absolute curvature.
     fn largest(&self) -> f64 {
         self.start.abs().max((self.start + self.change).abs())
     }
@@ -98,13 +98,13 @@ impl Shape {
         }
     }
 
-    /// The parameter at which it has turned by `turned` ≥ 0 since the start.
+    /// The parameter at which it has turned by `turned` ≥ 0 from the start.
     ///
     /// ```text
-    ///   κ ▲       /|
-    ///     |      / |      without an inflection |κ₀|t ± |κ′|t²/2 = turned; the root without cancellation;
-    ///   ──|\────/──|─▶ t  behind one, |κ′|(t − t*)²/2 is what is turned since
-    ///     | \__/  t
+    ///   κ ▲       ╱
+    ///     │     ╱         Without an inflection |κ₀|t ± |κ′|t²/2 = turned; the root without cancellation.
+    ///   ──│───*─────▶ t   Behind the inflection *, at t*, the turning since then is |κ′|(t − t*)²/2.
+    ///     │ ╱
     /// ```
     fn at_turning(&self, turned: f64) -> f64 {
         if let Some(inflection) = self.inflection() {
@@ -119,24 +119,24 @@ impl Shape {
         if start + root > 0.0 { (2.0 * turned / (start + root)).min(1.0) } else { 0.0 }
     }
 
-    /// How many pieces follow it to rounding.
+    /// The number of pieces that equal it up to rounding.
     fn piece_count(&self) -> usize {
         let by_turn = self.largest() / PIECE_TURN;
         let by_change = (self.change.abs() / PIECE_CHANGE).sqrt();
         libm::ceil(by_turn.max(by_change)).clamp(1.0, PIECES_MAX) as usize
     }
 
-    /// ∫ (cos θ, sin θ) over t0..t1, of a piece.
+    /// ∫ (cos θ, sin θ) over t0..t1, at most a piece.
     fn run(&self, t0: f64, t1: f64) -> Vec2 {
         let (middle, half) = (0.5 * (t0 + t1), 0.5 * (t1 - t0));
         let at = |&(weight, at): &(f64, f64)| self.tangent(middle + half * at) * weight;
         GAUSS_LEGENDRE_COEFFS_8.iter().map(at).fold(Vec2::ZERO, |sum, v| sum + v) * half
     }
 
-    /// The control points of a piece next to its end at t, seen from there: the first six where `step` is its length,
-    /// and the last six, from the last on, where it is that less than 0.
+    /// The control points of a piece next to its end at t, relative to that end. If `step` is the length of the piece,
+    /// these are the first six; if `step` is minus that length, the last six, beginning with the last.
     ///
-    /// Of the tangent E the derivatives are E′ = iκE, and so on by Leibniz's rule: E⁽ᵐ⁺¹⁾ = i(κE⁽ᵐ⁾ + mκ′E⁽ᵐ⁻¹⁾).
+    /// The derivatives of the tangent E are E′ = iκE and, by Leibniz's rule, E⁽ᵐ⁺¹⁾ = i(κE⁽ᵐ⁾ + mκ′E⁽ᵐ⁻¹⁾).
     fn controls(&self, t: f64, step: f64) -> [Vec2; CONDITIONS] {
         let (curvature, change) = (self.curvature(t) * step, self.change * step * step);
         // E and its derivatives by the parameter of the piece.
@@ -159,6 +159,7 @@ impl Shape {
 }
 
 impl Clothoid {
+    /// See [`Curve::clothoid`]. With `end`, it ends exactly there, which must be its own end up to rounding.
     pub(super) fn new(
         start: Point,
         heading_rad: f64,
@@ -175,10 +176,10 @@ impl Clothoid {
         let shape = shape_of(curvatures, length);
         let turns = shape.turning(0.0, 1.0) / TAU;
         if curvatures[0] == curvatures[1] && turns != 0.0 {
-            // A circle is followed once at most.
+            // A circle is followed at most once around.
             super::sweep::checked_sweep(turns * TAU)?;
         }
-        // No number of turns is one too many.
+        // Not-a-number counts as too many turns.
         if turns.is_nan() || turns > TURNS_MAX {
             return Err(CurveError::Turns { turns, most: TURNS_MAX });
         }
@@ -187,8 +188,8 @@ impl Clothoid {
         Ok(made)
     }
 
-    /// The clothoid with its chain; without `end` it ends where it runs to. What `end` is off by, some roundings, is
-    /// spread along it.
+    /// The clothoid with its chain. Without `end` it ends at the computed place. The difference of `end` from that, a
+    /// few roundings, is spread along it.
     fn made(start: Point, heading_rad: f64, curvatures: [f64; 2], length: f64, end: Option<Point>) -> Self {
         let shape = shape_of(curvatures, length);
         let count = shape.piece_count();
@@ -215,7 +216,7 @@ impl Clothoid {
         Clothoid { heading_rad, curvatures, length, chain: Spline { knots, spans } }
     }
 
-    /// The heading at the start, from the x axis to the left.
+    /// The direction at the start, in radians counter-clockwise from the x axis.
     pub fn heading_rad(&self) -> f64 {
         self.heading_rad
     }
@@ -225,12 +226,12 @@ impl Clothoid {
         self.curvatures
     }
 
-    /// The length along it.
+    /// The arc length.
     pub fn length(&self) -> f64 {
         self.length
     }
 
-    /// The Bézier pieces that follow it to rounding.
+    /// The Bézier pieces that equal it up to rounding.
     pub fn pieces(&self) -> &Spline {
         &self.chain
     }
@@ -243,7 +244,7 @@ impl Clothoid {
         turned(self.shape().tangent(t), unit_at(self.heading_rad))
     }
 
-    /// The curvature at t; none where only rounding is left of it.
+    /// The curvature at t; 0 where it is below rounding.
     fn curvature_at(&self, t: f64) -> f64 {
         let [start, end] = self.curvatures;
         let there = start * (1.0 - t) + end * t;
@@ -255,15 +256,15 @@ fn shape_of([start, end]: [f64; 2], length: f64) -> Shape {
     Shape { start: start * length, change: (end - start) * length }
 }
 
-/// The points of the shape at the knots; sums with the rounding of each carried on, so that many pieces do not add up
-/// theirs.
+/// The points of the shape at the knots. The sums are compensated, so that the rounding errors of many pieces do not
+/// add up.
 fn joints_of(shape: &Shape, knots: &[f64]) -> Vec<Vec2> {
     let (mut sum, mut lost) = (Vec2::ZERO, Vec2::ZERO);
     let mut joints = vec![sum];
     for pair in knots.windows(2) {
         let run = shape.run(pair[0], pair[1]) + lost;
         let next = sum + run;
-        // Kahan's.
+        // Kahan's compensation.
         lost = run - (next - sum);
         sum = next;
         joints.push(sum);
@@ -297,8 +298,8 @@ impl Kind for Clothoid {
     fn control_count(&self) -> usize {
         self.chain.control_count()
     }
-    /// Its circles of curvature lie in each other, so that it does not cross itself (Kneser); where its curvature
-    /// hardly changes, it may come back to within a tolerance.
+    /// The osculating circles are nested, so it does not cross itself (Kneser). Where its curvature hardly changes, it
+    /// may come back to within a tolerance.
     fn may_meet_itself(&self) -> bool {
         self.turning(0.0, 1.0) > PI
     }
@@ -316,7 +317,7 @@ impl Kind for Clothoid {
         let [start, end] = self.ends().map(|p| scaled(p, factor));
         boxed(Self::made(start, self.heading_rad, self.curvatures.map(|k| k / factor), self.length * factor, Some(end)))
     }
-    /// A clothoid where the map is a similarity; any other image is no clothoid, but the spline of the mapped pieces.
+    /// A clothoid where the map is a similarity. Any other image is the spline of the mapped pieces.
     fn transformed(&self, map: kurbo::Affine) -> Curve {
         let Some(similarity) = super::arc::similarity_of(map) else { return self.chain.transformed(map) };
         let [start, end] = self.ends().map(|p| map * p);
@@ -328,15 +329,15 @@ impl Kind for Clothoid {
         let (heading_rad, scale) = (self.heading_rad + map.turn_rad(), map.scale());
         boxed(Self::made(ends[0], heading_rad, self.curvatures.map(|k| k / scale), self.length * scale, Some(ends[1])))
     }
-    /// That is no clothoid any more, but the spline of the moved pieces.
+    /// The result is no clothoid, but the spline of the moved pieces.
     fn spread(&self, moves: [Vec2; 2], ends: [Point; 2]) -> Curve {
         self.chain.spread(moves, ends)
     }
-    /// Points come of what is run to them along it, which may be much longer than it is across.
+    /// Points are sums along the curve, which may be much longer than its extent.
     fn reach(&self) -> f64 {
         self.length
     }
-    /// Its own is one up to the rounding of a curve that was moved and turned before.
+    /// Its own end is accurate to the rounding of a curve that was moved and turned before.
     fn with_rounded_end(&self, end: Point) -> Option<Curve> {
         let [start, own] = self.chain.ends();
         let rounding = ROUNDED_END * (length(start.to_vec2()) + length(end.to_vec2()) + self.length);

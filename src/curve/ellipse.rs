@@ -1,4 +1,4 @@
-//! Part of an ellipse, by conjugate half axes.
+//! A part of an ellipse, by conjugate half axes.
 
 use super::kind::Kind;
 use super::span::Span;
@@ -10,6 +10,7 @@ use std::borrow::Cow;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 impl EllipticArc {
+    /// See [`Curve::ellipse`](super::Curve::ellipse).
     pub(super) fn new(center: Point, u: Vec2, v: Vec2, start_rad: f64, sweep_rad: f64) -> Result<Self, CurveError> {
         check_finite([center.x, center.y, u.x, u.y, v.x, v.y, start_rad, sweep_rad])?;
         // The radius of the circle of the same area.
@@ -33,13 +34,13 @@ impl EllipticArc {
         self.start_rad + self.sweep_rad * t
     }
 
-    /// Derivative by the angle.
+    /// The derivative by the parameter angle.
     fn along(&self, angle: f64) -> Vec2 {
         let (sin, cos) = libm::sincos(angle);
         self.v * cos - self.u * sin
     }
 
-    /// The parameter at which the curve has turned by `turned` ≥ 0 since its start.
+    /// The parameter at which the curve has turned by `turned` ≥ 0 from its start.
     fn at_turning(&self, turned: f64) -> f64 {
         let halves = libm::floor(turned / PI);
         let orientation = 1f64.copysign(self.u.cross(self.v) * self.sweep_rad);
@@ -49,12 +50,20 @@ impl EllipticArc {
         let angle = libm::atan2(self.v.cross(wanted), self.u.cross(wanted));
         let sign = 1f64.copysign(self.sweep_rad);
         let ahead = (angle - self.start_rad) * sign;
-        // Up to rounding of the angle itself, which may fall just short of zero.
+        // With an allowance for rounding: the angle may be just below 0.
         let rest = ahead - PI * libm::floor(ahead / PI + 4.0 * f64::EPSILON);
         ((halves * PI + rest) / self.sweep_rad.abs()).clamp(0.0, 1.0)
     }
 
-    /// Exact rational quadratics of at most a quarter turn over t0..t1, each with its range; see [`conic_parameter`].
+    /// Exact rational quadratics over t0..t1, each over at most a quarter turn of the parameter angle, with its range
+    /// of t; see [`conic_parameter`].
+    ///
+    /// ```text
+    ///             ● apex, weight cos(half)      The control points are both ends and the meeting point of their
+    ///          ╱ ╭───╮ ╲                        tangents. `half` is half the range of the parameter angle.
+    ///       ╱╭───╯   ╰───╮╲
+    ///   start ●         ● end
+    /// ```
     fn conics(&self, t0: f64, t1: f64) -> Vec<(Bezier, f64, f64)> {
         let sweep = self.sweep_rad * (t1 - t0);
         let count = libm::ceil(sweep.abs() / FRAC_PI_2).clamp(1.0, 4.0);
@@ -79,7 +88,7 @@ impl Kind for EllipticArc {
     fn ends(&self) -> [Point; 2] {
         self.ends
     }
-    /// Measured from the start, with the rounding of the ends spread along the arc.
+    /// Computed from the start, with the rounding of the ends spread along the arc.
     fn inner_point(&self, t: f64) -> Point {
         let [start, end] = self.ends;
         let half = 0.5 * self.sweep_rad;
@@ -126,14 +135,14 @@ impl Kind for EllipticArc {
         let (center, u, v) = (map.point(self.center), map.vector(self.u), map.vector(self.v));
         boxed(EllipticArc { center, u, v, ends, ..*self })
     }
-    /// The ellipse moves by the mean of both, and [`Kind::inner_point`] spreads the rest.
+    /// The ellipse moves by the mean of both moves, and [`Kind::inner_point`] spreads the rest.
     fn spread(&self, moves: [Vec2; 2], ends: [Point; 2]) -> Curve {
         boxed(EllipticArc { center: self.center + spread_to(moves, 0.5), ends, ..*self })
     }
     fn as_ellipse(&self) -> Option<EllipticArc> {
         Some(*self)
     }
-    /// Points are measured from the start by the axes, which may be long beside a short arc.
+    /// Points are computed from the start with the axes, which may be long compared with the arc.
     fn reach(&self) -> f64 {
         self.u.hypot2().sqrt() + self.v.hypot2().sqrt()
     }
@@ -190,7 +199,7 @@ pub(super) fn conic_spans(arc: &EllipticArc, t0: f64, t1: f64) -> Vec<Span<'stat
     arc.conics(t0, t1).into_iter().map(span).collect()
 }
 
-/// See [`Kind::widens`]: an arc that turns less than π lies between its tangent and its chord.
+/// See [`Kind::widens`]: an arc that turns by less than π lies between its tangent and its chord.
 pub(super) fn widens(arc: &impl Kind, cone: &mut Cone, end: End) -> bool {
     let [start, finish] = arc.ends();
     let (chord, direction) = match end {
@@ -200,8 +209,8 @@ pub(super) fn widens(arc: &impl Kind, cone: &mut Cone, end: End) -> bool {
     arc.turning(0.0, 1.0) < PI && cone.widen(direction, chord)
 }
 
-/// See [`Kind::each_of_hull`]: half a circle or less lies in the rectangle on its chord that its middle reaches; an
-/// ellipse is its affine image.
+/// See [`Kind::each_of_hull`]: half a circle or less lies in the rectangle on its chord up to its middle; for an
+/// ellipse in the affine image of that.
 pub(super) fn each_of_hull(arc: &impl Kind, take: &mut dyn FnMut(Point)) -> bool {
     if arc.turning(0.0, 1.0) > PI {
         return false;

@@ -1,9 +1,18 @@
-//! What a curve lies in, told from its control points at once: a cone from an end, the strip along its chord.
+//! Regions that contain a curve, directly from its control points: a cone from an end, and the strip along its chord.
+//!
+//! ```text
+//!                ╱ left
+//!              ╱   ╭───╮         A cone has its apex at an end of the curve, and contains the whole curve between its
+//!            ╱ ╭───╯   ╰──       two bounds `left` and `right`.
+//!     apex ●───╯
+//!            ╲
+//!              ╲ right
+//! ```
 
 use super::{Curve, End, length};
 use crate::geometry::{Point, Vec2};
 
-/// Units in the last place, for each control point, by which a distance from a chord may be off.
+/// The relative error of a distance from a chord, for each control point.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// Directions from `right` counter-clockwise to `left`, over less than π.
@@ -16,8 +25,8 @@ pub struct Cone {
 }
 
 impl Curve {
-    /// A cone with its apex at an end that holds the curve, up to rounding; `None` where none is at hand that is
-    /// narrower than a half plane.
+    /// A cone with its apex at an end that contains the curve, up to rounding; `None` where the control points give
+    /// none that is narrower than a half plane.
     pub fn cone_from(&self, end: End) -> Option<Cone> {
         let (apex, other) = match end {
             End::Start => (self.start(), self.end()),
@@ -27,7 +36,17 @@ impl Curve {
         self.as_kind().widens(&mut cone, end).then_some(cone)
     }
 
-    /// Whether the strip along the chord of either curve shows that they are farther apart than `gap`.
+    /// Whether the strip along the chord of either curve shows that the two are farther apart than `gap`.
+    ///
+    /// ```text
+    ///   ─ ─ ─ ─ ─ ─ ─ ─ ─ ─ high       The strip along the chord of `other` contains its control points, between low
+    ///        ╭───────╮                 and high. The control points of `self` lie between least and most. Here most <
+    ///     ●──╯       ╰──● other        low − gap: the curves are apart.
+    ///   ─ ─ ─ ─ ─ ─ ─ ─ ─ ─ low
+    ///   ─ ─ ─ ─ ─ ─ ─ ─ ─ ─ most
+    ///     ●───╮     ╭───● self
+    ///         ╰─────╯
+    /// ```
     pub(super) fn is_clear_of(&self, other: &Self, gap: f64) -> bool {
         self.is_beside_strip_of(other, gap) || other.is_beside_strip_of(self, gap)
     }
@@ -55,11 +74,12 @@ impl Curve {
 }
 
 impl Cone {
+    /// The cone of one direction; `None` where that is zero.
     pub(super) fn along(axis: Vec2) -> Option<Self> {
         (axis != Vec2::ZERO).then_some(Self { right: axis, left: axis })
     }
 
-    /// Takes in a direction, if it is ahead along the axis.
+    /// Widens the cone to contain the direction `v`. Returns whether `v` points ahead along `axis`.
     pub(super) fn widen(&mut self, v: Vec2, axis: Vec2) -> bool {
         if self.right.cross(v) < 0.0 {
             self.right = v;
@@ -70,14 +90,14 @@ impl Cone {
         axis.dot(v) > 0.0
     }
 
-    /// Takes in points other than the apex.
+    /// Widens the cone to contain points other than the apex. Returns whether all of them lie ahead along `axis`.
     pub(super) fn widen_to(&mut self, points: &[Point], apex: Point, axis: Vec2) -> bool {
         points.iter().filter(|&&point| point != apex).all(|&point| self.widen(point - apex, axis))
     }
 
     fn holds(&self, v: Vec2) -> bool {
         let is_between = self.right.cross(v) >= 0.0 && v.cross(self.left) >= 0.0;
-        // Both are 0 straight behind a cone of one direction.
+        // Both products are 0 straight behind a cone of one direction, too.
         is_between && (self.right.dot(v) > 0.0 || self.left.dot(v) > 0.0)
     }
 

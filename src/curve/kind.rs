@@ -1,18 +1,18 @@
-//! What every kind of curve answers: one private trait, one implementation a file.
+//! The private trait of all kinds of curves, with one implementation a file.
 //!
-//! A kind says what only it knows: its ends, points and derivatives, its Bézier pieces ([`Kind::spans`]), and its
-//! images. Every other question has an answer here that goes span by span; kinds that know a closed form (lines, arcs)
-//! give theirs instead. A kind that is no rational curve has no exact pieces: its own follow it to a few units in the
-//! last place of its coordinates and of [`Kind::reach`], and its points are theirs (`clothoid.rs` shows how: a chain of
-//! Hermite pieces, the drift of its end spread along it).
+//! A kind implements what differs: its ends, points and derivatives, its Bézier spans ([`Kind::spans`]), and its
+//! images. Every other query has a default here that works span by span; kinds with a closed form (lines, arcs)
+//! override it. A kind that is no rational curve has no exact spans. Its spans equal it to a few units in the last
+//! place of its coordinates and of [`Kind::reach`], and its points are computed from them (see `clothoid.rs`: a chain
+//! of Hermite pieces, with the drift of its end spread along it).
 //!
 //! ```text
-//!   Curve ──▶ &dyn Kind ──┬─▶ line.rs  arc.rs  ellipse.rs  bezier.rs  spline.rs  clothoid.rs     what only the kind knows
-//!   (mod.rs, one match)   └─▶ spans.rs  turning.rs                                               the rest, by its pieces
+//!   Curve ──▶ &dyn Kind ──┬─▶ line.rs  arc.rs  ellipse.rs  bezier.rs  spline.rs  clothoid.rs     what differs by kind
+//!   (mod.rs, one match)   └─▶ spans.rs  turning.rs                                               the rest, by spans
 //! ```
 //!
 //! *A new kind*: a file with its type and `impl Kind`, a variant of [`Curve`] and its arm in `Curve::as_kind`. The
-//! compiler then names each place outside of this folder that tells kinds apart.
+//! compiler then reports each match over kinds outside of this folder.
 
 use super::span::Span;
 use super::spans;
@@ -21,11 +21,11 @@ use super::{Break, Cone, Curve, EllipticArc, End, turning, unit};
 use crate::geometry::{Point, Vec2};
 use std::f64::consts::PI;
 
-/// A kind of curve over t ∈ [0, 1]. Ranges t0..t1 ascend and lie within.
+/// A kind of curve over t ∈ [0, 1]. Ranges t0..t1 are ascending and lie within it.
 pub(super) trait Kind {
-    // ---- what only the kind knows ----
+    // ---- what each kind implements ----
 
-    /// The field's name of the kind.
+    /// The usual name of the kind.
     fn name(&self) -> &'static str;
     /// The exact ends.
     fn ends(&self) -> [Point; 2];
@@ -33,9 +33,9 @@ pub(super) trait Kind {
     fn inner_point(&self, t: f64) -> Point;
     fn derivative(&self, t: f64) -> Vec2;
     fn second_derivative(&self, t: f64) -> Vec2;
-    /// The Bézier pieces of t0..t1, in order; what they are off by, see [`Kind::reach`].
+    /// The Bézier spans of t0..t1, in order; for their error see [`Kind::reach`].
     fn spans(&self, t0: f64, t1: f64) -> Vec<Span<'_>>;
-    /// How many points it takes to keep: what it costs in memory.
+    /// The number of points that it stores: its cost in memory.
     fn control_count(&self) -> usize;
     /// Whether it may cross or touch itself other than by closing.
     fn may_meet_itself(&self) -> bool;
@@ -48,21 +48,22 @@ pub(super) trait Kind {
     fn transformed(&self, map: kurbo::Affine) -> Curve;
     /// The image under a similarity, with exactly these ends, which are the images of its own up to rounding.
     fn moved(&self, map: &Similarity, ends: [Point; 2]) -> Curve;
-    /// The moves of both ends spread along the curve, with exactly these ends: no point moves farther than an end.
+    /// The curve with the moves of its ends spread along it, and exactly these ends: no point moves farther than an
+    /// end.
     fn spread(&self, moves: [Vec2; 2], ends: [Point; 2]) -> Curve;
 
-    // ---- what some kinds are besides ----
+    // ---- what some kinds override ----
 
-    /// The part of an ellipse that it is.
+    /// The curve as an elliptic arc, if it is one.
     fn as_ellipse(&self) -> Option<EllipticArc> {
         None
     }
-    /// The largest length that its points are computed from, where its coordinates do not show it; else 0. Points and
-    /// pieces are good for a few units in its last place.
+    /// The largest length that its points are computed from, where it may exceed the coordinates; else 0. Points and
+    /// spans are accurate to a few units in the last place of it.
     fn reach(&self) -> f64 {
         0.0
     }
-    /// Whether its curvature is the same everywhere, and its parameter runs evenly: a line or a circular arc.
+    /// See [`Curve::is_round`].
     fn is_round(&self) -> bool {
         false
     }
@@ -75,7 +76,7 @@ pub(super) trait Kind {
         vec![0.0, 1.0]
     }
 
-    // ---- what the pieces answer, where the kind has no closed form ----
+    // ---- computed from spans, where the kind has no closed form ----
 
     /// The point at t; an exact end where t is not inside.
     fn point(&self, t: f64) -> Point {
@@ -121,7 +122,7 @@ pub(super) trait Kind {
         turning::cuts_of_turning(&self.spans(0.0, 1.0), tau)
     }
     fn lens_angle(&self, t0: f64, t1: f64) -> f64 {
-        // The stationary points are known to rounding, and the angle is flat there: the excess covers both.
+        // The stationary points are accurate to rounding, and the angle is flat there: the excess covers both.
         let measured = spans::lens_angle(self, t0, t1) * (1.0 + 1e-12) + 64.0 * f64::EPSILON;
         measured.min(self.turning(t0, t1)).min(PI)
     }
@@ -137,11 +138,13 @@ pub(super) trait Kind {
     fn leaves_ball(&self, end: End, radius: f64, t0: f64, t1: f64) -> Option<f64> {
         spans::leaves_ball(self, end, radius, t0, t1)
     }
-    /// Widens a cone with its apex at an end until it holds the curve; whether the curve stays ahead of the apex.
+    /// Widens a cone with its apex at an end until it contains the curve. Returns whether the curve stays ahead of the
+    /// apex.
     fn widens(&self, cone: &mut Cone, end: End) -> bool {
         spans::widens(&self.spans(0.0, 1.0), cone, self.ends(), end)
     }
-    /// Calls `take` with points whose convex hull holds the curve, up to rounding; whether there are such.
+    /// Calls `take` with points whose convex hull contains the curve, up to rounding. Returns whether there are such
+    /// points.
     fn each_of_hull(&self, take: &mut dyn FnMut(Point)) -> bool {
         self.spans(0.0, 1.0).iter().flat_map(|span| span.bezier.points.iter().copied()).for_each(take);
         true

@@ -24,7 +24,7 @@ impl Kind for Line {
     fn ends(&self) -> [Point; 2] {
         [self.start, self.end]
     }
-    /// Measured from the nearer end, so that both ends are exact.
+    /// Computed from the nearer end, so that both ends are exact.
     fn inner_point(&self, t: f64) -> Point {
         if t <= 0.5 { self.start + self.chord() * t } else { self.end - self.chord() * (1.0 - t) }
     }
@@ -113,7 +113,7 @@ impl Kind for Line {
     }
     fn leaves_ball(&self, end: End, radius: f64, t0: f64, t1: f64) -> Option<f64> {
         let step = radius / length(self.chord());
-        // The quotient of two rounded numbers: 2 ulp.
+        // The quotient of two rounded numbers: an error of 2 units in the last place.
         if !(0.0..=(t1 - t0) * (1.0 + 2.0 * f64::EPSILON)).contains(&step) {
             return None;
         }

@@ -1,26 +1,37 @@
-//! Where two curves meet, and where a curve meets itself.
+//! Meetings of two curves, and of a curve with itself.
 //!
-//! **Method.** Both curves become trees of ever smaller Bézier pieces ([`hull`]). Pairs of pieces are compared from the
-//! roots down; one is dropped where the boxes, or the strips along either chord, are further apart than the tolerance.
-//! A pair is solved
-//! * by Newton's method where both are slender and no direction is in both cones of tangents. Such pieces meet at most
-//!   once, since the chord between two meetings would have to lie in both cones; apart from the one crossing they come
+//! **Method.** Both curves become trees of smaller and smaller Bézier pieces ([`hull`]). Pairs of pieces are compared
+//! from the roots down. A pair is dropped where the boxes, or the strips along either chord, are farther apart than the
+//! tolerance. A pair is solved
+//! * by Newton's method where both pieces are slender and no direction is in both cones of tangents. Such pieces meet
+//!   at most once, since the chord between two meetings would lie in both cones. Apart from that crossing they come
 //!   close only at ends;
-//! * at the ends of both where both are straight to within a quarter of the tolerance: their gap is then nearly linear,
-//!   and if it is within the tolerance anywhere, it is so at an end, or where their chords cross (at an angle the first
-//!   case applies, unless one has a bend far narrower than the tolerance).
+//! * at the ends of both pieces where both are straight to within a quarter of the tolerance. Their gap is then nearly
+//!   linear: if it is within the tolerance anywhere, it is so at an end, or where their chords cross. (Where they cross
+//!   at an angle the first case applies, unless one has a bend far narrower than the tolerance.)
 //!
-//! Every other pair is halved at its longer piece. What is found is only a first guess: it is followed along both
-//! curves and so told from a shared stretch ([`contact`]), and pairs of pieces that lie beside a contact already
-//! followed are dropped. Two circles, or a line and a circle, are guessed in closed form instead ([`circles`]).
+//! In every other pair the longer piece is halved. A solution is only a first guess. It is followed along both curves,
+//! which distinguishes a meeting from a shared stretch ([`contact`]). Pairs of pieces within a contact that was already
+//! followed are dropped. Guesses for two circles, or a line and a circle, come from a closed form instead
+//! ([`circles`]).
+//!
+//! ```text
+//!   boxes apart     strips apart     cones apart     straight        else
+//!   ┌───┐               ╱╱   ╱╱      q ╲   ╱ p       p ────────        ╭───╮ p
+//!   │ p │              ╱╱   ╱╱          ╲ ╱                          ╭─┼───╯
+//!   └───┘ ┌───┐     p ╱╱ q ╱╱            ╳           q ────────      ╰─╯ q
+//!         │ q │                         ╱ ╲
+//!         └───┘
+//!   dropped         dropped          Newton          ends            halved
+//! ```
 //!
 //! **Invariant.** Whenever a pair is taken from the stack, every meeting of the curves is in a contact already
-//! followed, or within a pair on the stack, or within the pair in hand.
+//! followed, or within a pair on the stack, or within the pair just taken.
 //!
 //! **Termination.** Halving ends where pieces are straight or as small as a quarter of the tolerance, which is at least
 //! a few units in the last place of the coordinates. For curves that run along each other just outside the tolerance
-//! the number of pairs grows like the square root of length/gap, so it has a budget; where that ends, [`MeetingBudget`]
-//! names the place.
+//! the number of pairs grows like the square root of length/gap, so there is a budget. When it is spent,
+//! [`MeetingBudget`] names the place.
 
 mod circles;
 mod contact;
@@ -37,30 +48,30 @@ use hull::{HullNode, Hulls, length};
 /// How two curves meet.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Meeting {
-    /// The place; within the tolerance of both curves' points at t and u, and exactly the end point where one is at its
+    /// The place: within the tolerance of the points at t and u, and exactly the end point where the meeting is at an
     /// end.
     pub at: Point,
-    /// Parameter on the first curve; exactly 0 or 1 where the meeting holds that end.
+    /// The parameter on the first curve; exactly 0 or 1 where the contact contains that end.
     pub t: f64,
-    /// Parameter on the second curve; likewise.
+    /// The parameter on the second curve; likewise.
     pub u: f64,
     /// Whether the curves change sides at this place.
     pub kind: MeetingKind,
-    /// How far around it the curves stay within the tolerance of each other.
+    /// The stretch around the meeting over which the curves stay within the tolerance of each other.
     pub contact: Overlap,
 }
 
-/// How two curves lie to each other at a meeting.
+/// How two curves lie relative to each other at a meeting.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum MeetingKind {
     /// The curves change sides, inside both.
     Crossing,
-    /// A tangential contact, an end on the other's inside, or common ends.
+    /// A tangential contact, an end of one inside the other, or common ends.
     Touching,
 }
 
-/// A stretch that two curves share within the tolerance: the range of t on the first (ascending), and u where t is
-/// least and greatest (descending where the curves run against each other).
+/// A stretch that two curves share within the tolerance: the range of t on the first (ascending), and u at both ends of
+/// it (descending where the curves run in opposite directions).
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Overlap {
     /// The parameters on the first curve where the stretch begins and ends, ascending.
@@ -78,33 +89,33 @@ pub struct Meetings {
     pub overlaps: Vec<Overlap>,
 }
 
-/// The curves run so near each other for so long that telling where they meet costs too much.
+/// The curves run so near to each other for so long that the search for their meetings is too expensive.
 #[derive(Clone, Copy, PartialEq, Debug, thiserror::Error)]
 #[error("the curves run too close to each other near ({}, {}) to tell where they meet; a larger tolerance makes them one", at.x, at.y)]
 pub struct MeetingBudget {
-    /// Where the work ended.
+    /// Where the search ended.
     pub at: Point,
 }
 
-/// Pairs of pieces that are compared at most: some 0.1 s of work. Curves that run beside each other at 1e-13 of their
-/// size exceed it.
+/// The largest number of pairs of pieces that are compared: some 0.1 s of work. Curves that run beside each other at
+/// 1e-13 of their size exceed it.
 const PAIRS: usize = 1 << 18;
-/// Contacts looked through at most, for all pairs together: some 0.5 s of work. Circles a few roundings apart touch in
-/// thousands of places.
+/// The largest number of contacts that are searched, for all pairs together: some 0.5 s of work. Circles a few
+/// roundings apart touch in thousands of places.
 const LOOKS: usize = 1 << 29;
-/// Control points that are kept at most, some 40 bytes each. Only curves of a degree above ten come to so many before
-/// [`PAIRS`] ends it.
+/// The largest number of control points that are stored, some 40 bytes each. Only curves of a degree above ten reach it
+/// before [`PAIRS`].
 const CONTROL_POINTS: usize = 1 << 22;
 
-/// Every meeting of two curves with a gap of at most `tolerance` (a length; at least a few units in the last place of
-/// the coordinates are allowed in any case). Each connected contact is one meeting: two crossings with a lens between
-/// them that is no deeper than the tolerance are one touching. A contact that holds an end of a curve is reported
-/// there.
+/// Every meeting of two curves with a gap of at most `tolerance`, a length; a few units in the last place of the
+/// coordinates are always allowed. Each connected contact is one meeting: two crossings with a lens between them that
+/// is no deeper than the tolerance are one touching. A contact that contains an end of a curve is reported at that end.
 ///
 /// # Errors
 /// [`MeetingBudget`] where the curves run along each other just outside the tolerance for too long.
 pub fn meetings(a: &Curve, b: &Curve, tolerance: f64) -> Result<Meetings, MeetingBudget> {
-    // Most pairs are far apart. Twice: arcs are moved by up to a tolerance by spreading it along them.
+    // Most pairs are far apart. Twice the tolerance, because arcs whose ends were moved may lie off their control
+    // points by one.
     if a.is_clear_of(b, 2.0 * tolerance) {
         return Ok(Meetings::default());
     }
@@ -116,9 +127,9 @@ pub fn meetings(a: &Curve, b: &Curve, tolerance: f64) -> Result<Meetings, Meetin
     Ok(search.finish())
 }
 
-/// Where a curve meets itself, with t < u: crossings and touchings; the ends of a stretch that it runs along twice are
-/// touchings. The common end of a closed curve is no meeting, nor is where a loop no wider than the tolerance closes.
-/// The curve is to have neither cusps nor jumps of its tangent.
+/// The meetings of a curve with itself, with t < u: crossings and touchings. The ends of a stretch that it runs along
+/// twice are touchings. The common end of a closed curve is no meeting, nor is the place where a loop no wider than the
+/// tolerance closes. The curve must have neither cusps nor jumps of its tangent.
 ///
 /// # Errors
 /// [`MeetingBudget`] as for [`meetings`].
@@ -140,23 +151,23 @@ pub fn self_meetings(a: &Curve, tolerance: f64) -> Result<Vec<Meeting>, MeetingB
             contact: Overlap { t: [t; 2], u: [u; 2] },
         }));
     }
-    // Where it turns round within the tolerance it is near to itself along itself.
+    // Where the curve turns back within the tolerance it is near to itself without meeting itself.
     points.retain(|m| !contact::is_near(a, m.t, m.u, tolerance));
     points.sort_by(|p, q| p.t.total_cmp(&q.t).then(p.u.total_cmp(&q.u)));
     Ok(points)
 }
 
 struct Search<'c> {
-    /// Of a and of b; only one where they are the same.
+    /// The trees of a and of b; only one where they are the same curve.
     hulls: Vec<Hulls>,
     contacts: Contacts<'c>,
 }
 
 impl<'c> Search<'c> {
     fn new(a: &'c Curve, b: &'c Curve, hulls: Vec<Hulls>, tolerance: f64, same: bool) -> Self {
-        // De Casteljau's algorithm errs by up to 2n units of rounding at degree n, and so does cutting a part out of a
-        // curve; a gap is between two such points. A unit of rounding is half of EPSILON: 4(n + 1) of them is the noise
-        // of a gap, and four times that a safe tolerance.
+        // De Casteljau's algorithm has an error of up to 2n units of rounding at degree n, and so has a part cut out of
+        // a curve. A gap is the distance of two such points. A unit of rounding is half of EPSILON: 4(n + 1) of them is
+        // the noise of a gap, and four times that a safe tolerance.
         let most = |value: fn(&Hulls) -> f64| hulls.iter().map(value).fold(0.0, f64::max);
         let noise = 2.0 * (most(|h| h.degree as f64) + 1.0) * f64::EPSILON * most(|h| h.magnitude);
         let track = |curve, hulls: &Hulls| Track::new(curve, hulls.degree, hulls[hulls.root()].size);
@@ -164,7 +175,7 @@ impl<'c> Search<'c> {
         Self { contacts: Contacts::new(on_a, on_b, tolerance.max(4.0 * noise), noise, same), hulls }
     }
 
-    /// Where the pieces of b are kept.
+    /// The index of the tree of b.
     fn second(&self) -> usize {
         self.hulls.len() - 1
     }
@@ -181,7 +192,7 @@ impl<'c> Search<'c> {
                 return Err(MeetingBudget { at: self.hulls[0][i].bounds.center() });
             }
             if self.contacts.same && i == j {
-                // Legs within a half-plane: the piece cannot come back to where it was.
+                // If all legs lie in a half plane, the piece cannot meet itself.
                 if self.hulls[0][i].cone.is_none() && !self.is_point(i) {
                     let [left, right] = self.hulls[0].halves(i);
                     stack.extend([[right, right], [left, right], [left, left]]);
@@ -202,7 +213,7 @@ impl<'c> Search<'c> {
         self.hulls[0][i].size <= 0.25 * self.contacts.tolerance
     }
 
-    /// Solves a pair of pieces, or says which of the two is to be halved.
+    /// Solves or drops a pair of pieces, or returns which of the two to halve.
     fn compare(&mut self, i: usize, j: usize) -> Result<Option<usize>, MeetingBudget> {
         let tolerance = self.contacts.tolerance;
         let (p, q) = (&self.hulls[0][i], &self.hulls[self.second()][j]);
@@ -212,7 +223,8 @@ impl<'c> Search<'c> {
         if p.cone.is_some() && q.cone.is_some() && self.contacts.knows_box(p.t, q.t) {
             return Ok(None);
         }
-        // A quarter each for the width of both pieces, a quarter for each of the two ends' distances.
+        // A quarter of the tolerance for the width of each piece, and a quarter for the distance at each of the two
+        // ends.
         let straight = [p.is_straight(0.25 * tolerance), q.is_straight(0.25 * tolerance)];
         let mut guesses = Vec::new();
         if p.is_slender() && q.is_slender() && no_common_direction(p, q) {
@@ -231,7 +243,7 @@ impl<'c> Search<'c> {
         Ok(None)
     }
 
-    /// Whether two pieces of one curve follow each other and turn too little to meet anywhere else.
+    /// Whether two pieces of one curve are consecutive and turn too little to meet anywhere else.
     fn are_joined(&self, p: &HullNode, q: &HullNode) -> bool {
         let closed = |p: &HullNode, q: &HullNode| p.t[0] == 0.0 && q.t[1] == 1.0 && p.hull.first() == q.hull.last();
         if p.t[1] != q.t[0] && !closed(p, q) {
@@ -241,12 +253,14 @@ impl<'c> Search<'c> {
             return true;
         }
         let (Some(c), Some(d)) = (p.cone, q.cone) else { return false };
-        // All legs in the open half-plane ahead of the mean of the chords: no two points of the joined pieces are one.
+        // All legs lie in the open half plane ahead of the mean of the chords: no two points of the joined pieces
+        // coincide.
         let ahead = (p.last() - p.first()).normalize() + (q.last() - q.first()).normalize();
         [c.right, c.left, d.right, d.left].iter().all(|leg| leg.dot(ahead) > 0.0)
     }
 
-    /// Ends of either piece that lie within the tolerance of the other curve: `all` of them, or only the ends of spans.
+    /// Guesses at the ends of either piece that lie within the tolerance of the other curve: `all` ends, or only ends
+    /// of spans.
     fn guess_at_ends(&self, p: &HullNode, q: &HullNode, all: bool, guesses: &mut Vec<Guess>) {
         let tolerance = self.contacts.tolerance;
         for (piece, other, curve, of_a) in [(p, q, self.contacts.b.curve, true), (q, p, self.contacts.a.curve, false)] {
@@ -263,7 +277,7 @@ impl<'c> Search<'c> {
         }
     }
 
-    /// Where the chords of two straight pieces cross, if the curves are within the tolerance there.
+    /// A guess where the chords of two straight pieces cross, if the curves are within the tolerance there.
     fn guess_between_chords(&self, p: &HullNode, q: &HullNode, guesses: &mut Vec<Guess>) {
         let (pp, qq) = (p.last() - p.first(), q.last() - q.first());
         let (between, area) = (q.first() - p.first(), pp.cross(qq));
@@ -280,7 +294,8 @@ impl<'c> Search<'c> {
         }
     }
 
-    /// The crossing of two slender pieces without a common direction, where there is one; whether that is certain.
+    /// A guess at the crossing of two slender pieces without a common direction, if there is one. Returns whether
+    /// Newton's method converged, so that the answer is certain.
     fn guess_crossing(&self, p: &HullNode, q: &HullNode, guesses: &mut Vec<Guess>) -> bool {
         let (pp, qq) = (p.last() - p.first(), q.last() - q.first());
         let between = q.first() - p.first();
@@ -300,9 +315,10 @@ impl<'c> Search<'c> {
         let place = a.point(t);
         let (da, db) = (a.derivative(t), b.derivative(u));
         let sine = (da.cross(db) / (length(da) * length(db))).abs();
-        // The curves are within the tolerance of each other for tolerance/sin θ; twice that for their bending.
+        // The curves stay within the tolerance of each other over a length of tolerance/sin θ; twice that allows for
+        // their curvature.
         let reach = 2.0 * tolerance / sine;
-        // A crossing at a joint may be rounded to either side of it: both sides may find it.
+        // A crossing at a joint of two pieces may round to either side of it: both may report it.
         let inside = |piece: &HullNode, t: f64| {
             let slack = (piece.t[1] - piece.t[0]) * (reach / piece.size).min(1.0);
             piece.t[0] - slack <= t && t <= piece.t[1] + slack
@@ -332,7 +348,8 @@ impl<'c> Search<'c> {
         self.contacts.add(t, u, root)
     }
 
-    /// By ascending t; a meeting at the common end of a closed curve is told once, at the lesser parameter.
+    /// The meetings by ascending t. A meeting at the common end of a closed curve is reported once, at the smaller
+    /// parameter.
     fn finish(self) -> Meetings {
         let Contacts { mut points, mut overlaps, a, b, tolerance, .. } = self.contacts;
         points.sort_by(|p, q| p.t.total_cmp(&q.t).then(p.u.total_cmp(&q.u)));
@@ -355,13 +372,13 @@ impl<'c> Search<'c> {
     }
 }
 
-/// A pair of parameters within the tolerance, to be followed.
+/// A pair of parameters with a gap within the tolerance, from which to follow a contact.
 struct Guess {
     t: f64,
     u: f64,
     /// Whether it solves a(t) = b(u) as well as can be.
     root: bool,
-    /// Where positive: a crossing with nothing else of either curve within this distance.
+    /// If positive: this is a crossing, with no end and no other meeting within this distance.
     clear: f64,
 }
 
@@ -371,7 +388,7 @@ impl Guess {
     }
 }
 
-/// Whether two pieces are further apart than `gap`, as their boxes or the strips along their chords show.
+/// Whether the boxes of two pieces, or the strips along their chords, show that they are farther apart than `gap`.
 fn are_apart(p: &HullNode, q: &HullNode, gap: f64) -> bool {
     let (r, s) = (p.bounds, q.bounds);
     r.x0 > s.x1 + gap
@@ -382,7 +399,7 @@ fn are_apart(p: &HullNode, q: &HullNode, gap: f64) -> bool {
         || strip_is_clear(q, p, gap)
 }
 
-/// Whether the strip along the chord of `p` stays further than `gap` from `q`.
+/// Whether the strip along the chord of `p` stays farther than `gap` from `q`.
 fn strip_is_clear(p: &HullNode, q: &HullNode, gap: f64) -> bool {
     if p.normal == Vec2::ZERO || q.is_group() {
         return false;
@@ -398,14 +415,14 @@ fn is_beside(x: Point, piece: &HullNode, gap: f64) -> bool {
     distance_to_box(x, piece.bounds) <= gap && piece.spread[0] - gap <= d && d <= piece.spread[1] + gap
 }
 
-/// The parameter at which the piece, were it straight, would be nearest to x.
+/// The parameter of the point nearest to x if the piece were its chord.
 fn beside_chord(piece: &HullNode, x: Point) -> f64 {
     let chord = piece.last() - piece.first();
     let fraction = if chord == Vec2::ZERO { 0.5 } else { (x - piece.first()).dot(chord) / chord.hypot2() };
     piece.t[0] + fraction.clamp(0.0, 1.0) * (piece.t[1] - piece.t[0])
 }
 
-/// Whether no direction, either way, is in the cones of tangents of both pieces.
+/// Whether no direction, up to sign, is in the cones of tangents of both pieces.
 fn no_common_direction(p: &HullNode, q: &HullNode) -> bool {
     let (Some(c), Some(d)) = (p.cone, q.cone) else { return false };
     let signs = [c.right, c.left].map(|u| [d.right, d.left].map(|v| u.cross(v)));
@@ -413,7 +430,7 @@ fn no_common_direction(p: &HullNode, q: &HullNode) -> bool {
     signs.iter().all(|&s| s > 0.0) || signs.iter().all(|&s| s < 0.0)
 }
 
-/// Which of two pieces is to be halved: the longer one of those that are not straight yet.
+/// Which of two pieces to halve: the longer one of those that are not straight yet.
 fn longer(p: &HullNode, q: &HullNode, straight: [bool; 2]) -> usize {
     match straight {
         [true, false] => 1,

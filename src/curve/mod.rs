@@ -1,12 +1,12 @@
-//! One curve and its questions: an exact line, arc, Bézier, spline or clothoid, never flattened.
+//! One curve and its queries: an exact line, arc, ellipse, Bézier, spline or clothoid, never flattened.
 //!
-//! Every kind runs over t ∈ [0, 1], and `point(0)` and `point(1)` are *exactly* its end points: a curve of a domain
-//! interpolates its vertices bit for bit ([`Curve::with_ends`]). Questions about a part of a curve take a range
-//! `t0..t1` with `t0 < t1`.
+//! Every kind has the parameter range t ∈ [0, 1], and `point(0)` and `point(1)` are *exactly* its end points: a curve
+//! of a domain interpolates its vertices bit for bit ([`Curve::with_ends`]). Queries about a part of a curve take a
+//! range `t0..t1` with `t0 < t1`.
 //!
-//! Pav & Walkington 2005 ask of a curve its *turning* (total variation of the tangent, Definition 4), a point where it
-//! crosses the perpendicular bisector of its chord (Corollaries 1 and 2), and where it leaves a ball around its end
-//! point (splitball).
+//! Pav & Walkington 2005 need three things of a curve: its *turning* (total variation of the tangent, Definition 4), a
+//! point where it crosses the perpendicular bisector of its chord (Corollaries 1 and 2), and the place where it leaves
+//! a ball around its end point (splitball).
 
 mod arc;
 mod bernstein;
@@ -50,7 +50,7 @@ pub struct Break {
     pub t: f64,
     /// What breaks the regularity there.
     pub kind: BreakKind,
-    /// How far the tangent turns at the point, in (0, π].
+    /// The angle between the tangents before and after, in (0, π].
     pub turn_rad: f64,
 }
 
@@ -139,13 +139,13 @@ pub struct Spline {
     pub spans: Vec<Bezier>,
 }
 
-/// A clothoid, or Euler spiral: its curvature changes evenly along it.
+/// A clothoid, or Euler spiral: its curvature is a linear function of arc length.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Clothoid {
     heading_rad: f64,
     curvatures: [f64; 2],
     length: f64,
-    /// What follows it to rounding; its ends are the clothoid's.
+    /// A spline that equals it up to rounding; its ends are the clothoid's.
     chain: Spline,
 }
 
@@ -205,13 +205,14 @@ pub enum CurveError {
     },
 }
 
+/// The length of a vector, without overflow or underflow.
 pub(crate) fn length(v: Vec2) -> f64 {
     libm::hypot(v.x, v.y)
 }
 
-/// `v` made one unit long; where it has no direction, (1, 0).
+/// The unit vector in the direction of `v`; (1, 0) where `v` has no direction.
 fn unit(v: Vec2) -> Vec2 {
-    // Scaled first, so that neither tiny nor huge vectors leave the range.
+    // Scaled first, so that neither tiny nor huge vectors underflow or overflow.
     let scaled = v * crate::geometry::unit_scale(v.x.abs().max(v.y.abs()));
     let len = length(scaled);
     if len > 0.0 && len.is_finite() { scaled / len } else { Vec2::new(1.0, 0.0) }
@@ -227,7 +228,7 @@ fn check_points(points: &[Point]) -> Result<(), CurveError> {
 
 // ---- constructors: each checks finiteness and shape, and returns CurveError ----
 impl Curve {
-    /// A segment; one of zero length is a curve too (a reader may find it).
+    /// A segment. It may have zero length, as readers may find such ones.
     ///
     /// # Errors
     /// [`CurveError::NotFinite`] where a coordinate is not finite.
@@ -278,7 +279,7 @@ impl Curve {
             circle.ends = [start, start];
             return Ok(Curve::Arc(circle));
         }
-        // The angle between the chord and its tangents is the turn at any point of the arc, and half the sweep.
+        // The turn at `through`, between the chords before and after it, is half the sweep (inscribed angle).
         let turn = crate::geometry::turn_from(through - start, end - through);
         if turn == 0.0 {
             return Self::line(start, end);
@@ -304,8 +305,9 @@ impl Curve {
     pub fn bezier(points: Vec<Point>) -> Result<Self, CurveError> {
         Bezier::new(points, None).map(|b| Curve::Bezier(Box::new(b)))
     }
-    /// A rational Bézier curve; all weights positive. Equal weights make it a plain one; weights more than 64 times
-    /// apart another pace of the parameter, or a NURBS of several spans, which is the same curve up to rounding.
+    /// A rational Bézier curve; all weights positive. With equal weights the result is a polynomial Bézier curve. Where
+    /// weights differ by more than 64 times, the parameter is changed, or the result is a NURBS of several spans: the
+    /// same curve up to rounding.
     ///
     /// # Errors
     /// [`CurveError::NotFinite`] where a number is not finite, [`CurveError::Count`] where the degree is not from 1 to
@@ -324,10 +326,10 @@ impl Curve {
     pub fn nurbs(degree: usize, knots: &[f64], points: &[Point], weights: Option<&[f64]>) -> Result<Self, CurveError> {
         Spline::from_knots(degree, knots, points, weights).map(|s| Curve::Spline(Box::new(s)))
     }
-    /// The clothoid (Euler spiral) of a length, from a point with a heading (from the x axis to the left), of which the
-    /// curvature changes evenly from the first to the last of two, each 1/radius and positive where the curve turns
-    /// left. Equal ones make it an arc, of at most once around, and zeros a line, of this kind still. Points are right
-    /// to three roundings of the length and the coordinates.
+    /// The clothoid (Euler spiral) of a given length from a start point. `heading_rad` is the direction at the start,
+    /// counter-clockwise from the x axis. The curvature changes linearly from the first to the second of `curvatures`;
+    /// each is 1/radius, positive where the curve turns left. Equal curvatures give an arc, at most once around, zeros
+    /// a line, both still of this kind. Points are accurate to three roundings of the length and the coordinates.
     ///
     /// # Errors
     /// [`CurveError::NotFinite`] where a number is not finite, [`CurveError::Length`] where the length is not positive,
@@ -363,9 +365,9 @@ impl Curve {
     }
 }
 
-// ---- questions ----
+// ---- queries ----
 impl Curve {
-    /// The one place where kinds are told apart: everything else asks the trait.
+    /// The only match over the kinds for queries: everything else calls the trait.
     fn as_kind(&self) -> &dyn Kind {
         match self {
             Curve::Line(line) => line,
@@ -384,11 +386,11 @@ impl Curve {
     pub fn as_arc(&self) -> Option<&CircularArc> {
         if let Curve::Arc(arc) = self { Some(arc) } else { None }
     }
-    /// Whether its curvature is the same everywhere, and its parameter runs evenly along it: a line or a circular arc.
+    /// Whether its curvature is constant and its parameter proportional to arc length: a line or a circular arc.
     pub fn is_round(&self) -> bool {
         self.as_kind().is_round()
     }
-    /// How many points it takes to keep, where a line, an arc or an ellipse counts as one.
+    /// The number of points that it stores; a line, an arc or an ellipse counts as one.
     pub fn control_count(&self) -> usize {
         self.as_kind().control_count()
     }
@@ -396,7 +398,7 @@ impl Curve {
     pub fn knots(&self) -> Vec<f64> {
         self.as_kind().knots()
     }
-    /// The field's name of the kind: "line", "arc", "ellipse", "bezier", "rational bezier", "spline", "nurbs",
+    /// The usual name of the kind: "line", "arc", "ellipse", "bezier", "rational bezier", "spline", "nurbs",
     /// "clothoid".
     pub fn kind(&self) -> &'static str {
         self.as_kind().name()
@@ -439,7 +441,7 @@ impl Curve {
         let speed = length(d);
         if speed == 0.0 { 0.0 } else { (d / speed).cross(dd / speed) / speed }
     }
-    /// Whether the curve is its chord, followed without turning back, up to rounding of its control points.
+    /// Whether the curve runs along its chord without turning back, up to rounding of its control points.
     pub fn is_straight(&self) -> bool {
         self.as_kind().is_straight()
     }
@@ -484,36 +486,44 @@ impl Curve {
     pub fn inflections(&self) -> Vec<f64> {
         self.as_kind().inflections()
     }
-    /// Ascending parameters strictly inside at which the curve is to be cut so that every part turns at most `tau`;
-    /// parts of (nearly) equal turning, as few as possible (an excess of 1e-12 of `tau` counts as none). Breaks are
-    /// always cut; never more than 10⁸ parts between two of them: ask [`Curve::parts_of_turning`] first.
+    /// Ascending parameters strictly inside at which to cut the curve so that every part turns by at most `tau`
+    /// (radians). The parts have (nearly) equal turning and are as few as possible; an excess of 1e-12 of `tau` counts
+    /// as none. Breaks are always cut. There are at most 10⁸ parts between two breaks: call [`Curve::parts_of_turning`]
+    /// first.
     pub fn cuts_of_turning(&self, tau: f64) -> Vec<f64> {
         self.as_kind().cuts_of_turning(tau)
     }
-    /// How many parts of at most `tau` a curve without breaks turns enough for; `usize::MAX` where no number holds
-    /// them.
+    /// The number of parts of turning at most `tau` for a curve without breaks; `usize::MAX` where it does not fit.
     pub fn parts_of_turning(&self, tau: f64) -> usize {
         turning::parts_of_turning(self.turning(0.0, 1.0), tau) as usize
     }
-    /// λ ≥ max over z of π − ∠xzy for the part with chord xy (equality for lines and circular arcs: half the turning).
+    /// The lens angle λ: an upper bound of π − ∠xzy over the points z of the part with chord xy. It is exact for lines
+    /// and circular arcs: half the turning.
+    ///
+    /// ```text
+    ///             z ●───╮       λ is the largest angle by which the way x → z → y turns at z. The part lies in the
+    ///         ╭─────╯   ╰─╮     lens of the points with ∠xzy ≥ π − λ.
+    ///       x ●── chord ──● y
+    /// ```
     pub fn lens_angle(&self, t0: f64, t1: f64) -> f64 {
         self.as_kind().lens_angle(t0, t1)
     }
-    /// Largest distance of the part from its chord (the segment).
+    /// The largest distance of the part from its chord, taken as a segment.
     pub fn chord_error(&self, t0: f64, t1: f64) -> f64 {
         self.as_kind().chord_error(t0, t1)
     }
-    /// Where the part crosses the perpendicular bisector of its chord (turning ≤ π/3: exactly one crossing; beyond, one
-    /// of them; the middle parameter where the chord is a point).
+    /// The parameter where the part crosses the perpendicular bisector of its chord. For a turning of at most π/3 there
+    /// is exactly one crossing; beyond, this is one of them. Where the chord is a point, the middle parameter.
     pub fn bisector_crossing(&self, t0: f64, t1: f64) -> f64 {
         self.as_kind().bisector_crossing(t0, t1)
     }
-    /// Where the part crosses the line through `a` along `direction` from one side to the other, strictly inside,
-    /// ascending.
+    /// The parameters where the part crosses the line through `a` along `direction` from one side to the other,
+    /// strictly inside, ascending.
     pub fn line_crossings(&self, a: Point, direction: Vec2, t0: f64, t1: f64) -> Vec<f64> {
         self.as_kind().line_crossings(a, direction, t0, t1)
     }
-    /// Where the part, followed from its end `end` (t0 or t1), first reaches the distance `radius` from that end point.
+    /// The parameter where the part, followed from its end `end` (t0 or t1), first reaches the distance `radius` from
+    /// that end; `None` where it stays nearer.
     pub fn leaves_ball(&self, end: End, radius: f64, t0: f64, t1: f64) -> Option<f64> {
         self.as_kind().leaves_ball(end, radius, t0, t1)
     }
@@ -529,15 +539,15 @@ impl Curve {
     pub fn reversed(&self) -> Self {
         self.as_kind().reversed()
     }
-    /// The curve with this very end, of a kind whose end comes of its other numbers, if that is its own up to rounding;
-    /// `None` where it is not, and of other kinds.
+    /// The same curve with exactly this end, if the end equals its own up to rounding and its kind computes the end
+    /// from other numbers; else `None`.
     pub(crate) fn with_rounded_end(&self, end: Point) -> Option<Self> {
         self.as_kind().with_rounded_end(end)
     }
-    /// The curve moved by the similarity that takes its ends to `start` and `end` (exactly those bits). For a small
-    /// move: welding. A closed curve is translated. Where the similarity would move other points much farther than the
-    /// ends (a curve that nearly closes), and where a curve closes or opens, the moves of the ends are spread along the
-    /// curve instead; a clothoid then becomes the spline that follows it.
+    /// The curve moved by the similarity that takes its ends to `start` and `end` (exactly those bits). Meant for small
+    /// moves, as in welding. A closed curve is translated. Where the similarity would move other points much farther
+    /// than the ends (a curve that nearly closes), and where a curve closes or opens, the moves of the ends are spread
+    /// along the curve instead. A clothoid then becomes its spline.
     pub fn with_ends(&self, start: Point, end: Point) -> Self {
         weld::with_ends(self, start, end)
     }
@@ -545,8 +555,8 @@ impl Curve {
     pub fn scaled(&self, factor: f64) -> Self {
         self.as_kind().scaled(factor)
     }
-    /// Any non-degenerate affine image, exact in kind; under a map that is no similarity a circle becomes an ellipse,
-    /// and a clothoid, which has no such image, the spline that follows it to rounding.
+    /// The image under a non-degenerate affine map, exact in kind. Under a map that is no similarity a circle becomes
+    /// an ellipse. A clothoid has no such image and becomes the spline that equals it up to rounding.
     pub fn transformed(&self, map: kurbo::Affine) -> Self {
         self.as_kind().transformed(map)
     }

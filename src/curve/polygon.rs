@@ -1,4 +1,4 @@
-//! Control polygons about an origin, plain or with weights: what sums and differences of curves are taken of.
+//! Control polygons relative to an origin, polynomial or rational.
 
 use super::bernstein;
 use crate::geometry::Vec2;
@@ -7,11 +7,14 @@ use std::ops::{Add, Mul, Sub};
 /// A point times its weight, and the weight.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Weighted {
+    /// The point times the weight.
     pub at: Vec2,
+    /// The weight, positive.
     pub weight: f64,
 }
 
 impl Weighted {
+    /// The point itself.
     pub(super) fn point(self) -> Vec2 {
         self.at / self.weight
     }
@@ -35,7 +38,7 @@ impl Mul<f64> for Weighted {
     }
 }
 
-/// The control polygon of a part of a curve, relative to some origin.
+/// The control polygon of a part of a curve, relative to an origin.
 #[derive(Clone, Debug)]
 pub(super) enum Polygon {
     Plain(Vec<Vec2>),
@@ -43,6 +46,7 @@ pub(super) enum Polygon {
 }
 
 impl Polygon {
+    /// The point at t, relative to the origin.
     pub(super) fn value(&self, t: f64) -> Vec2 {
         match self {
             Polygon::Plain(c) => bernstein::value(c, t),
@@ -50,6 +54,7 @@ impl Polygon {
         }
     }
 
+    /// The polygons of the parts over 0..t and t..1.
     pub(super) fn split(&self, t: f64) -> (Polygon, Polygon) {
         match self {
             Polygon::Plain(c) => {
@@ -63,6 +68,7 @@ impl Polygon {
         }
     }
 
+    /// The polygon of the part over t0..t1.
     pub(super) fn restricted(&self, t0: f64, t1: f64) -> Polygon {
         match self {
             Polygon::Plain(c) => Polygon::Plain(bernstein::restricted(c, t0, t1)),
@@ -70,6 +76,7 @@ impl Polygon {
         }
     }
 
+    /// The polygon of the curve followed the other way.
     pub(super) fn reversed(mut self) -> Polygon {
         match &mut self {
             Polygon::Plain(c) => c.reverse(),
@@ -78,7 +85,7 @@ impl Polygon {
         self
     }
 
-    /// The control points; the curve lies in their convex hull.
+    /// The control points. The curve lies in their convex hull.
     pub(super) fn points(&self) -> Vec<Vec2> {
         match self {
             Polygon::Plain(c) => c.clone(),
@@ -94,6 +101,7 @@ impl Polygon {
         }
     }
 
+    /// The weights; `None` for a polynomial curve.
     pub(super) fn weights(&self) -> Option<Vec<f64>> {
         match self {
             Polygon::Plain(_) => None,
@@ -101,7 +109,8 @@ impl Polygon {
         }
     }
 
-    /// A linear form of position plus a constant, times the weight: coefficients of a polynomial with the form's sign.
+    /// The coefficients of (form(point) + constant) times the denominator, which has the sign of the form plus the
+    /// constant.
     pub(super) fn linear_form(&self, form: impl Fn(Vec2) -> f64, constant: f64) -> Vec<f64> {
         match self {
             Polygon::Plain(c) => c.iter().map(|p| form(*p) + constant).collect(),

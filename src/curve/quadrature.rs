@@ -2,15 +2,15 @@
 
 use kurbo::common::GAUSS_LEGENDRE_COEFFS_16;
 
-/// The integral of a function over a..b, each piece to rounding relative to `scale` (the size of the result).
+/// The integral of a function over a..b; each part is accurate to rounding relative to `scale`, the size of the result.
 pub(super) fn integral(f: impl Fn(f64) -> f64, a: f64, b: f64, scale: f64) -> f64 {
-    /// Pieces to look at: halving 50 times towards each of some dozens of kinks.
+    /// The budget of parts: halving 50 times towards each of some dozens of kinks.
     const BUDGET: usize = 1 << 12;
     let rule = |a: f64, b: f64| {
         let (mid, half) = (0.5 * (a + b), 0.5 * (b - a));
         half * GAUSS_LEGENDRE_COEFFS_16.iter().map(|(weight, at)| weight * f(mid + half * at)).sum::<f64>()
     };
-    // What 16 additions of rounded values may lose anyway.
+    // The rounding error of 16 additions.
     let noise = 16.0 * f64::EPSILON * scale.abs();
     let mut stack = vec![(a, b, rule(a, b))];
     let mut sum = 0.0;

@@ -1,4 +1,4 @@
-//! A Bézier piece of a curve.
+//! One Bézier span of a curve.
 
 use super::polygon::Polygon;
 use super::sweep::conic_parameter;
@@ -6,16 +6,18 @@ use super::{Bezier, bernstein};
 use crate::geometry::{Point, Rect, Vec2};
 use std::borrow::Cow;
 
-/// A Bézier piece of a curve, restricted to part of its own parameter.
+/// A Bézier span of a curve, restricted to a part of its own parameter.
 pub(super) struct Span<'a> {
+    /// The whole Bézier curve.
     pub bezier: Cow<'a, Bezier>,
-    /// Range of the Bézier's own parameter.
+    /// The start of the range of the Bézier's own parameter.
     pub(super) from: f64,
+    /// The end of that range.
     pub(super) to: f64,
     clock: Clock,
 }
 
-/// How the curve's parameter runs over a span.
+/// How the curve's parameter depends on that of the span.
 enum Clock {
     Linear {
         t0: f64,
@@ -30,13 +32,13 @@ enum Clock {
 }
 
 impl<'a> Span<'a> {
-    /// The range `of` the Bézier's own parameter, over which the curve's runs evenly through `t`.
+    /// The range `of` of the Bézier's own parameter; the curve's parameter runs linearly through `t0..t1` over it.
     pub(super) fn even(bezier: Cow<'a, Bezier>, of: [f64; 2], [t0, t1]: [f64; 2]) -> Self {
         Span { bezier, from: of[0], to: of[1], clock: Clock::Linear { t0, t1 } }
     }
 
-    /// A rational quadratic over half an angle `half_rad` to either side, which the curve's parameter follows through
-    /// `t`.
+    /// A rational quadratic over an angle of twice `half_rad`; the curve's parameter, proportional to the angle, runs
+    /// through `t0..t1`.
     pub(super) fn conic(bezier: Cow<'a, Bezier>, [t0, t1]: [f64; 2], half_rad: f64) -> Self {
         Span { bezier, from: 0.0, to: 1.0, clock: Clock::Conic { t0, t1, half_rad } }
     }
@@ -52,10 +54,12 @@ impl Span<'_> {
         if share <= 0.5 { t0 + share * (t1 - t0) } else { t1 - (1.0 - share) * (t1 - t0) }
     }
 
+    /// The control polygon of the restricted span, relative to `origin`.
     pub(super) fn about(&self, origin: Point) -> Polygon {
         self.bezier.about(origin).restricted(self.from, self.to)
     }
 
+    /// The coefficients of the hodograph over the restricted span: for a rational span, those of a positive multiple.
     pub(super) fn hodograph(&self) -> Vec<Vec2> {
         bernstein::restricted(&self.bezier.hodograph(), self.from, self.to)
     }
@@ -67,6 +71,7 @@ impl Span<'_> {
         }
     }
 
+    /// The start point of the restricted span.
     pub(super) fn start(&self) -> Point {
         self.bezier.at(self.from)
     }

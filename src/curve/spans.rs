@@ -1,7 +1,6 @@
-//! Questions answered span by span, on the Bézier pieces of any curve.
+//! Queries computed span by span, on the Bézier spans of any curve.
 //!
-//! Each becomes the sign of a polynomial in Bernstein form; its sign changes are isolated and then sharpened on the
-//! geometry itself.
+//! Each becomes a polynomial in Bernstein form. Its sign changes are isolated, and then refined on the curve itself.
 
 use super::bernstein::{self, SignChange, crossing};
 use super::kind::Kind;
@@ -32,14 +31,14 @@ pub(super) fn is_straight(spans: &[Span]) -> bool {
     Bezier { points, weights: None }.is_straight_within(noise)
 }
 
-/// Rounding of a product of two polynomials with the largest coefficients `a` and `b`, one of them of so many
+/// The rounding error of a product of two polynomials with largest coefficients `a` and `b`, one of them with `count`
 /// coefficients.
 fn product_noise(a: f64, b: f64, count: usize) -> f64 {
-    // Each coefficient is a sum with positive weights of total 1, each term off by a few ulp.
+    // Each coefficient is a mean with positive weights; each term has an error of a few units in the last place.
     4.0 * f64::EPSILON * a * b * count as f64
 }
 
-/// Where the distance to p is stationary or a span ends.
+/// The parameter of the point nearest to p: among the places where the distance is stationary, and the ends of spans.
 pub(super) fn nearest(curve: &(impl Kind + ?Sized), p: Point, t0: f64, t1: f64) -> f64 {
     let pieces = curve.spans(t0, t1);
     let mut best = [t0, t1]
@@ -71,9 +70,9 @@ pub(super) fn nearest(curve: &(impl Kind + ?Sized), p: Point, t0: f64, t1: f64) 
     if is_end { descended(curve, p, best, [t0, t1]) } else { best.1 }
 }
 
-/// From an end that seems nearest to p along the curve, as far as it comes nearer: where it sets out slowly, the noise
-/// of the slope's coefficients hides that. Newton's steps, of Gauss's kind where the distance is not convex; each is
-/// halved until it helps.
+/// Descends from an end of a span that seems nearest to p, along the curve, as long as the distance decreases. This is
+/// needed where the curve starts slowly, and the slope's coefficients are below noise. The steps are Newton's, or
+/// Gauss–Newton's where the distance is not convex; each is halved until the distance decreases.
 fn descended(curve: &(impl Kind + ?Sized), p: Point, (mut distance, mut t): (f64, f64), [t0, t1]: [f64; 2]) -> f64 {
     const BUDGET: usize = 40;
     let mut share = 1.0;
@@ -94,14 +93,14 @@ fn descended(curve: &(impl Kind + ?Sized), p: Point, (mut distance, mut t): (f64
     t
 }
 
-/// Where the part crosses the line, strictly inside: sign changes of the distance from it.
+/// See [`Curve::line_crossings`](super::Curve::line_crossings): the sign changes of the distance from the line.
 pub(super) fn line_crossings(spans: &[Span], a: Point, direction: Vec2, t0: f64, t1: f64) -> Vec<f64> {
     let mut found = Vec::new();
     let mut before: Option<bool> = None;
     for span in spans {
         let anchor = span.bezier.points[0];
         let local = span.about(anchor);
-        // Only the constant carries what a far-off `a` costs: it moves the line as a whole.
+        // Only the constant carries the rounding of a distant `a`: it moves the line as a whole.
         let distance = local.linear_form(|v| v.cross(direction), (anchor - a).cross(direction));
         let noise = product_noise(bernstein::longest(&local.numerators()), length(direction), 1);
         let Some((first, last, _)) = bernstein::variations(&distance, noise) else { continue };
@@ -116,7 +115,15 @@ pub(super) fn line_crossings(spans: &[Span], a: Point, direction: Vec2, t0: f64,
     found
 }
 
-/// A crossing of the perpendicular bisector of the chord: by the signs at the knots down to one span, then within it.
+/// See [`Curve::bisector_crossing`](super::Curve::bisector_crossing): a bisection over the knots down to one span, then
+/// a root within it.
+///
+/// ```text
+///               │ bisector
+///          ╭────●────╮            x and y: the ends of the part. `beyond` is (z − x)·chord − ½ chord², negative on the
+///      x ●─╯    │    ╰─● y        side of x, positive on that of y.
+///               │
+/// ```
 pub(super) fn bisector_crossing(curve: &(impl Kind + ?Sized), t0: f64, t1: f64) -> f64 {
     let (x, y) = (curve.point(t0), curve.point(t1));
     let chord = y - x;
@@ -137,7 +144,7 @@ pub(super) fn bisector_crossing(curve: &(impl Kind + ?Sized), t0: f64, t1: f64) 
     span.t(crossing(|s| bernstein::value(&beyond, s), &change))
 }
 
-/// Squared distance from the polygon's origin less squared radius, times the squared denominator.
+/// The squared distance from the polygon's origin minus the squared radius, times the squared denominator.
 fn beyond_ball(polygon: &Polygon, radius: f64) -> Vec<f64> {
     let numerators = polygon.numerators();
     let square = bernstein::product(&numerators, &numerators, |a, b| a.dot(b));
@@ -150,9 +157,9 @@ fn beyond_ball(polygon: &Polygon, radius: f64) -> Vec<f64> {
     }
 }
 
-/// Where the polygon's curve first leaves the ball around its origin, in its own parameter.
+/// The parameter, in its own range, at which the polygon's curve first leaves the ball around the origin.
 fn first_beyond(polygon: &Polygon, radius: f64) -> Option<f64> {
-    /// After as many halvings a piece holds nothing but rounding.
+    /// After this many halvings there is no number between the ends of a part.
     const DEPTH: u32 = 52;
     const PIECE_BUDGET: usize = 1 << 12;
     let exact = |s: f64| length(polygon.value(s)) - radius;
@@ -181,6 +188,7 @@ fn first_beyond(polygon: &Polygon, radius: f64) -> Option<f64> {
     None
 }
 
+/// See [`Curve::leaves_ball`](super::Curve::leaves_ball).
 pub(super) fn leaves_ball(curve: &(impl Kind + ?Sized), end: End, radius: f64, t0: f64, t1: f64) -> Option<f64> {
     let (center_t, far_t) = match end {
         End::Start => (t0, t1),
@@ -204,14 +212,14 @@ pub(super) fn leaves_ball(curve: &(impl Kind + ?Sized), end: End, radius: f64, t
             return Some(t.clamp(t0, t1));
         }
     }
-    // The far end itself, up to rounding of the distance.
+    // The far end itself may lie on the ball, up to rounding of the distance.
     let reach = length(curve.point(far_t) - center);
     (reach >= radius * (1.0 - 4.0 * f64::EPSILON)).then_some(far_t)
 }
 
-/// Largest distance from the chord: at the ends of spans, where the tangent is parallel to the chord, and, where the
-/// curve leaves the strip between the chord's ends, where the distance from an end of it is stationary or the strip is
-/// left.
+/// The largest distance from the chord. It is taken at an end of a span, or where the tangent is parallel to the chord.
+/// If the curve leaves the strip between the perpendiculars at the chord's ends, it may also be where the distance from
+/// an end of the chord is stationary, or where the curve leaves the strip.
 pub(super) fn chord_error(curve: &(impl Kind + ?Sized), t0: f64, t1: f64) -> f64 {
     let (x, y) = (curve.point(t0), curve.point(t1));
     let chord = y - x;
@@ -248,6 +256,7 @@ pub(super) fn chord_error(curve: &(impl Kind + ?Sized), t0: f64, t1: f64) -> f64
     largest
 }
 
+/// The arc length of the restricted spans, by quadrature.
 pub(super) fn length_of(spans: &[Span]) -> f64 {
     let of = |span: &Span| {
         let polygon_length: f64 = span.bezier.points.windows(2).map(|p| length(p[1] - p[0])).sum();
@@ -267,7 +276,7 @@ pub(super) fn area_over_chord(spans: &[Span]) -> f64 {
     spans.iter().map(above).sum()
 }
 
-/// See [`Kind::widens`]: a Bézier lies in the hull of its control points.
+/// See [`Kind::widens`]: a Bézier curve lies in the hull of its control points.
 pub(super) fn widens(spans: &[Span], cone: &mut Cone, [start, finish]: [Point; 2], end: End) -> bool {
     let (apex, other) = match end {
         End::Start => (start, finish),
@@ -276,10 +285,11 @@ pub(super) fn widens(spans: &[Span], cone: &mut Cone, [start, finish]: [Point; 2
     spans.iter().all(|span| cone.widen_to(&span.bezier.points, apex, other - apex))
 }
 
-/// Largest turn at a point z of the part between the directions x → z and z → y.
+/// The largest turn at a point z of the part between the directions x → z and z → y.
 ///
-/// With N = (z − x)·W and c = y − x its tangent is e/f, e = (N × c)·W and f = (N·c)·W − N·N. Both vanish at x and at y,
-/// where they are divided by t and by 1 − t: the quotient is stationary where e′f − ef′ = 0.
+/// Let W be the denominator, N = (z − x)·W and c = y − x. Then the tangent of the turn is e/f, with e = (N × c)·W and f
+/// = (N·c)·W − N·N. Both vanish at x and at y, so they are divided by t and by 1 − t there. The quotient is stationary
+/// where e′f − ef′ = 0.
 pub(super) fn lens_angle(curve: &(impl Kind + ?Sized), t0: f64, t1: f64) -> f64 {
     let (x, y) = (curve.point(t0), curve.point(t1));
     let chord = y - x;
@@ -288,7 +298,7 @@ pub(super) fn lens_angle(curve: &(impl Kind + ?Sized), t0: f64, t1: f64) -> f64 
     }
     let pieces = curve.spans(t0, t1);
     let last = pieces.len() - 1;
-    // At x and at y the quotient's limit is that of the tangent.
+    // At x and at y the limit of the turn is the angle between tangent and chord.
     let at_x = turn_from(curve.tangent(t0, End::Start), chord).abs();
     let mut largest = turn_from(chord, curve.tangent(t1, End::Finish)).abs().max(at_x);
     for (k, span) in pieces.iter().enumerate() {

@@ -1,4 +1,10 @@
-//! B-splines and NURBS as their exact Bézier spans, and the interpolating cubic splines.
+//! B-splines and NURBS as their exact Bézier spans, and interpolating cubic splines.
+//!
+//! ```text
+//!   knots    0        0.3            0.6       1      The distinct knots are mapped to 0..1. Between two neighbours
+//!            ●─────────●──────────────●────────●      lies a span: a Bézier curve with its own parameter from 0 to 1.
+//!   spans         0            1           2          It begins where the span before it ends.
+//! ```
 
 use super::bezier::{check_weights, set_ends};
 use super::kind::Kind;
@@ -10,8 +16,8 @@ use crate::geometry::{Point, Vec2, magnitude, scaled, unit_scale};
 use std::borrow::Cow;
 
 impl Spline {
-    /// The spans of a full knot vector, each by its blossom (Ramshaw 1987: what inserting knots until each is of full
-    /// multiplicity gives). The domain runs from knot `degree` to knot `points.len()`.
+    /// The spans of a full knot vector, each by its blossom (Ramshaw 1987; the same as inserting knots until each has
+    /// full multiplicity). The domain runs from knot `degree` to knot `points.len()`. See [`Curve::nurbs`].
     pub(super) fn from_knots(
         degree: usize,
         knots: &[f64],
@@ -36,14 +42,15 @@ impl Spline {
         }
         let mut starts = Vec::new();
         let mut spans: Vec<Bezier> = Vec::new();
-        // Where all control points of a span are one, the curve stands still, and is the same without.
+        // A span whose control points coincide is one point: it is left out.
         let moves = |k: usize| points[k - degree..=k].iter().any(|p| *p != points[k]);
         let never_moves = points.iter().all(|p| *p == points[0]);
         for k in (degree..points.len()).filter(|k| knots[*k] < knots[*k + 1] && (moves(*k) || never_moves)) {
             let mut span = span_of(degree, knots, points, weights, k)?;
             if let Some(before) = spans.last() {
                 let joint = before.points[before.degree()];
-                // Two roundings of the same point, each of at most a dozen ulp; further apart, the curve has a gap.
+                // Both are roundings of the same point, each by at most a dozen units in the last place. Farther apart,
+                // the curve has a gap.
                 let slack = 32.0
                     * f64::EPSILON
                     * degree as f64
@@ -70,7 +77,7 @@ impl Spline {
         Ok(Spline { knots: to_unit(&starts), spans })
     }
 
-    /// The natural cubic spline: C², its second derivative zero at both ends.
+    /// The natural cubic spline: C², with a second derivative of zero at both ends.
     pub(super) fn natural(points: &[Point]) -> Result<Self, CurveError> {
         let points = without_repeats(points)?;
         if points.len() < 2 {
@@ -81,11 +88,11 @@ impl Spline {
         Ok(Self::open(&points, &steps, [None, None]))
     }
 
-    /// The cubic spline by chord length whose ends have the given directions, as unit tangents; natural where there are
-    /// none.
+    /// The cubic spline with parameters by chord length and the given directions as unit tangents at its ends; natural
+    /// at an end that has none.
     pub(super) fn fitted(points: &[Point], tangents: [Option<Vec2>; 2]) -> Result<Self, CurveError> {
-        /// Points nearer to each other than this share of the longest step are one: their step squared has no digits
-        /// left.
+        /// Points nearer to each other than this share of the longest step become one: the square of their step has no
+        /// digits left.
         const ONE: f64 = 1e-12;
         check_points(points)?;
         check_finite(tangents.iter().flatten().flat_map(|t| [t.x, t.y]))?;
@@ -103,13 +110,14 @@ impl Spline {
         Ok(Self::open(&points, &steps, tangents.map(slope)))
     }
 
-    /// The C² cubic through points at given steps of the parameter, with the given derivatives at its ends; its second
-    /// derivative zero at an end that has none.
+    /// The C² cubic through points at given steps of the parameter, with the given derivatives at its ends; at an end
+    /// without one its second derivative is zero.
     fn open(points: &[Point], steps: &[f64], ends: [Option<Vec2>; 2]) -> Self {
         let n = points.len();
         let (mut diagonal, mut right) = (vec![0.0; n], vec![Vec2::ZERO; n]);
         for i in 0..n - 1 {
-            // The span adds (2 mᵢ + mᵢ₊₁)/h = 3 Δ/h² to the row of its start, and its mirror to the row of its end.
+            // The span adds (2 mᵢ + mᵢ₊₁)/h = 3 Δ/h² to the row of its start, and the mirror image to the row of its
+            // end.
             let slope = (points[i + 1] - points[i]) * (3.0 / (steps[i] * steps[i]));
             for row in [i, i + 1] {
                 diagonal[row] += 2.0 / steps[i];
@@ -117,8 +125,7 @@ impl Spline {
             }
         }
         let mut beside: Vec<f64> = steps.iter().map(|h| 1.0 / h).collect();
-        // A slope that is known leaves the system: its row says so, and its term in its neighbour's row moves to the
-        // right.
+        // A known slope is eliminated: its row states it, and its term in the neighbour's row moves to the right side.
         for (slope, row, neighbour, step) in [(ends[0], 0, 1, 0), (ends[1], n - 1, n - 2, n - 2)] {
             if let Some(slope) = slope {
                 right[neighbour] -= slope * beside[step];
@@ -165,7 +172,7 @@ impl Spline {
         Ok(hermite(&points, &steps, &slopes))
     }
 
-    /// The span at t and the parameter within it; at a knot the span after it or before it.
+    /// The span at t and the parameter within it; at a knot the span after (`Start`) or before it (`Finish`).
     fn locate(&self, t: f64, side: End) -> (usize, f64) {
         let after = match side {
             End::Start => self.knots.partition_point(|k| *k <= t),
@@ -199,9 +206,9 @@ impl Spline {
         let mut knots = vec![t0];
         let mut spans = Vec::new();
         let pieces: Vec<_> = self.spans_in(t0, t1).collect();
-        // A cut meant for a joint may miss it by rounding, and by more where the curves meet at a small angle. The
-        // sliver that it leaves has no direction of its own: its neighbour takes its place. Three legs of some thousand
-        // units in the last place together tell their direction to a thousandth.
+        // A cut at a joint may miss it by rounding, and by more where the curves meet at a small angle. The sliver that
+        // remains has no reliable direction, so its neighbour replaces it. The direction of legs that are a few
+        // thousand units in the last place long is accurate to a thousandth.
         let is_sliver = |&(i, from, to): &(usize, f64, f64)| {
             let reach = self.spans[i].points.iter().map(|p| p.x.abs().max(p.y.abs())).fold(0.0, f64::max);
             to - from <= 64.0 * f64::EPSILON || net_of(&self.spans[i], from, to) <= 4096.0 * f64::EPSILON * reach
@@ -299,16 +306,16 @@ fn boxed(spline: Spline) -> Curve {
     Curve::Spline(Box::new(spline))
 }
 
-/// The length of the control polygon of a part of a span: it is no shorter than the part.
+/// The length of the control polygon of a part of a span: an upper bound of the part's length.
 fn net_of(span: &Bezier, from: f64, to: f64) -> f64 {
     let part = span.cut_out(from, to, [span.at(from), span.at(to)]);
     part.points.windows(2).map(|w| w[0].distance(w[1])).sum()
 }
 
-/// Ascending numbers mapped to 0..1, strictly ascending whatever the rounding.
+/// Ascending numbers mapped to 0..1, strictly ascending despite rounding.
 fn to_unit(knots: &[f64]) -> Vec<f64> {
     let last = knots.len() - 1;
-    // Halves, since a difference may overflow.
+    // Halved first, since a difference may overflow.
     let span = 0.5 * knots[last] - 0.5 * knots[0];
     let mut unit: Vec<f64> = knots.iter().map(|k| (0.5 * k - 0.5 * knots[0]) / span).collect();
     (unit[0], unit[last]) = (0.0, 1.0);
@@ -330,7 +337,8 @@ fn between(a: (Point, f64), b: (Point, f64), share: f64) -> (Point, f64) {
     (a.0 + (b.0 - a.0) * (share * b.1 / weight), weight)
 }
 
-/// The Bézier control points over knots k..k+1: the blossom at k (degree − j times) and k + 1 (j times).
+/// The Bézier control points over knots k..k+1: the j-th is the blossom at knot k (degree − j times) and knot k + 1 (j
+/// times).
 fn span_of(
     degree: usize,
     knots: &[f64],
@@ -363,9 +371,9 @@ fn without_repeats(points: &[Point]) -> Result<Vec<Point>, CurveError> {
     Ok(distinct)
 }
 
-/// Parameter steps by the square root of the distance (Lee 1989), which make neither loops nor cusps within a span,
-/// where uniform and chord-length parameters do (Yuksel, Schaefer & Keyser 2011 prove it of the Catmull–Rom spline).
-/// Same bits at every scale.
+/// Parameter steps by the square root of the distance (Lee 1989). They make neither loops nor cusps within a span, as
+/// uniform and chord-length parameters may (proven for the Catmull–Rom spline by Yuksel, Schaefer & Keyser 2011). The
+/// bits are the same at every scale.
 fn centripetal_steps(points: &[Point]) -> Vec<f64> {
     let distances: Vec<f64> = points.windows(2).map(|p| length(p[1] - p[0])).collect();
     let scale = unit_scale(distances.iter().fold(0.0, |m: f64, d| m.max(*d)));
@@ -389,7 +397,7 @@ fn solve_tridiagonal(diagonal: &[f64], beside: &[f64], mut right: Vec<Vec2>) -> 
     right
 }
 
-/// The cubic spans through points with given derivatives.
+/// The cubic spans through points with given derivatives (Hermite interpolation).
 fn hermite(points: &[Point], steps: &[f64], slopes: &[Vec2]) -> Spline {
     let mut knots = vec![0.0];
     let mut spans = Vec::with_capacity(steps.len());

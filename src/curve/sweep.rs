@@ -1,11 +1,11 @@
-//! Angles of arcs: sweeps, what they pass, and the pace of a conic.
+//! Angles of arcs: sweeps, the angles that they pass, and the parameter of a conic.
 
 use super::CurveError;
 use std::f64::consts::TAU;
 
-/// A sweep of at most once around: refused beyond that, and where it is 0.
+/// A sweep in radians, if it is not 0 and at most once around; nearly ±2π becomes exactly ±2π.
 pub(super) fn checked_sweep(sweep_rad: f64) -> Result<f64, CurveError> {
-    // 2π as readers compute it from degrees or from a difference of angles: some ulp off.
+    // Readers compute 2π from degrees or as a difference of angles: it is a few units in the last place off.
     let full = TAU * (1.0 + 16.0 * f64::EPSILON);
     if sweep_rad == 0.0 || sweep_rad.abs() > full {
         return Err(CurveError::Sweep { sweep_rad });
@@ -15,11 +15,20 @@ pub(super) fn checked_sweep(sweep_rad: f64) -> Result<f64, CurveError> {
 }
 
 /// Parameters t in t0..t1 (open) at which start + sweep·t equals `angle` modulo `period`, ascending.
+///
+/// ```text
+///             90°
+///           ╭──●──╮            An arc from 30° with a sweep of 200° passes the angles 90° and 180° of period 90°.
+///          ╱       ╲           There y and x of a circle are extreme.
+///    180° ●    ·    ╲ start
+///          ╲
+///           end
+/// ```
 pub(super) fn passages(start_rad: f64, sweep_rad: f64, angle: f64, period: f64, t0: f64, t1: f64) -> Vec<f64> {
     let (from, to) = (start_rad + sweep_rad * t0, start_rad + sweep_rad * t1);
     let (low, high) = if from < to { (from, to) } else { (to, from) };
     let first = libm::ceil((low - angle) / period);
-    // A sweep of 2π passes an angle modulo π/2 at most five times.
+    // A sweep of 2π passes an angle modulo π/2 (the shortest period in use) at most five times.
     let mut found: Vec<f64> = (0..5)
         .map(|k| angle + (first + f64::from(k)) * period)
         .take_while(|passage| *passage <= high)
@@ -47,7 +56,8 @@ pub(super) fn angle_minus_sine(phi: f64) -> f64 {
     sum
 }
 
-/// The share of the angle that a rational quadratic arc of half angle `half` has covered at its own parameter s.
+/// The share of its whole angle that a rational quadratic arc has covered at its parameter s; `half` is half of that
+/// angle, in radians.
 pub(super) fn conic_parameter(s: f64, half: f64) -> f64 {
     let (sin, cos) = libm::sincos(half);
     libm::atan2(s * sin, (1.0 - s) + s * cos) / half

@@ -1,25 +1,32 @@
-//! Turning: the total variation of the tangent angle (Pav & Walkington 2005, Definition 4), where it breaks and where
-//! it is to be cut.
+//! Turning, the total variation of the tangent angle (Pav & Walkington 2005, Definition 4); breaks of a curve; cuts of
+//! it into parts of limited turning.
 //!
-//! A Bézier's tangent has the direction of its hodograph. It is taken apart into stretches along which the tangent
-//! turns one way only and stays within a half plane: between the points where the hodograph vanishes, and the
-//! inflections (sign changes of its cross product with its derivative). The angle between the two ends of such a
-//! stretch is its turning, without ambiguity.
+//! The tangent of a Bézier curve has the direction of its hodograph. The hodograph is cut where it vanishes, and at
+//! inflections (sign changes of its cross product with its derivative), into stretches: along each the tangent turns
+//! one way only and stays within a half plane. The angle between the tangents at the two ends of a stretch is its
+//! turning, without ambiguity.
+//!
+//! ```text
+//!    ╭───╮                 From p to i the tangent turns right, from i to q left. i is an inflection: the curve has
+//!   p│   │i   │q           two stretches here. (Where a stretch turns by π or more, it is cut further, into half
+//!        │    │            planes.)
+//!        ╰────╯
+//! ```
 
 use super::bernstein::{self, SignChange, crossing};
 use super::span::Span;
 use super::{Break, BreakKind, length, unit};
 use crate::geometry::{Vec2, turn_from};
 
-/// Relative excess of a part's turning over the limit that passes for rounding: thrice that of a sum of a thousand
-/// stretches.
+/// The relative excess of a part's turning over the limit that counts as rounding: three times that of a sum of a
+/// thousand stretches.
 const COUNT_SLACK: f64 = 1e-12;
-/// Most parts that one curve is cut into, whatever the limit asks: more than any mesh that memory holds has edges.
+/// The largest number of parts that one curve is cut into: more than a mesh in memory can have edges.
 const PARTS_MAX: f64 = 1e8;
-/// A knot where the tangent turns less than this is no corner, although the turn counts as turning: parts of splines
+/// A knot where the tangent turns by less than this is no corner, although the turn counts as turning. Parts of splines
 /// carry the rounding of the curves that they were cut from, which may have been much larger.
 const CORNER_RAD: f64 = 1e-9;
-/// Pieces that the search for half planes may look at: some dozens of cusps, each approached by 48 halvings from both
+/// The budget of parts in the search for half planes: some dozens of cusps, each approached by 48 halvings from both
 /// sides.
 const PIECE_BUDGET: usize = 1 << 13;
 
@@ -28,34 +35,37 @@ struct Stretch {
     t0: f64,
     t1: f64,
     hodograph: Vec<Vec2>,
-    /// First and last directions, as long as the hodograph is there.
+    /// The hodograph at both ends, or its limits there: tangent directions, not of unit length.
     from: Vec2,
     to: Vec2,
     /// Signed: positive to the left.
     angle_rad: f64,
     /// Angles below this are rounding.
     noise_rad: f64,
-    /// How far the tangent jumps (unsigned) where the stretch begins, and whether that breaks the curve.
+    /// The jump of the tangent (unsigned) where the stretch begins, and whether that breaks the curve.
     jump_rad: f64,
     breaks: Option<BreakKind>,
 }
 
-/// Part of a hodograph in its own parameter.
+/// A part of a hodograph, over lo..hi of the parameter of its span.
 struct HodographPart {
     lo: f64,
     hi: f64,
     hodograph: Vec<Vec2>,
 }
 
+/// See [`Curve::turning`](super::Curve::turning): in radians, with the jumps at inner knots.
 pub(super) fn turning(spans: &[Span]) -> f64 {
     stretches(spans).iter().map(|s| s.angle_rad.abs() + s.jump_rad).sum()
 }
 
+/// See [`Curve::breaks`](super::Curve::breaks).
 pub(super) fn breaks(spans: &[Span]) -> Vec<Break> {
     let of = |s: &Stretch| s.breaks.map(|kind| Break { t: s.t0, kind, turn_rad: s.jump_rad });
     stretches(spans).iter().filter_map(of).collect()
 }
 
+/// See [`Curve::inflections`](super::Curve::inflections).
 pub(super) fn inflections(spans: &[Span]) -> Vec<f64> {
     let mut found = Vec::new();
     let mut before: Option<bool> = None;
@@ -75,6 +85,7 @@ pub(super) fn inflections(spans: &[Span]) -> Vec<f64> {
     found
 }
 
+/// See [`Curve::cuts_of_turning`](super::Curve::cuts_of_turning).
 pub(super) fn cuts_of_turning(spans: &[Span], tau: f64) -> Vec<f64> {
     let all = stretches(spans);
     let mut cuts = Vec::new();
@@ -94,18 +105,24 @@ pub(super) fn cuts_of_turning(spans: &[Span], tau: f64) -> Vec<f64> {
     cuts
 }
 
-/// How many parts of at most `tau` so much turning asks for.
+/// The number of parts of turning at most `tau` that a turning of `total` takes; at least 1.
 pub(super) fn parts_of_turning(total: f64, tau: f64) -> f64 {
     libm::ceil(total / tau * (1.0 - COUNT_SLACK)).max(1.0)
 }
 
-/// The turnings at which a run of so much turning is cut.
+/// The turnings, from the start of a run, at which a run of turning `total` is cut.
 pub(super) fn shares(total: f64, tau: f64) -> impl Iterator<Item = f64> {
     let parts = parts_of_turning(total, tau).min(PARTS_MAX);
     (1..parts as u32).map(move |k| total * (f64::from(k) / parts))
 }
 
-/// Cuts a run of stretches without a break inside.
+/// Cuts a run of stretches without a break inside into parts of equal turning.
+///
+/// ```text
+///   run       ├── 0.9 ──┤────── 1.5 ──────┤── 0.6 ──┤      Three stretches with their turnings (rad), 3.0 in total. τ
+///   shares    0          1.0         2.0           3.0     = 1.05 takes three parts of 1.0 each: both cuts lie in the
+///                         ▲           ▲                    second stretch, where it has turned by 0.1 and by 1.1.
+/// ```
 fn cut_run(run: &[Stretch], tau: f64, cuts: &mut Vec<f64>) {
     // The jump at the start of the run is the break before it, if any.
     let jump = |i: usize| if i == 0 { 0.0 } else { run[i].jump_rad };
@@ -121,7 +138,7 @@ fn cut_run(run: &[Stretch], tau: f64, cuts: &mut Vec<f64>) {
 }
 
 impl Stretch {
-    /// The parameter at which the tangent has turned by `turned` since the start of the stretch.
+    /// The parameter at which the tangent has turned by `turned` from the start of the stretch.
     fn at_turning(&self, turned: f64) -> f64 {
         let angle = self.angle_rad.abs();
         if turned <= 0.0 {
@@ -140,10 +157,10 @@ impl Stretch {
     }
 }
 
-/// The stretches of a chain of spans, in order. None of a part that does not move.
+/// The stretches of a chain of spans, in order. A part of constant position has none.
 fn stretches(spans: &[Span]) -> Vec<Stretch> {
     let mut all: Vec<Stretch> = Vec::new();
-    // A curve that is cut or moved is rounded at its far end's magnitude, also where it passes the origin.
+    // When a curve is cut or moved, its rounding has the magnitude of its far end, even where it passes the origin.
     let noise = spans.iter().map(|span| span.bezier.hodograph_noise()).fold(0.0, f64::max);
     for span in spans {
         for (k, piece) in one_way_pieces(span.hodograph(), noise).into_iter().enumerate() {
@@ -170,7 +187,7 @@ fn stretches(spans: &[Span]) -> Vec<Stretch> {
     all
 }
 
-/// Measures the jump between two neighbours: at a knot, or where the hodograph vanishes.
+/// Measures the jump of the tangent between two neighbours, at a knot or where the hodograph vanishes.
 fn join(before: &mut Stretch, after: &mut Stretch, at_knot: bool, noise: f64) {
     let vanishes = |d: Option<&Vec2>| d.is_some_and(|d| length(*d) <= noise);
     let vanished = vanishes(before.hodograph.last()) && vanishes(after.hodograph.first());
@@ -179,7 +196,7 @@ fn join(before: &mut Stretch, after: &mut Stretch, at_knot: bool, noise: f64) {
         return;
     }
     after.jump_rad = turn_from(before.to, after.from).abs();
-    // An analytic tangent passes a zero of the derivative straight on or reversed, so half way tells which.
+    // At a zero of the derivative an analytic tangent either continues or reverses, so π/2 separates the two cases.
     if vanished && after.jump_rad > std::f64::consts::FRAC_PI_2 {
         after.breaks = Some(BreakKind::Cusp);
     } else if after.jump_rad > (before.noise_rad + after.noise_rad).max(CORNER_RAD) {
@@ -187,14 +204,14 @@ fn join(before: &mut Stretch, after: &mut Stretch, at_knot: bool, noise: f64) {
     }
 }
 
-/// The first and the last coefficient that is more than noise: the limits of the tangent at both ends.
+/// The first and the last coefficient above noise: the limits of the tangent at both ends.
 fn end_directions(hodograph: &[Vec2], noise: f64) -> Option<(Vec2, Vec2)> {
     let mut sure = hodograph.iter().filter(|d| length(**d) > noise);
     let from = *sure.next()?;
     Some((from, sure.next_back().copied().unwrap_or(from)))
 }
 
-/// Pieces within half planes, cut further at inflections.
+/// The parts of [`half_plane_pieces`], cut further at inflections.
 fn one_way_pieces(hodograph: Vec<Vec2>, noise: f64) -> Vec<HodographPart> {
     let mut pieces = Vec::new();
     for piece in half_plane_pieces(hodograph, noise) {
@@ -226,8 +243,15 @@ fn one_way_pieces(hodograph: Vec<Vec2>, noise: f64) -> Vec<HodographPart> {
     pieces
 }
 
-/// Pieces each within an open half plane, cut where the hodograph vanishes; there the end coefficients are exactly
-/// zero.
+/// Parts of a hodograph, each within an open half plane. Where the hodograph vanishes it is cut, and the end
+/// coefficients there are exactly zero.
+///
+/// ```text
+///     h₁ ●────────● h₂         The coefficients h₀ … h₃ lie in an open half plane, on one side of a line through 0.
+///       ╱          ╲           The hodograph lies in their hull: its direction, the tangent, turns by less than π.
+///   h₀ ●            ● h₃
+///   ───────── 0 ─────────
+/// ```
 fn half_plane_pieces(hodograph: Vec<Vec2>, noise: f64) -> Vec<HodographPart> {
     let (pieces, mut zeros) = try_half_planes(&hodograph, 0.0, 1.0, noise);
     zeros.extend(
@@ -236,8 +260,7 @@ fn half_plane_pieces(hodograph: Vec<Vec2>, noise: f64) -> Vec<HodographPart> {
     if zeros.is_empty() {
         return pieces;
     }
-    // Small pieces near a zero know its directions badly: the hodograph is taken apart anew, with the zeros as its
-    // first cuts.
+    // Small parts near a zero have inaccurate directions. So the hodograph is cut anew, at the zeros first.
     let mut bounds = vec![0.0];
     bounds.extend(zeros.into_iter().map(|s| zero_near(&hodograph, s)).filter(|s| *s > 0.0 && *s < 1.0));
     bounds.push(1.0);
@@ -258,16 +281,16 @@ fn half_plane_pieces(hodograph: Vec<Vec2>, noise: f64) -> Vec<HodographPart> {
     pieces
 }
 
-/// Whether the hodograph vanishes where two pieces meet.
+/// Whether the hodograph vanishes where two parts meet.
 fn vanish_between(pair: &[HodographPart], noise: f64) -> bool {
     let vanishes = |d: Option<&Vec2>| d.is_some_and(|d| length(*d) <= noise);
     vanishes(pair[0].hodograph.last()) && vanishes(pair[1].hodograph.first())
 }
 
-/// Halves until each piece lies in a half plane or is lost in rounding; returns the pieces, and the middles of the gaps
+/// Halves until each part lies in a half plane or is below noise. Returns the parts, and the middles of the gaps
 /// inside.
 fn try_half_planes(hodograph: &[Vec2], lo: f64, hi: f64, noise: f64) -> (Vec<HodographPart>, Vec<f64>) {
-    /// The hodograph is that small after as many halvings only where it vanishes to rounding.
+    /// A part that is in no half plane after so many halvings is one where the hodograph vanishes up to rounding.
     const DEPTH: u32 = 48;
     let mut pieces: Vec<HodographPart> = Vec::new();
     let mut gaps: Vec<(f64, f64)> = Vec::new();
@@ -293,14 +316,14 @@ fn try_half_planes(hodograph: &[Vec2], lo: f64, hi: f64, noise: f64) -> (Vec<Hod
     (pieces, inner)
 }
 
-/// Whether every coefficient that is more than noise lies in one half plane, clear of its border by more than noise.
+/// Whether all coefficients above noise lie in one half plane, farther than noise from its border.
 fn in_half_plane(hodograph: &[Vec2], noise: f64) -> bool {
     let sure = || hodograph.iter().filter(|d| length(**d) > noise);
     let axis = unit(sure().fold(Vec2::ZERO, |sum, d| sum + unit(*d)));
     sure().all(|d| axis.dot(*d) > noise)
 }
 
-/// The least of |H| near s, by Gauss–Newton steps as long as they help.
+/// The minimum of |H| near s, by Gauss–Newton steps as long as they descend.
 fn zero_near(hodograph: &[Vec2], s: f64) -> f64 {
     /// Quadratic convergence from a bracket of some 1e-8 needs two.
     const STEPS: usize = 8;

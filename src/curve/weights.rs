@@ -1,19 +1,20 @@
-//! Weights that lie far apart: the same curve in pieces over which its parameter runs evenly.
+//! Weights that lie far apart: the same curve in spans over which its parameter is nearly proportional to length.
 //!
-//! Weights w·cⁱ belong to the same curve followed at another pace, t ↦ ct/(1 − t + ct) (Farin, *Curves and Surfaces for
-//! CAGD*, 13.5). A weight of 1e12 so packs half of a curve into a stretch of the parameter 1e-12 long, of which `f64`
-//! knows 1e4 places where it lies at 1; and one in the middle bends the curve within as short a stretch. Halved and
-//! brought to even pace again, a conic's middle weight w becomes √((1 + w)/2): few halvings do.
+//! Weights w·cⁱ give the same curve with another parameter, t ↦ ct/(1 − t + ct) (Farin, *Curves and Surfaces for CAGD*,
+//! 13.5). So a weight of 1e12 maps half of a curve to a range of the parameter of length 1e-12, in which `f64` has 1e4
+//! values near 1. A large weight in the middle bends the curve within an equally short range. When a conic is halved
+//! and reparametrised, its middle weight w becomes √((1 + w)/2): a few halvings suffice.
 
 use super::{Bezier, Curve, Spline, length};
 use crate::geometry::magnitude;
 
-/// Weights as far apart as this leave the parameter a few digits less, no more. Conics of less than 179° are within it.
+/// The largest ratio of weights that is accepted: it costs a few digits of the parameter. Conics of less than 179° are
+/// within it.
 const EVEN: f64 = 64.0;
-/// Halvings of a curve at most: weights of 1e300 take nine.
+/// The largest number of halvings: weights of 1e300 take nine.
 const DEPTH: u32 = 10;
 
-/// The rational curve, in spans where its weights are too far apart.
+/// The rational curve; as a spline of several spans where its weights are too far apart.
 pub(super) fn evened(bezier: Bezier) -> Curve {
     let mut spans = even_spans(bezier);
     if spans.len() == 1
@@ -25,7 +26,7 @@ pub(super) fn evened(bezier: Bezier) -> Curve {
     Curve::Spline(Box::new(Spline { knots, spans }))
 }
 
-/// The spans over which the weights of a curve are not far apart, in order: most often the curve itself.
+/// The spans over which the weights of a curve are not far apart, in order: usually the curve itself.
 pub(super) fn even_spans(bezier: Bezier) -> Vec<Bezier> {
     let mut spans = Vec::new();
     even_pieces(bezier, DEPTH, &mut spans);
@@ -53,7 +54,7 @@ fn is_even(bezier: &Bezier) -> bool {
     most <= EVEN * least
 }
 
-/// Whether rounding leaves nothing of the shape.
+/// Whether the curve is no larger than rounding.
 fn is_point(bezier: &Bezier) -> bool {
     let first = bezier.points[0];
     let reach = bezier.points.iter().map(|p| length(*p - first)).fold(0.0, f64::max);
@@ -61,14 +62,14 @@ fn is_point(bezier: &Bezier) -> bool {
     reach <= 16.0 * f64::EPSILON * bounds.map_or(0.0, magnitude)
 }
 
-/// The same curve with its first weight (nearly) the last.
+/// The same curve, reparametrised so that its first and last weights are (nearly) equal.
 fn at_even_pace(mut bezier: Bezier) -> Bezier {
     let degree = bezier.degree();
     let Some(weights) = &mut bezier.weights else { return bezier };
     let pace = (libm::log2(weights[0]) - libm::log2(weights[degree])) / degree as f64;
-    // A power of two changes no bit of the curve; at a low degree the nearest one evens the weights well enough.
+    // A power of two changes no bit of the curve; at a low degree the nearest one is good enough.
     let pace = if degree <= 12 { pace.round() } else { pace };
-    // By logarithms: the factors alone may leave the range.
+    // By logarithms, since the factors alone may overflow.
     let logs: Vec<f64> = weights.iter().enumerate().map(|(i, w)| libm::log2(*w) + pace * i as f64).collect();
     let most = logs.iter().copied().fold(f64::NEG_INFINITY, f64::max).round();
     for (i, w) in weights.iter_mut().enumerate() {

@@ -1,4 +1,4 @@
-//! Curves, names and seeds as found in a file: nothing promised, nothing cleaned.
+//! Curves, names and seeds as a file holds them. Nothing is guaranteed and nothing is cleaned.
 
 use crate::curve::Curve;
 use crate::geometry::{Frame, Point, Rect, finest_decimal};
@@ -14,7 +14,7 @@ pub struct Drawing {
     pub title: String,
     /// The names of all boundaries, regions and points, by the ids used in the other fields.
     pub names: Names,
-    /// The colours of regions, where the file has some; of shapes of one name that of most of their area.
+    /// The colours of regions, where the file has some. Of several shapes with one name, the colour with the most area.
     pub colours: BTreeMap<NameId, Colour>,
     /// The curves, in the order of the file; they may cross, overlap or leave gaps.
     pub curves: Vec<DrawnCurve>,
@@ -22,38 +22,39 @@ pub struct Drawing {
     pub points: Vec<DrawnPoint>,
     /// Points that mark the faces they lie in as holes or as named regions.
     pub seeds: Vec<Seed>,
-    /// Texts; one that stands alone in a region names it, where nothing else does.
+    /// Texts. A text that is the only one in a region names it, where nothing else does.
     pub labels: Vec<Label>,
     /// The filled shapes of a picture, in the order in which they are painted.
     pub shapes: IdVec<ShapeId, Shape>,
-    /// What shapes and curves are cut by.
+    /// The clips of shapes and curves.
     pub clips: IdVec<ClipId, Clip>,
     /// The layers of the file, in its order.
     pub layers: IdVec<LayerId, Layer>,
     /// The rule by which bounded faces are inside.
     pub fill: FillRule,
-    /// A picture whose numbers have the digits of a picture: what is hardly to be seen was hardly meant.
+    /// Whether this is a picture whose numbers have only the digits of a picture. Its invisibly small features are
+    /// taken for accidental.
     pub sketch: bool,
     /// The physical unit of a coordinate ("m", "mm", "chord", …) and where it was read from, where known.
     pub unit: Option<(String, String)>,
-    /// Where the plane of the drawing lies in space, of a face of a solid.
+    /// The place of the drawing's plane in space, for a face of a solid.
     pub frame: Option<Frame>,
     /// The planar faces of the solid that the drawing is one of, by their numbers.
     pub faces: Vec<FaceInfo>,
-    /// Entities that were left out because they leave the plane of the drawing: they may be why an outline does not
-    /// close.
+    /// Entities that were left out because they leave the plane of the drawing. They may be the reason why an outline
+    /// does not close.
     pub off_plane: Vec<OffPlane>,
-    /// What the reader left out, counted.
+    /// What the reader left out, with counts.
     pub skipped: Vec<Skipped>,
     /// Layers that were asked for and that the file does not have.
     pub unmatched: Vec<Unmatched>,
-    /// What the reader noticed or mended (format quirks), one sentence each.
+    /// What the reader noticed or corrected (format quirks), one sentence each.
     pub notes: Vec<String>,
     /// Size requests that came with the drawing (see `size::Source`): name or point sources.
     pub sizes: Vec<SizeRequest>,
 }
 
-/// A wish about cell size carried by a drawing.
+/// A request for a cell size that came with a drawing.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SizeRequest {
     /// Mesh edges on the boundary of this name no longer than `edge`.
@@ -99,20 +100,19 @@ pub struct DrawnCurve {
     pub entity: String,
     /// The shape whose outline it is a part of. The curves of a shape are closed outlines, end to end.
     pub shape: Option<ShapeId>,
-    /// What a curve of no shape is cut by: it is kept where it lies in the clip.
+    /// The clip of a curve that belongs to no shape: the curve is kept where it lies in the clip.
     pub clip: Option<ClipId>,
     /// The layer that it is drawn on, where the file has layers.
     pub layer: Option<LayerId>,
-    /// The number by which the file knows its entity (group 5 of a DXF entity).
+    /// The handle of its entity in the file (group 5 of a DXF entity).
     pub handle: Option<u64>,
-    /// One unit of the last decimal in which the file writes its ends, as a length; 0 where they are exact: whole
-    /// numbers, or bits of binary files. Ends that are computed (of arcs, by transforms) have the unit that their
-    /// numbers come to.
+    /// One unit of the last decimal with which the file writes its ends, as a length; 0 where they are exact: whole
+    /// numbers, or binary files. Computed ends (of arcs, by transforms) have the unit that results from their numbers.
     pub last_decimal: f64,
 }
 
 impl DrawnCurve {
-    /// A curve of which no more is known than its name and where it came from; its ends are exact.
+    /// A curve with only a name and its origin for messages; its ends are exact.
     pub fn new(curve: Curve, name: NameId, entity: impl Into<String>) -> Self {
         Self {
             curve,
@@ -126,8 +126,8 @@ impl DrawnCurve {
         }
     }
 
-    /// A curve whose ends the file writes themselves: their numbers tell the last decimal. Of computed ends it is about
-    /// their rounding.
+    /// The same curve with the last decimal read off the coordinates of its ends, for a file that writes the ends
+    /// themselves. For computed ends that would be about their rounding.
     pub fn with_written_ends(self) -> Self {
         let ends = [self.curve.start(), self.curve.end()];
         Self { last_decimal: finest_decimal(ends.into_iter().flat_map(|end| [end.x, end.y])), ..self }
@@ -148,7 +148,7 @@ pub struct Layer {
 pub struct Unmatched {
     /// The option with its value, as typed: `--layers PRAT`.
     pub asked: String,
-    /// Layers of the file, the most alike first.
+    /// Similar names of layers of the file, the most similar first.
     pub near: Vec<String>,
 }
 
@@ -166,32 +166,32 @@ pub struct OffPlane {
 pub struct Shape {
     /// Name of the region where the shape is on top.
     pub name: NameId,
-    /// Filled where its outlines wind an odd number of times; else where they wind at all.
+    /// Whether it is filled where its winding number is odd; else where the winding number is not 0.
     pub even_odd: bool,
     /// Where it came from, for messages.
     pub entity: String,
-    /// What it is cut by.
+    /// The clip that restricts it.
     pub clip: Option<ClipId>,
     /// The clip that it is a part of: such a shape is not painted itself.
     pub part_of: Option<ClipId>,
 }
 
 impl Shape {
-    /// A shape that is painted whole.
+    /// A shape without a clip.
     pub fn new(name: NameId, even_odd: bool, entity: impl Into<String>) -> Self {
         Self { name, even_odd, entity: entity.into(), clip: None, part_of: None }
     }
 }
 
-/// What cuts shapes and curves: they are there where one of its parts fills, and in what it lies within. Its parts are
-/// shapes ([`Shape::part_of`]), which may themselves be cut, by earlier clips.
+/// A clip: shapes and curves that refer to it are kept only where one of its parts is filled, and only within the clip
+/// around it. Its parts are shapes ([`Shape::part_of`]), which may themselves have earlier clips.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Clip {
-    /// An earlier clip.
+    /// The clip around it, an earlier one.
     pub within: Option<ClipId>,
 }
 
-/// A point to be kept as a vertex.
+/// A point that becomes a vertex.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DrawnPoint {
     /// The coordinates of the point.
@@ -211,18 +211,18 @@ pub struct Label {
     pub text: String,
 }
 
-/// A point that says something of the face it lies in.
+/// A point that decides about the face in which it lies.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Seed {
     /// A point inside the face.
     pub at: Point,
-    /// What is said of the face.
+    /// What it decides.
     pub kind: SeedKind,
     /// Where it came from, for messages.
     pub entity: String,
 }
 
-/// What a seed says of its face.
+/// What a seed decides about its face.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SeedKind {
     /// The face, and every face reached from it without crossing a curve, is no part of the domain.
@@ -244,11 +244,11 @@ pub enum FillRule {
     /// Odd winding number.
     #[default]
     EvenOdd,
-    /// Every bounded face is a region, but those reached from a hole seed.
+    /// Every bounded face is a region, except those reached from a hole seed.
     Regions,
     /// A face is inside where a shape fills it, by the shape's own rule; the topmost one names it.
     Shapes,
-    /// Odd winding number of the curves that are of no shape, or where a shape fills the face; the topmost one names
+    /// Odd winding number of the curves that belong to no shape, or where a shape fills the face; the topmost one names
     /// it.
     EvenOddAndShapes,
 }
@@ -258,9 +258,9 @@ pub enum FillRule {
 pub struct FaceInfo {
     /// Its number in the file.
     pub id: u64,
-    /// Empty where it has none.
+    /// Its name; empty where it has none.
     pub name: String,
-    /// In the square of the drawing's unit; `None` where `flaw` says why it cannot be drawn.
+    /// Its area, in the square of the drawing's unit; `None` where `flaw` says why it cannot be drawn.
     pub area: Option<f64>,
     /// Unit vector out of the solid.
     pub normal: [f64; 3],
@@ -280,7 +280,8 @@ pub struct Skipped {
 }
 
 impl Drawing {
-    /// The box around everything drawn, cut or not; `None` of an empty drawing.
+    /// The box around all curves and points, whether clipped or not, without the outlines of clips; `None` for an empty
+    /// drawing.
     pub fn bounds(&self) -> Option<Rect> {
         let cuts = |c: &DrawnCurve| c.shape.is_some_and(|shape| self.shapes[shape].part_of.is_some());
         let curves = self.curves.iter().filter(|c| !cuts(c)).map(|c| c.curve.bounds());

@@ -1,4 +1,4 @@
-//! The promises of a domain, asked one by one: an independent check that shares no step with the arranging.
+//! The guarantees of a domain, checked one by one. The check is independent: it shares no step with the arrangement.
 
 use super::locate::{Axis, Hit, Locator, TANGENTS_TELL, gap_after, left_of};
 use super::{Domain, Incident};
@@ -9,16 +9,16 @@ use crate::geometry::{Rect, Vec2, magnitude};
 use crate::ids::{CurveId, Id, IdVec, PointId, RegionId};
 use std::f64::consts::TAU;
 
-/// Level lines tried through a component until one is clear of ends and tangents.
+/// The number of level lines tried through a component until one keeps clear of ends and tangents.
 const LINES: usize = 64;
 
 impl Domain {
-    /// Every broken promise, with culprits and a sentence each. Empty of a right domain.
+    /// Every violated guarantee, one sentence each with the curves and points at fault; empty for a valid domain.
     pub fn flaws(&self) -> Vec<String> {
         let mut flaws = Vec::new();
         self.check_ends(&mut flaws);
         if !flaws.is_empty() {
-            // All other questions take it that curves end at their points.
+            // All other checks assume that curves end at their points.
             return flaws;
         }
         self.check_regularity(&mut flaws);
@@ -99,7 +99,8 @@ impl Domain {
     fn goes_round_once(&self, star: &[Incident]) -> bool {
         let directions: Vec<Vec2> = star.iter().map(|i| self.curves[i.curve].curve.direction_at(i.end)).collect();
         let total: f64 = (0..star.len()).map(|k| gap_after(&directions, k)).sum();
-        // All tangents at zero angle make no full turn; near-zero angles may be off by what `gap_after` rounds to none.
+        // If all tangents are equal the angles add up to 0, not to a full turn. Each angle may be wrong by what
+        // `gap_after` rounds to 0.
         let slack = 2.0 * TANGENTS_TELL * star.len() as f64;
         (total - TAU).abs() < slack || total < slack
     }
@@ -125,7 +126,7 @@ impl Domain {
         let rounding = self.rounding();
         let boxes = BoxHierarchy::new(self.curves.iter().map(|c| c.curve.bounds()));
         let mut pairs = Vec::new();
-        // Lines with a common end do not cross; that no other end lies on them is asked of the points.
+        // Lines with a common end do not cross. That no other end lies on them is checked with the points.
         let labels = |i: usize| match &self.curves[CurveId::from_index(i)] {
             line if line.curve.as_line().is_some() => line.ends.map(|end| Some(end.0)),
             _ => Labels::default(),
@@ -159,11 +160,11 @@ impl Domain {
         }
     }
 
-    /// Whether a meeting is the contact at a common end: from there to the meeting the curves are not apart by more
-    /// than rounding.
+    /// Whether a meeting is the contact at a common end: from that end to the meeting the curves lie within rounding of
+    /// each other.
     fn at_common_end(&self, ids: [CurveId; 2], ts: [f64; 2], rounding: f64) -> bool {
         let [p, q] = ids.map(|id| &self.curves[id]);
-        // As deep as the arrangement lets curves that touch lie in each other.
+        // The arrangement lets curves that touch overlap by this much.
         let rounding = 16.0 * rounding;
         (0..2).flat_map(|i| (0..2).map(move |j| (i, j))).filter(|&(i, j)| p.ends[i] == q.ends[j]).any(|(i, j)| {
             let near = |t: f64, end: usize, from: &Curve, to: &Curve| {
@@ -176,7 +177,7 @@ impl Domain {
         })
     }
 
-    /// Between neighbours in a star lies one face.
+    /// Between neighbours in a star lies one face, so both have the same region there.
     fn check_sides(&self, flaws: &mut Vec<String>) {
         for (p, star) in self.stars.enumerate() {
             for (k, &a) in star.iter().enumerate() {
@@ -190,7 +191,7 @@ impl Domain {
         }
     }
 
-    /// Euler: a map is plane where points − curves + face cycles = 2 for every component.
+    /// Euler's formula: a map is plane if points − curves + face cycles = 2 for every component.
     fn check_plane(&self, flaws: &mut Vec<String>) {
         let used: Vec<PointId> = self.stars.enumerate().filter(|(_, s)| !s.is_empty()).map(|(p, _)| p).collect();
         let components = self.first_curves().len();
@@ -203,8 +204,8 @@ impl Domain {
     }
 
     fn cycle_count(&self) -> usize {
-        // By curve and side: the next side along the same face, which is the one before the other side's in the star of
-        // its tail.
+        // By directed edge (curve and side): the next one along the same face. It is the one before the twin in the
+        // star of the twin's tail.
         let mut next = vec![usize::MAX; 2 * self.curves.len()];
         for star in self.stars.iter() {
             for (k, &i) in star.iter().enumerate() {
@@ -248,12 +249,11 @@ impl Domain {
         first
     }
 
-    /// The area of every region is what the curves on its border enclose.
+    /// The area of every region equals the signed area of the curves on its border.
     fn check_areas(&self, flaws: &mut Vec<String>) {
         let (origin, rounding) = (self.bounds().center(), self.rounding());
         let mut enclosed: IdVec<RegionId, f64> = vec![0.0; self.regions.len()].into();
-        // A relative 1e-12 a term, as the integrals are computed, of the sum of their sizes; and what rounded
-        // coordinates do along the border.
+        // A relative error of 1e-12 for each integral, plus the effect of rounded coordinates along the border.
         let mut slack = 0.0;
         for curve in self.curves.iter().filter(|c| c.sides[0] != c.sides[1]) {
             let (area, bounds) = (curve.curve.signed_area(origin), curve.curve.bounds());
@@ -268,9 +268,17 @@ impl Domain {
         }
     }
 
-    /// Along a level line through every component, each crossing agrees with the next on the region between. Lines
-    /// through large components go right through the drawing and end in the unbounded face; of small ones, the
-    /// surroundings tell enough.
+    /// On an axis-parallel line through every component, neighbouring crossings must have the same region between them.
+    /// Lines through large components cross the whole drawing, and must end in the unbounded face. For small components
+    /// a line through their surroundings is enough.
+    ///
+    /// ```text
+    ///        ╭─ A ──────────────╮         The crossings are 1, 2, 3 and 4. After 1 and before 2 lies the same region,
+    ///        │      ╭ B ╮       │         so does after 2 and before 3, and after 3 and before 4. Before 1 and after 4
+    ///   ─────1──────2───3───────4─────    is outside.
+    ///        │      ╰───╯       │
+    ///        ╰──────────────────╯
+    /// ```
     fn check_levels(&self, flaws: &mut Vec<String>) {
         let (locator, rounding) = (Locator::new(self), self.rounding());
         let whole = self.bounds();
@@ -283,7 +291,7 @@ impl Domain {
             };
             let is_small = 64.0 * (high - low) < whole.width().max(whole.height());
             let reach = if is_small { 8.0 * (high - low) } else { f64::INFINITY };
-            // Another irrational spread than the arranging has: √2 − 1.
+            // An irrational spread other than that of the arrangement: √2 − 1.
             let mut levels = (1..=LINES).map(|k| low + (high - low) * (k as f64 * (2f64.sqrt() - 1.0)).fract());
             let hits = levels.find_map(|level| locator.hits(axis, level, [from - reach, to + reach], rounding));
             if let Some(hits) = hits {

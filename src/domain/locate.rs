@@ -1,5 +1,5 @@
-//! Where a point lies among the curves of a domain: the nearest curve and its side, and what an axis-parallel line
-//! crosses.
+//! Point location among the curves of a domain: the nearest curve and its visible side, and the crossings of an
+//! axis-parallel line.
 
 use super::{Domain, Incident};
 use crate::curve::{Curve, End};
@@ -9,7 +9,7 @@ use crate::geometry::{Point, Rect, Vec2, turn_from};
 use crate::ids::{CurveId, Id, PointId, RegionId};
 use std::f64::consts::{PI, TAU};
 
-/// A side of a curve, seen in its direction of travel.
+/// A side of a curve, in the direction of its parameter.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Side {
     Left,
@@ -17,7 +17,7 @@ pub(super) enum Side {
 }
 
 impl Side {
-    /// Its place in `DomainCurve::sides`.
+    /// Its index in `DomainCurve::sides`.
     pub fn index(self) -> usize {
         match self {
             Side::Left => 0,
@@ -25,6 +25,7 @@ impl Side {
         }
     }
 
+    /// The opposite side.
     pub fn other(self) -> Self {
         match self {
             Side::Left => Side::Right,
@@ -33,14 +34,18 @@ impl Side {
     }
 }
 
-/// A curve side that is seen from a point without anything between.
+/// A side of a curve that is visible from a point: no curve lies between.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct VisibleSide {
+    /// The curve.
     pub curve: CurveId,
+    /// The side that faces the point.
     pub side: Side,
+    /// The distance from the point to the curve.
     pub distance: f64,
 }
 
+/// The direction of an axis-parallel line.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Axis {
     Horizontal,
@@ -52,23 +57,25 @@ pub(super) enum Axis {
 pub(super) struct Hit {
     /// The coordinate along the line.
     pub along: f64,
+    /// The curve that is crossed.
     pub curve: CurveId,
-    /// The side of the curve that lies before the crossing, where coordinates are smaller.
+    /// The side of the curve on which the line lies before the crossing, at smaller coordinates.
     pub before: Side,
 }
 
-/// Answers where points lie, in about O(log n) each.
+/// Locates points, in about O(log n) each.
 pub struct Locator<'a> {
     domain: &'a Domain,
     boxes: BoxHierarchy,
 }
 
 impl<'a> Locator<'a> {
+    /// Builds the search structure, in O(n log n).
     pub(super) fn new(domain: &'a Domain) -> Self {
         Self { domain, boxes: BoxHierarchy::new(domain.curves.iter().map(|c| c.curve.bounds())) }
     }
 
-    /// The kept region that contains `p`; `None` outside all of them. Of a point on a curve: the region on one of its
+    /// The kept region that contains `p`; `None` outside all regions. For a point on a curve: the region on one of its
     /// sides.
     pub fn region(&self, p: Point) -> Option<RegionId> {
         let sight = self.sight(p)?;
@@ -87,8 +94,16 @@ impl<'a> Locator<'a> {
         &self.domain.curves[CurveId::from_index(i)].curve
     }
 
-    /// The side of the nearest curve that faces `p`; where an end of it is nearest, the curve whose side borders that
-    /// sector.
+    /// The side of the nearest curve that faces `p`. Where the nearest point is an end, the curve and side that border
+    /// the sector with `p`.
+    ///
+    /// ```text
+    ///           · p                     · p
+    ///           :                      :                 Left: the foot lies inside `near`, and p on its left side.
+    ///   ──────foot──────▶ near        ●──────▶ a         Right: the foot is the corner. The sector that holds p lies
+    ///                          corner ╲                  on the left of a, counter-clockwise up to b.
+    ///                                  ╲ b
+    /// ```
     fn facing(&self, id: CurveId, p: Point, distance: f64) -> (CurveId, Side) {
         let domain = self.domain;
         let near = &domain.curves[id];
@@ -96,8 +111,9 @@ impl<'a> Locator<'a> {
         let foot = near.curve.point(t);
         for end in near.ends {
             let corner = domain.points[end];
-            // A foot this near to an end (an angle of 1e-6 seen from p) leaves every curve there at about 90° or more
-            // from p, so that the sector which holds p is at least about 180° wide: no doubt about it.
+            // When the foot is this near to an end (an angle of 1e-6 at p), every curve there leaves at about 90° or
+            // more from the direction of p. So the sector that holds p is at least about 180° wide, and is found
+            // safely.
             if corner.distance(foot) <= 1e-6 * distance {
                 return sector(domain, end, p - corner);
             }
@@ -105,9 +121,15 @@ impl<'a> Locator<'a> {
         (id, side_of(&near.curve, t, foot, p))
     }
 
-    /// The crossings of a line with all curves at the coordinates of `range`, ascending; `None` where the line passes
-    /// there within `margin` of an end of a curve, or nearly along a curve, or where two crossings are so near to each
-    /// other that their order is not told, so that another line is to be tried.
+    /// The crossings of an axis-parallel line with all curves, ascending, at the coordinates in `range`. `None` means
+    /// that another line must be tried: the line passes within `margin` of an end of a curve, runs nearly along a
+    /// curve, or has two crossings that are too near to each other to be ordered.
+    ///
+    /// ```text
+    ///             ╱ a
+    ///   ─────────●──────────────▶ along      a rises to the right: before the crossing, the line lies on the left side
+    ///           ╱                            of a.
+    /// ```
     pub(super) fn hits(&self, axis: Axis, level: f64, range: [f64; 2], margin: f64) -> Option<Vec<Hit>> {
         let strip = match axis {
             Axis::Horizontal => Rect::new(range[0], level, range[1], level),
@@ -135,7 +157,7 @@ fn across(axis: Axis, p: Point) -> f64 {
     }
 }
 
-/// Calls `each` with every crossing of the curve; `false` where it runs nearly along the line.
+/// Calls `each` with every crossing of the curve; returns `false` where the curve runs nearly along the line.
 fn crossings(curve: &Curve, axis: Axis, level: f64, mut each: impl FnMut(f64, Side)) -> bool {
     let mut report = |p: Point, tangent: Vec2| {
         let (along, rise) = match axis {
@@ -143,13 +165,13 @@ fn crossings(curve: &Curve, axis: Axis, level: f64, mut each: impl FnMut(f64, Si
             Axis::Vertical => (p.y, -tangent.x),
         };
         each(along, if rise > 0.0 { Side::Left } else { Side::Right });
-        // Below a slope of 1e-6 a crossing and a touching are hard to tell apart in rounded arithmetic.
+        // Below a slope of 1e-6 rounded arithmetic cannot distinguish a crossing from a contact.
         rise.abs() > 1e-6 * tangent.hypot()
     };
     if let Some(line) = curve.as_line() {
         let (a, b) = (across(axis, line.start), across(axis, line.end));
         let t = (level - a) / (b - a);
-        // Both ends lie clear of the level: a line crosses it for certain, however flat.
+        // Both ends keep clear of the level, so the crossing is certain, however flat the line.
         if (a < level) != (b < level) {
             report(line.start.lerp(line.end, t), line.end - line.start);
         }
@@ -171,7 +193,7 @@ fn side_of(curve: &Curve, t: f64, foot: Point, p: Point) -> Side {
     if left { Side::Left } else { Side::Right }
 }
 
-/// The side of a curve that borders the sector which lies in direction `towards` from a point of P.
+/// The curve and side that border the sector in the direction `towards` at a point of P.
 fn sector(domain: &Domain, at: PointId, towards: Vec2) -> (CurveId, Side) {
     let star = domain.star(at);
     let directions: Vec<Vec2> = star.iter().map(|i| domain.curves[i.curve].curve.direction_at(i.end)).collect();
@@ -187,7 +209,7 @@ fn sector(domain: &Domain, at: PointId, towards: Vec2) -> (CurveId, Side) {
     (best.1.curve, left_of(best.1))
 }
 
-/// The side of the curve that lies counter-clockwise of it, seen from the end.
+/// The side of the curve that lies counter-clockwise of it around the point.
 pub(super) fn left_of(incident: Incident) -> Side {
     match incident.end {
         End::Start => Side::Left,
@@ -195,21 +217,20 @@ pub(super) fn left_of(incident: Incident) -> Side {
     }
 }
 
-/// Tangents that differ by less (rad) are not trusted to tell the order of a star, which is that of the curves
-/// themselves.
+/// Tangents that differ by less than this (rad) do not decide the order of a star: the curves themselves do.
 pub(super) const TANGENTS_TELL: f64 = 1e-3;
 
-/// The angle of the sector between a curve of a star and the next, in [0, 2π], by the directions in which all its
-/// curves leave.
+/// The angle, in [0, 2π], of the sector between curve `k` of a star and the next one. `directions` are those in which
+/// all curves of the star leave.
 ///
-/// Curves with nearly one tangent may leave against their order, and the angle then comes out just below a full turn:
-/// it is 0, as long as another curve leaves elsewhere. Where none does, either answer closes the circle if the tangents
-/// are one.
+/// The directions of curves that are nearly tangent may be in the opposite order. The angle then computes to just below
+/// a full turn, and is taken as 0 if another curve leaves in another direction. If none does, either result is
+/// consistent.
 pub(super) fn gap_after(directions: &[Vec2], k: usize) -> f64 {
     let n = directions.len();
     let (from, to) = (directions[k], directions[(k + 1) % n]);
     let gap = ccw(from, to);
-    // Each of those between two that are tied may be so to its neighbours only.
+    // In a group of tied curves each may be tied only to its neighbours, so the group may span several times the limit.
     let tied = TANGENTS_TELL * n.min(16) as f64;
     let elsewhere = |&other: &Vec2| turn_from(from, other).abs() > tied && turn_from(to, other).abs() > tied;
     match n {

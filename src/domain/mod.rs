@@ -1,4 +1,4 @@
-//! What is to be meshed: a [`Drawing`] as found, and the [`Domain`] (PRCC) that [`Drawing::arrange`] proves it to be.
+//! The input of a mesh: a [`Drawing`] as found, and the [`Domain`] (PRCC) that [`Drawing::arrange`] makes of it.
 
 mod arrange;
 mod drawing;

@@ -1,5 +1,5 @@
-//! Names that a file does not give: of the curve or the region at a place, of an entity by its handle, of every outline
-//! or entity.
+//! Names that the user gives: to the curve or the region at a place, to an entity by its handle, to every outline or
+//! entity.
 
 use super::{Drawing, Seed, SeedKind};
 use crate::geometry::boxes::BoxHierarchy;
@@ -15,9 +15,9 @@ use std::str::FromStr;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(try_from = "String", into = "String")]
 pub struct NameBy {
-    /// The name to be given.
+    /// The name.
     pub name: String,
-    /// What is given the name.
+    /// What gets the name.
     pub target: Target,
 }
 
@@ -32,7 +32,7 @@ pub enum Target {
     Handle(u64),
 }
 
-/// What has a name of its own.
+/// What gets a name of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Naming {
@@ -94,20 +94,20 @@ impl fmt::Display for NameBy {
     }
 }
 
-/// Ends nearer than this part of the diagonal are one, as where gaps are closed.
+/// Ends nearer than this part of the diagonal count as one, as where gaps are closed.
 const SAME_END: f64 = 1e-6;
 
 impl Drawing {
-    /// Gives a name; what was named, one sentence, where the place alone does not tell.
+    /// Gives a name. Returns a sentence on what was named, except for a region.
     ///
     /// # Errors
-    /// Why nothing is there to be named, with what can be.
+    /// Where there is no curve with that handle, or no curve at all; the message lists handles that exist.
     pub fn give_name(&mut self, given: &NameBy) -> Result<Option<String>, String> {
         match given.target {
             Target::Nearest(at) => self.name_nearest(&given.name, at).map(Some),
             Target::Region(at) => {
                 let (name, entity) = (self.names.intern(&given.name), format!("--name {given}"));
-                // The first of several points in a region says its name.
+                // Of several points in a region the first names it.
                 self.seeds.insert(0, Seed { at, kind: SeedKind::Region { name, max_area: None }, entity });
                 Ok(None)
             }
@@ -164,7 +164,7 @@ impl Drawing {
         }
     }
 
-    /// Closed outlines of each name are numbered in the order in which they begin; open lines keep their name.
+    /// Numbers the closed outlines of each name in the order in which they begin. Open lines keep their names.
     fn name_outlines(&mut self) {
         let mut numbers: BTreeMap<(usize, usize), usize> = BTreeMap::new();
         let mut counts: BTreeMap<usize, usize> = BTreeMap::new();
@@ -184,8 +184,8 @@ impl Drawing {
         }
     }
 
-    /// The closed outline that each curve is a part of: curves of one name and shape that follow each other from end to
-    /// end, and none of whose ends is free.
+    /// The closed outline to which each curve belongs. Its curves have one name and shape, are joined end to end, and
+    /// have no free end.
     fn closed_outlines(&self) -> Vec<Option<usize>> {
         let near = SAME_END * self.bounds().map_or(0.0, extent);
         let ends: Vec<Point> = self.curves.iter().flat_map(|drawn| [drawn.curve.start(), drawn.curve.end()]).collect();

@@ -1,9 +1,9 @@
 //! The planar domain: a piecewise regular curve complex (PRCC, Pav & Walkington 2005, Definition 1) with regions and
 //! names.
 //!
-//! Promised: the ends of every curve are points of P, bit for bit; curves meet at most in common end points; no point
-//! of P lies inside a curve; no curve is closed, has a cusp or a tangent jump inside, or zero length; every curve knows
-//! the kept region on either side.
+//! Guarantees: the ends of every curve are points of P, bit for bit. Curves meet at most in common end points. No point
+//! of P lies inside a curve. No curve is closed, has zero length, or has a cusp or a tangent jump inside. Every curve
+//! has the kept region on either side, if there is one.
 
 use super::Repair;
 use super::features::Features;
@@ -15,23 +15,29 @@ use crate::ids::{Colour, CurveId, Id, IdVec, NameId, Names, PointId, RegionId};
 use crate::watch::{Progress, Stopped, Watch};
 use std::f64::consts::FRAC_PI_2;
 
-/// A planar domain. Made by [`super::Drawing::arrange`] only.
+/// A planar domain. [`super::Drawing::arrange`] is its only constructor.
 #[derive(Clone, Debug)]
 pub struct Domain {
+    /// The points P.
     pub(super) points: IdVec<PointId, Point>,
+    /// The curves C, each between two points of P.
     pub(super) curves: IdVec<CurveId, DomainCurve>,
+    /// The regions that are meshed.
     pub(super) regions: IdVec<RegionId, Region>,
+    /// The texts of all names.
     pub(super) names: Names,
+    /// Colours of regions, by name.
     pub(super) colours: std::collections::BTreeMap<NameId, Colour>,
     /// Name of a point, where the drawing gave one.
     pub(super) point_names: std::collections::BTreeMap<PointId, NameId>,
+    /// What was repaired in the drawing.
     pub(super) repairs: Vec<Repair>,
-    /// What arranging noticed of the drawing as a whole, one sentence each.
+    /// Notes of the arrangement on the drawing as a whole, one sentence each.
     pub(super) notes: Vec<String>,
-    /// The welding distance that was used: how far a curve may have been moved at its ends.
+    /// The tolerance that was used: the ends of a curve may have been moved by up to this much.
     pub(super) tolerance: f64,
-    /// Curves incident to each point, counter-clockwise by the direction in which they leave (ties: as they lie a
-    /// little way off).
+    /// The curves at each point, counter-clockwise by the direction in which they leave; where directions are equal, by
+    /// how the curves lie a little farther away.
     pub(super) stars: IdVec<PointId, Vec<Incident>>,
 }
 
@@ -46,7 +52,7 @@ pub struct DomainCurve {
     pub sides: [Option<RegionId>; 2],
     /// The name of the boundary that the curve belongs to.
     pub name: NameId,
-    /// The drawn curve that it is a part of (the first, where several overlapped).
+    /// The index of the drawn curve that it is a part of (the first, where several overlapped).
     pub source: u32,
 }
 
@@ -64,10 +70,10 @@ pub struct Incident {
 pub struct Region {
     /// The name of the region; several regions may have the same one.
     pub name: NameId,
-    /// Whether the drawing or the user gave the name: else it is that of the layer of its outline, or `region`, with a
+    /// Whether the drawing or the user gave the name. If not, it is the layer of its outline, or `region`, with a
     /// number.
     pub is_named: bool,
-    /// Exact area, by Green over the curves themselves.
+    /// The exact area, by Green's theorem over the curves themselves.
     pub area: f64,
     /// The largest area of a triangle, in the square of the drawing's unit; `None`: no limit of its own.
     pub max_area: Option<f64>,
@@ -83,11 +89,11 @@ pub struct Corner {
 }
 
 impl Domain {
-    /// The points P: the ends of the curves, and the points that the drawing asks to keep.
+    /// The points P: the ends of the curves, and the drawn points.
     pub fn points(&self) -> &IdVec<PointId, Point> {
         &self.points
     }
-    /// The curves between points of P; two of them meet in common ends only.
+    /// The curves between points of P; two of them meet only in common ends.
     pub fn curves(&self) -> &IdVec<CurveId, DomainCurve> {
         &self.curves
     }
@@ -111,15 +117,15 @@ impl Domain {
     pub fn point_names(&self) -> &std::collections::BTreeMap<PointId, NameId> {
         &self.point_names
     }
-    /// What was mended in the drawing, with places; empty where nothing was.
+    /// What was repaired in the drawing, with places.
     pub fn repairs(&self) -> &[Repair] {
         &self.repairs
     }
-    /// What arranging noticed of the drawing as a whole, one sentence each.
+    /// Notes of the arrangement on the drawing as a whole, one sentence each.
     pub fn notes(&self) -> &[String] {
         &self.notes
     }
-    /// The welding distance that was used, in units of the drawing.
+    /// The tolerance that was used, in units of the drawing.
     pub fn tolerance(&self) -> f64 {
         self.tolerance
     }
@@ -138,8 +144,8 @@ impl Domain {
         curves.chain(points).reduce(|a, b| a.union(b)).unwrap_or_default()
     }
 
-    /// The smallest angle by tangents between neighbours at p (all curves count, kept or not); `None` with fewer than
-    /// two curves.
+    /// The smallest angle between the tangents of neighbours at p (all curves count, whether they border a region or
+    /// not); `None` with fewer than two curves.
     pub fn corner(&self, p: PointId) -> Option<Corner> {
         let star = self.star(p);
         let direction = |i: Incident| self.curves[i.curve].curve.direction_at(i.end);
@@ -151,18 +157,26 @@ impl Domain {
         corners.min_by(|a, b| a.angle_rad.total_cmp(&b.angle_rad))
     }
 
-    /// Whether two curves meet at p at less than 90° by tangents (zero included; 90° up to rounding is no acute
-    /// corner).
+    /// Whether the tangents of two curves at p enclose less than 90° (0 included). 90° up to rounding is not acute.
     pub fn is_acute(&self, p: PointId) -> bool {
         self.corner(p).is_some_and(|corner| corner.angle_rad < FRAC_PI_2 - self.angle_rounding(p))
     }
 
-    /// The corner across which the first two of three places lie, that of the drawing whose small angle no mesh can
-    /// part: they lie on two curves that end at the corner, equally far from it, and it sees them less than 60° apart.
-    /// If one of them is the other end of its curve, the third must lie on one of the two curves: beyond it the drawing
-    /// has no angle. `curves[i]` are the curves at place i.
+    /// The sharp corner of the drawing across which two places of a triangle lie, if there is one. The two places lie
+    /// on two curves that end at the corner, at equal distances from it, and less than 60° apart as seen from it. No
+    /// mesh can avoid that angle. If one of them is the other end of its curve, the third place must lie on one of the
+    /// two curves. `curves[i]` are the curves at the i-th place of the triangle; `places` are the first two.
+    ///
+    /// ```text
+    ///              ╱ places[0]      u and v lead from the corner to the two places: |u| = |v| up to a thousandth, and
+    ///          u ╱                  the angle between them is below 60°. A triangle of the two places and a third one
+    ///   corner ●                    beyond them is narrow because the corner is.
+    ///          v ╲
+    ///              ╲ places[1]
+    /// ```
     pub fn corner_between(&self, curves: [&[CurveId]; 3], places: [Point; 2]) -> Option<PointId> {
-        // Places cut at one distance are rounded; beyond a thousandth a triangle has a longer side to split.
+        // Places that were cut at one distance differ by rounding. Where they differ by more than a thousandth, the
+        // triangle has a longer side that can be split.
         const EQUAL: f64 = 1e-3;
         let narrow = |corner: PointId| {
             let [u, v] = places.map(|place| place - self.points[corner]);
@@ -179,8 +193,8 @@ impl Domain {
         curves[0].iter().flat_map(|&c| ends(c).map(|p| (c, p))).find(|&(c, p)| narrow(p) && meets(p, c)).map(|(_, p)| p)
     }
 
-    /// How far rounded coordinates can turn a right angle at p: four units in the last place of the coordinates, seen
-    /// along the shortest chord at p.
+    /// By how much rounded coordinates can change a right angle at p: four units in the last place of the coordinates,
+    /// over the shortest chord at p.
     fn angle_rounding(&self, p: PointId) -> f64 {
         let at = self.points[p];
         let ends = self.star(p).iter().flat_map(|i| self.curves[i.curve].ends).map(|end| self.points[end]);
@@ -188,7 +202,7 @@ impl Domain {
         4.0 * f64::EPSILON * (at.x.abs().max(at.y.abs()) / chord + 1.0)
     }
 
-    /// lfs₀ at every point of P: the distance to the nearest other point (infinite of a single point).
+    /// lfs₀ at every point of P: the distance to the nearest other point (infinite for a single point).
     pub fn lfs0(&self) -> IdVec<PointId, f64> {
         let boxes = BoxHierarchy::new(self.points.iter().map(|&p| Rect::from_points(p, p)));
         let points = self.points.as_slice();
@@ -215,18 +229,19 @@ impl Domain {
         lfs
     }
 
-    /// For many questions of local feature size at any place.
+    /// A search structure for many queries of the local feature size.
     pub fn features(&self) -> Features<'_> {
         Features::new(self)
     }
 
-    /// The complex with every curve cut until it turns at most `tau` (≤ π/3); the cuts become points of P.
+    /// The domain with every curve cut into parts that turn by at most `tau` (≤ π/3, in radians). The cuts become
+    /// points of P.
     pub fn split_to_turning(&self, tau: f64) -> Domain {
         self.split_to_turning_watched(tau, &mut |_| true).unwrap_or_else(|Stopped| unreachable!("nobody says stop"))
     }
 
-    /// [`Domain::split_to_turning`], as long as `watch` says to go on. It is told of the points that there will be
-    /// before any is made: a tiny `tau` asks for more than memory holds.
+    /// [`Domain::split_to_turning`], as long as `watch` says to go on. The watch receives the number of points before
+    /// any is made: a tiny `tau` may take more than the memory holds.
     ///
     /// # Errors
     /// [`Stopped`].
@@ -237,7 +252,7 @@ impl Domain {
             told.tell(watch)?;
         }
         let mut split = Domain { curves: IdVec::new(), stars: IdVec::new(), ..self.clone() };
-        // The parts of each curve: the first starts where it starts, the last ends where it ends.
+        // By curve: its first and its last part.
         let mut parts: IdVec<CurveId, [CurveId; 2]> = IdVec::with_capacity(self.curves.len());
         let mut middles = Vec::new();
         for whole in self.curves.iter() {
@@ -268,7 +283,7 @@ impl Domain {
         Ok(split)
     }
 
-    /// All coordinates (areas, tolerances, repairs) times a power of two: exact.
+    /// The domain with all coordinates, areas, tolerances and repairs multiplied by a power of two: exact.
     pub fn scaled(&self, factor: f64) -> Domain {
         let mut domain = self.clone();
         domain.points.iter_mut().for_each(|p| *p = scaled(*p, factor));
@@ -287,12 +302,12 @@ impl Domain {
         self.regions.iter().map(|r| r.area).sum()
     }
 
-    /// For many questions of "which region is this point in".
+    /// A search structure for many queries of the region at a point.
     pub fn locator(&self) -> Locator<'_> {
         Locator::new(self)
     }
 
-    /// The kept region that contains `p`. Builds its search structure anew: for many points, ask one
+    /// The kept region that contains `p`. Builds the search structure each time: for many points use one
     /// [`Domain::locator`].
     pub fn locate_region(&self, p: Point) -> Option<RegionId> {
         self.locator().region(p)

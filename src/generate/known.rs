@@ -1,4 +1,4 @@
-//! Drawings that are hard to arrange and whose area is known by formula.
+//! Drawings that are hard to arrange, with their area known by formula.
 
 use super::Rng;
 use crate::curve::{Curve, CurveError};
@@ -7,14 +7,15 @@ use crate::geometry::{Point, Vec2, direction, magnitude};
 use kurbo::Affine;
 use std::f64::consts::{PI, TAU};
 
-/// A drawing with the area of its regions.
+/// A drawing with the known area of its regions.
 #[derive(Clone, Debug)]
 pub struct Known {
-    /// The curves, with the fill rule by which the area holds.
+    /// The curves, with the fill rule for which the area holds.
     pub drawing: Drawing,
-    /// Area of all regions, in squared units of the drawing.
+    /// The area of all regions, in squared units of the drawing.
     pub area: f64,
-    /// Length of the border of all regions, once: what an error of the coordinates acts along.
+    /// The length of the border of all regions, counted once: an error of the coordinates changes the area in
+    /// proportion to it.
     pub perimeter: f64,
 }
 
@@ -43,14 +44,14 @@ impl Known {
         Self { area: self.area * factor * factor, perimeter: self.perimeter * factor, ..self }
     }
 
-    /// The drawing elsewhere: its coordinates are rounded there.
+    /// The drawing moved by a vector; its coordinates are rounded there.
     pub fn moved(mut self, by: Vec2) -> Self {
         self.drawing.curves.iter_mut().for_each(|c| c.curve = c.curve.transformed(Affine::translate(by)));
         self
     }
 
-    /// The part of its area by which a right result may be off: 1e-9, or what four units in the last place of the
-    /// coordinates come to along the border.
+    /// The relative error that a correct area may have: 1e-9, or the effect of four units in the last place of the
+    /// coordinates along the border.
     pub fn slack(&self) -> f64 {
         let largest = self.drawing.bounds().map_or(0.0, magnitude);
         (4.0 * f64::EPSILON * largest * self.perimeter / self.area).max(1e-9)
@@ -73,7 +74,7 @@ pub fn crossing_circles(seed: u64, n: usize) -> Known {
     known
 }
 
-/// Area and border of a union of circles: Green's formula along the arcs that no other circle covers.
+/// The area and the border length of a union of circles, by Green's theorem along the arcs that no other circle covers.
 fn union_of(circles: &[(Point, f64)]) -> (f64, f64) {
     let (mut area, mut border) = (0.0, 0.0);
     for (i, &(center, radius)) in circles.iter().enumerate() {
@@ -96,7 +97,7 @@ fn union_of(circles: &[(Point, f64)]) -> (f64, f64) {
     (area, border)
 }
 
-/// The angles of a circle that lie in another one, as ranges of 0..2π; `None` where all of it does.
+/// The angles of a circle's points that lie in another circle, as ranges of 0..2π; `None` if all of them do.
 fn covered_by((center, radius): (Point, f64), (other, reach): (Point, f64)) -> Option<Vec<(f64, f64)>> {
     let away = other - center;
     let distance = libm::hypot(away.x, away.y);
@@ -113,14 +114,14 @@ fn covered_by((center, radius): (Point, f64), (other, reach): (Point, f64)) -> O
     Some(if end > TAU { vec![(start, TAU), (0.0, end - TAU)] } else { vec![(start, end)] })
 }
 
-/// How two shapes nearly touch, or nearly are one.
+/// Pairs of shapes that nearly touch or nearly coincide.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Near {
     /// Two circles that overlap in a lens as wide as the separation.
     Lens,
     /// Two circles apart by the separation.
     Gap,
-    /// A circle within another, away from it by the separation.
+    /// A circle within another, at a distance of the separation.
     Inside,
     /// Concentric circles whose radii differ by the separation.
     Concentric,
@@ -135,8 +136,8 @@ impl Near {
     pub const ALL: [Self; 6] = [Self::Lens, Self::Gap, Self::Inside, Self::Concentric, Self::Squares, Self::Arcs];
 }
 
-/// Two shapes that are `separation` apart, or of the opposite sign (a gap where there was an overlap), turned by
-/// `turn_rad`. Every bounded face is a region.
+/// Two shapes with the given `separation`, rotated by `turn_rad`. A negative separation turns a gap into an overlap and
+/// vice versa. Every bounded face is a region.
 pub fn nearly(near: Near, separation: f64, turn_rad: f64) -> Known {
     let at = |x: f64, y: f64| Point::ORIGIN + direction(turn_rad) * x + direction(turn_rad + 0.5 * PI) * y;
     let circles = |circles: [(f64, f64); 2]| {
@@ -189,7 +190,7 @@ pub fn plate_with_holes(seed: u64, n: usize) -> Known {
     known
 }
 
-/// `n` circles around one point, filled in turn.
+/// `n` concentric circles, filled alternately.
 pub fn rings(seed: u64, n: usize) -> Known {
     let mut rng = Rng::new(seed);
     let center = Point::new(rng.between(-1.0, 1.0), rng.between(-1.0, 1.0));
@@ -210,7 +211,7 @@ pub fn rings(seed: u64, n: usize) -> Known {
 pub fn spiral(n: usize, width: f64) -> Known {
     let mut known = Known::new(FillRule::EvenOdd, 0.0, 2.0 * width);
     let end = |k: usize, out: f64| {
-        // After an even number of halves on the right, after an odd one on the left.
+        // After an even number of half circles on the right, after an odd number on the left.
         let reach = 1.0 + k as f64 + out;
         Point::new(if k.is_multiple_of(2) { reach } else { 1.0 - reach }, 0.0)
     };
@@ -228,8 +229,8 @@ pub fn spiral(n: usize, width: f64) -> Known {
     known
 }
 
-/// A symmetric section of `n` straight lines (NACA 0012, its trailing edge closed), by the shoelace formula over its
-/// corners.
+/// A symmetric section of `n` straight lines (NACA 0012 with a closed trailing edge). Its area is computed by the
+/// shoelace formula.
 pub fn section(n: usize) -> Known {
     let corner = |i: usize| {
         let angle = TAU * i as f64 / n as f64;
@@ -246,7 +247,7 @@ pub fn section(n: usize) -> Known {
     known
 }
 
-/// A sum with its rounding carried along (Neumaier 1974).
+/// A compensated sum (Neumaier 1974).
 fn sum(terms: impl Iterator<Item = f64>) -> f64 {
     let (mut sum, mut lost) = (0.0f64, 0.0);
     for term in terms {

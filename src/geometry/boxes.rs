@@ -1,20 +1,30 @@
-//! A hierarchy of boxes: what lies near what.
+//! A bounding box hierarchy: which items lie near each other.
 //!
-//! Built once over any number of boxes, in O(n log n), by halving along the longer side; answers "which boxes meet this
-//! one" and "what is nearest to this point" in about O(log n). Recursion depth is O(log n) whatever the input.
+//! It is built once over any number of boxes, in O(n log n), by halving along the longer side. It finds the boxes that
+//! meet a box, and the item nearest to a point, in about O(log n). The depth is O(log n) for every input.
+//!
+//! ```text
+//!   ┌──────────────────────────┐     order  a b c d e f
+//!   │ ┌──────┐  ┌────────────┐ │     nodes  0: whole, 1: a b c, 2: d e f
+//!   │ │ a  b │  │  d    e    │ │
+//!   │ │  c   │  │     f      │ │     The items of a node are halved along the longer side of its bounds.
+//!   │ └──────┘  └────────────┘ │     The left child is the next node, `first` the right child.
+//!   └──────────────────────────┘
+//! ```
 
 use super::{Point, Rect};
 use std::convert::Infallible;
 
-/// Depth first, one sibling waits a level; halving 2^32 items takes 32 levels.
+/// The size of the stack: depth first, one sibling waits a level, and halving 2^32 items takes 32 levels.
 const WAITING: usize = 34;
 
-/// Leaves hold at most this many items: below it, a scan is quicker than a descent.
+/// The largest number of items in a leaf: below it, a scan is quicker than a descent.
 const LEAF: usize = 4;
 
 struct Node {
     bounds: Rect,
-    /// Items `first..first + len` of the order where `len > 0`; else the right child, the left one being the next node.
+    /// In a leaf (`len > 0`) its items are `first..first + len` of the order. Else this is the right child; the left
+    /// child is the next node.
     first: u32,
     len: u32,
 }
@@ -27,7 +37,7 @@ pub struct BoxHierarchy {
 }
 
 impl BoxHierarchy {
-    /// A hierarchy over boxes, known by their place in the sequence.
+    /// A hierarchy over boxes, which are numbered by their place in the sequence.
     pub fn new(boxes: impl IntoIterator<Item = Rect>) -> Self {
         let boxes: Vec<Rect> = boxes.into_iter().collect();
         let mut hierarchy = Self { order: (0..boxes.len() as u32).collect(), nodes: Vec::new(), boxes };
@@ -75,7 +85,7 @@ impl BoxHierarchy {
         &self.boxes
     }
 
-    /// Calls `each` with every item whose box meets `query`, borders included; stops when `each` says so (`false`).
+    /// Calls `each` with every item whose box meets `query`, borders included, until `each` returns `false`.
     pub fn meeting(&self, query: Rect, mut each: impl FnMut(usize) -> bool) {
         let mut stack = [0u32; WAITING];
         let mut waiting = usize::from(!self.nodes.is_empty());
@@ -99,9 +109,9 @@ impl BoxHierarchy {
         }
     }
 
-    /// The item at the smallest `distance`, below `bound`, and that distance. `distance(i, bound)` is asked only of
-    /// items whose boxes are nearer than the best so far (`bound`); it may answer anything larger than `bound` for "no
-    /// nearer".
+    /// The item with the smallest `distance` below `bound`, and that distance. `distance(i, bound)` is called only for
+    /// items whose boxes are nearer than the best so far (`bound`); any result above `bound` means that the item is not
+    /// nearer.
     pub fn nearest(&self, p: Point, bound: f64, mut distance: impl FnMut(usize, f64) -> f64) -> Option<(usize, f64)> {
         let (mut best, mut nearest) = (bound, None);
         let mut stack = [(0u32, 0.0); WAITING];
@@ -117,7 +127,7 @@ impl BoxHierarchy {
                 let (left, right) = (here + 1, node.first);
                 let to = |n: u32| distance_to_box(p, self.nodes[n as usize].bounds);
                 let (dl, dr) = (to(left), to(right));
-                // The nearer child is pushed last and so looked at first.
+                // The nearer child is pushed last, so it is visited first.
                 let (far, near) = if dl <= dr { ((right, dr), (left, dl)) } else { ((left, dl), (right, dr)) };
                 (stack[waiting], stack[waiting + 1]) = (far, near);
                 waiting += 2;
@@ -136,9 +146,9 @@ impl BoxHierarchy {
         nearest.map(|item| (item, best))
     }
 
-    /// Calls `each` with every pair of items whose boxes meet and that bear no common label, the smaller first, in a
-    /// fixed order. Groups whose items all bear one label are passed over at once: n segments around a point, labelled
-    /// by their ends, cost n log n, not n²/2.
+    /// Calls `each` with every pair of items whose boxes meet and that have no common label, the smaller first, in a
+    /// fixed order. Groups whose items all have one label are skipped at once: n segments around a point, labelled by
+    /// their ends, cost n log n, not n²/2.
     pub fn pairs(&self, labels: impl Fn(usize) -> Labels, mut each: impl FnMut(usize, usize)) {
         let Ok(()) = self.try_pairs(labels, |i, j| {
             each(i, j);
@@ -159,7 +169,7 @@ impl BoxHierarchy {
         labelled.try_pairs(&labelled, true, |i, j| each(i.min(j), i.max(j)))
     }
 
-    /// The same of every item here and item of another hierarchy.
+    /// The same for every pair of an item here and an item of another hierarchy.
     ///
     /// # Errors
     /// The first error of `each`, after which no further pair is visited.
@@ -173,24 +183,24 @@ impl BoxHierarchy {
         Labelled::new(self, labels).try_pairs(&Labelled::new(other, of_other), false, each)
     }
 
-    /// The items of a leaf; none of other nodes.
+    /// The items of a leaf; empty for inner nodes.
     fn items(&self, node: &Node) -> &[u32] {
         &self.order[node.first as usize..][..node.len as usize]
     }
 }
 
-/// What items are told apart by in [`BoxHierarchy::pairs`].
+/// The labels of an item in [`BoxHierarchy::pairs`]: items with a common label make no pair.
 pub type Labels = [Option<u32>; 2];
 
 fn share(a: Labels, b: Labels) -> bool {
     a.iter().any(|label| label.is_some() && b.contains(label))
 }
 
-/// A hierarchy with labels of its items.
+/// A hierarchy with the labels of its items.
 struct Labelled<'a> {
     tree: &'a BoxHierarchy,
     labels: Vec<Labels>,
-    /// By node: the labels that all items below it bear.
+    /// By node: the labels that all items below it have.
     common: Vec<Labels>,
 }
 
@@ -206,8 +216,8 @@ impl<'a> Labelled<'a> {
         Self { tree, labels, common }
     }
 
-    /// Pairs of an item here and one of `other`, which is `same`: the one and the same hierarchy, of which each pair is
-    /// told once.
+    /// Calls `each` with pairs of an item here and one of `other`. `same`: both are one hierarchy, and each pair is
+    /// reported once.
     fn try_pairs<E>(
         &self,
         other: &Self,

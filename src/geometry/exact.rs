@@ -1,13 +1,23 @@
-//! Exact signs: what a kernel may know of coordinates.
+//! Exact signs: the only way in which a kernel reads coordinates.
 //!
-//! Each sign is decided by a static filter, inlined, and by Shewchuk's adaptive expansions (crate `robust`) where the
-//! filter cannot tell. Coordinates are expected within about 2^±180 ([`super::unit_scale`] brings any drawing there):
-//! the expansions have no overflow guard.
+//! Each sign is decided by a static filter, inlined, or where that is not sufficient by Shewchuk's adaptive expansions
+//! (crate `robust`). Coordinates must lie within about 2^±180 ([`super::unit_scale`] scales any drawing to that): the
+//! expansions have no guard against overflow.
+//!
+//! ```text
+//!          c ●                  d ●                      ● p
+//!           ╱ ╲             ╭──────╮                   ╱   ╲
+//!          ╱   ╲          a ●      ● c              x ●─────● y
+//!       a ●─────● b         ╰──●───╯
+//!                              b
+//!     orient: c left of       in_circle: d inside, on,      in_diametral: the angle at p is more than 90° inside the
+//!     the line a → b          or outside the circle abc     circle with the diameter xy, less outside
+//! ```
 
 use super::Point;
 use robust::Coord;
 
-/// How three points lie.
+/// The orientation of three points.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Orientation {
     /// The third point lies to the right of the line from the first to the second.
@@ -18,7 +28,7 @@ pub enum Orientation {
     CounterClockwise,
 }
 
-/// How a point lies to a circle.
+/// The position of a point relative to a circle.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum CircleSide {
     /// Strictly inside the circle.
@@ -39,7 +49,7 @@ pub fn orient(a: Point, b: Point, c: Point) -> Orientation {
     orient_filtered(a, b, c).unwrap_or_else(|| orient_adaptive(a, b, c))
 }
 
-/// The orientation of the triangle `a b c` where the static filter can tell.
+/// The orientation of the triangle `a b c`; `None` where the static filter does not decide.
 #[inline]
 pub fn orient_filtered(a: Point, b: Point, c: Point) -> Option<Orientation> {
     let left = (a.x - c.x) * (b.y - c.y);
@@ -52,7 +62,7 @@ pub fn orient_filtered(a: Point, b: Point, c: Point) -> Option<Orientation> {
     } else if -det > bound {
         Some(Orientation::Clockwise)
     } else if bound == 0.0 {
-        // Both products have a factor 0, and a difference is 0 only of equal numbers: the common case of axis-parallel
+        // Both products have a factor 0, and a difference is 0 only for equal numbers: the common case of axis-parallel
         // points.
         Some(Orientation::Collinear)
     } else {
@@ -60,7 +70,7 @@ pub fn orient_filtered(a: Point, b: Point, c: Point) -> Option<Orientation> {
     }
 }
 
-/// The orientation of the triangle `a b c`, by expansions: for what [`orient_filtered`] cannot tell.
+/// The orientation of the triangle `a b c` by expansions, where [`orient_filtered`] does not decide.
 #[cold]
 pub fn orient_adaptive(a: Point, b: Point, c: Point) -> Orientation {
     let det = robust::orient2d(coord(a), coord(b), coord(c));
@@ -80,13 +90,13 @@ pub fn strictly_between(a: Point, p: Point, b: Point) -> bool {
     (a < p && p < b) || (b < p && p < a)
 }
 
-/// Where `d` lies to the circle through the counter-clockwise triangle `a b c`.
+/// The position of `d` relative to the circle through the counter-clockwise triangle `a b c`.
 #[inline]
 pub fn in_circle(a: Point, b: Point, c: Point, d: Point) -> CircleSide {
     in_circle_filtered(a, b, c, d).unwrap_or_else(|| in_circle_adaptive(a, b, c, d))
 }
 
-/// Where `d` lies to the circle through the counter-clockwise triangle `a b c` where the static filter can tell.
+/// [`in_circle`]; `None` where the static filter does not decide.
 #[inline]
 pub fn in_circle_filtered(a: Point, b: Point, c: Point, d: Point) -> Option<CircleSide> {
     let (adx, ady) = (a.x - d.x, a.y - d.y);
@@ -113,8 +123,7 @@ pub fn in_circle_filtered(a: Point, b: Point, c: Point, d: Point) -> Option<Circ
     }
 }
 
-/// Where `d` lies to the circle through the counter-clockwise triangle `a b c`, in short whole numbers or by
-/// expansions: for what [`in_circle_filtered`] cannot tell.
+/// [`in_circle`] in short whole numbers or by expansions, where [`in_circle_filtered`] does not decide.
 #[cold]
 pub fn in_circle_adaptive(a: Point, b: Point, c: Point, d: Point) -> CircleSide {
     let det = in_circle_short(a, b, c, d).unwrap_or_else(|| robust::incircle(coord(a), coord(b), coord(c), coord(d)));
@@ -127,18 +136,19 @@ pub fn in_circle_adaptive(a: Point, b: Point, c: Point, d: Point) -> CircleSide 
     }
 }
 
-/// The in-circle determinant, exact, where the points lie on a common coarse grid, as cocircular points of drawings
-/// mostly do.
+/// The in-circle determinant, exact, if the points lie on a common coarse grid, as cocircular points of drawings
+/// usually do; else `None`.
 ///
-/// Where all differences are exact and whole multiples of one u, of at most 2^12 u, then two products make at most 2^25
-/// u², and the three terms at most 3·2^50 u⁴: every number is a multiple of its unit below 2^53 of them, and nothing is
-/// rounded. Measured on a square grid: less than half the time for the whole triangulation.
+/// Let all differences be exact, whole multiples of one u, and at most 2^12 u. Then a sum of two products is at most
+/// 2^25 u², and the three terms together are at most 3·2^50 u⁴. So every number is a multiple of its unit, less than
+/// 2^53 of them, and nothing is rounded. On a square grid this takes less than half the time for the whole
+/// triangulation.
 fn in_circle_short(a: Point, b: Point, c: Point, d: Point) -> Option<f64> {
     let pairs = [(a.x, d.x), (a.y, d.y), (b.x, d.x), (b.y, d.y), (c.x, d.x), (c.y, d.y)];
     let v = pairs.map(|(from, to)| from - to);
     let largest = v.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
-    // With 2^e the leading bit of the largest, u = 2^(e − 11); next to 1.5·2^52·u, numbers are rounded to multiples of
-    // u.
+    // With 2^e the leading bit of the largest, u = 2^(e − 11). When 1.5·2^52·u is added, numbers are rounded to
+    // multiples of u.
     let leading = f64::from_bits(largest.to_bits() & (0x7ff << 52));
     let anchor = 1.5 * (1u64 << 41) as f64 * leading;
     let coarse = v.iter().all(|&v| (v + anchor) - anchor == v);
@@ -151,13 +161,13 @@ fn in_circle_short(a: Point, b: Point, c: Point, d: Point) -> Option<f64> {
     })
 }
 
-/// Where `p` lies to the diametral circle of the segment `x y`: the sign of (x − p)·(y − p), exact.
+/// The position of `p` relative to the diametral circle of the segment `x y`: the sign of (x − p)·(y − p), exact.
 #[inline]
 pub fn in_diametral(x: Point, y: Point, p: Point) -> CircleSide {
     let a = (x.x - p.x) * (y.x - p.x);
     let b = (x.y - p.y) * (y.y - p.y);
     let dot = a + b;
-    // Each difference and product has relative error ε, the sum one more: as for ccwerrboundA.
+    // Each difference and product has a relative error of ε, and the sum one more: as for ccwerrboundA.
     let dot = if dot.abs() > 3.330_669_073_875_472e-16 * (a.abs() + b.abs()) { dot } else { exact_dot(x, y, p) };
     if dot < 0.0 {
         CircleSide::Inside
@@ -168,7 +178,7 @@ pub fn in_diametral(x: Point, y: Point, p: Point) -> CircleSide {
     }
 }
 
-/// A number of the sign of (x − p)·(y − p), by an exact expansion of the eight products.
+/// A number with the sign of (x − p)·(y − p), by an exact expansion of the eight products.
 fn exact_dot(x: Point, y: Point, p: Point) -> f64 {
     let mut sum = Expansion::default();
     for (x, y, p) in [(x.x, y.x, p.x), (x.y, y.y, p.y)] {

@@ -1,5 +1,5 @@
-//! Ground floor: points and vectors, exact signs, insertion order, box hierarchy, planes in space, numbers as text has
-//! them. Numbers only, nothing of meshes.
+//! Geometry of numbers only, without curves or meshes: points and vectors, exact signs, insertion order, box hierarchy,
+//! planes in space, numbers in text.
 
 pub mod boxes;
 pub mod exact;
@@ -16,10 +16,10 @@ pub mod written;
 pub use kurbo::{Point, Rect, Vec2};
 pub use place::Place;
 
-/// The power of two that brings a coordinate magnitude to between ½ and 1.
+/// The power of two that scales a coordinate magnitude to between ½ and 1; 1 for 0 and for numbers that are not finite.
 ///
-/// Multiplying by it is exact, so a computation on scaled coordinates gives the same bits at every scale.
-/// The expansions behind the exact signs overflow near 1e60 and underflow near 1e-60; scaled input never gets there.
+/// Multiplying by it is exact, so a computation on scaled coordinates gives the same bits at every scale. The
+/// expansions behind the exact signs overflow near 1e60 and underflow near 1e-60; scaled input is far from both.
 pub fn unit_scale(magnitude: f64) -> f64 {
     if magnitude == 0.0 || !magnitude.is_finite() {
         return 1.0;
@@ -31,7 +31,7 @@ pub fn unit_scale(magnitude: f64) -> f64 {
 /// One unit of the last decimal of a number that was read from text: 0.001 of 1.275, 0.1 of 3.0e1 + 0.5, 0 of a whole
 /// number.
 ///
-/// The shortest text that reads as the same number is what was written, but for zeros at its end.
+/// The shortest text that reads as the same number is the text that was written, except for zeros at its end.
 pub fn last_decimal(x: f64) -> f64 {
     let text = format!("{:e}", x.abs());
     let Some((digits, exponent)) = text.split_once('e') else { return 0.0 };
@@ -39,7 +39,7 @@ pub fn last_decimal(x: f64) -> f64 {
     if decimals > 0 { libm::pow(10.0, -f64::from(decimals)) } else { 0.0 }
 }
 
-/// The unit of the last decimal of several numbers: of the one that has the most; 0 where all are whole.
+/// The smallest unit of the last decimal of several numbers; 0 where all are whole.
 pub fn finest_decimal(numbers: impl IntoIterator<Item = f64>) -> f64 {
     let units = numbers.into_iter().map(last_decimal).filter(|&unit| unit > 0.0);
     units.reduce(f64::min).unwrap_or(0.0)
@@ -55,7 +55,7 @@ pub fn extent(bounds: Rect) -> f64 {
     bounds.size().to_vec2().hypot()
 }
 
-/// The smallest box around some points; `None` of none.
+/// The smallest box around some points; `None` where there are none.
 pub fn bounds_of(points: impl IntoIterator<Item = Point>) -> Option<Rect> {
     points.into_iter().map(|p| Rect::from_points(p, p)).reduce(|a, b| a.union(b))
 }
@@ -65,7 +65,7 @@ pub fn scaled(p: Point, factor: f64) -> Point {
     Point::new(p.x * factor, p.y * factor)
 }
 
-/// The unit vector at an angle from the x axis.
+/// The unit vector at an angle from the x axis, counter-clockwise.
 pub fn direction(angle_rad: f64) -> Vec2 {
     Vec2::new(libm::cos(angle_rad), libm::sin(angle_rad))
 }
@@ -80,7 +80,7 @@ pub fn turn_from(u: Vec2, v: Vec2) -> f64 {
 pub struct Frame {
     /// The place in space of the plane's origin.
     pub origin: [f64; 3],
-    /// Unit vectors along the plane's coordinates.
+    /// The unit vector along the plane's x axis.
     pub x: [f64; 3],
     /// The unit vector along the plane's y axis, perpendicular to `x`.
     pub y: [f64; 3],
@@ -93,8 +93,8 @@ impl Frame {
     }
 }
 
-/// Metres in a unit of length, which may have a factor before it ("0.35 mm"); `None` of a unit that has no fixed size
-/// ("chord", …) or is not known.
+/// The length of a unit in metres. The unit may have a factor before it ("0.35 mm"). `None` for a unit that has no
+/// fixed size ("chord", …) or is unknown.
 pub fn metres(unit: &str) -> Option<f64> {
     if let Some((factor, unit)) = unit.split_once(' ') {
         let factor: f64 = factor.parse().ok().filter(|f: &f64| f.is_finite() && *f > 0.0)?;

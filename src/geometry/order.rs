@@ -1,32 +1,39 @@
 //! The order in which points are inserted: rounds that grow eightfold, each along a Hilbert curve (Amenta, Choi & Rote
-//! 2003, BRIO), so that a walk from the last point to the next is short and the expected cost of a cavity is constant.
+//! 2003, BRIO). So a walk from the last point to the next is short, and the expected size of a cavity is constant.
+//!
+//! ```text
+//!   ┌──┐  ┌──┐       The curve on two levels, 4 × 4 cells, from ● to ▶. A quadrant's digits of x and y give two bits
+//!   │  └──┘  │       of the key: 0 lower left, 1 upper left, 2 upper right, 3 lower right. In the lower left quadrant
+//!   └──┐  ┌──┘       the axes are exchanged, in the lower right one also both reversed.
+//!   ●──┘  └──▶
+//! ```
 
 use super::{Point, Rect, bounds_of};
 
-/// Levels of the Hilbert curve: 2^24 cells tell 10⁷ points apart well enough; crowded cells get a curve of their own.
+/// Levels of the Hilbert curve: 2^24 cells separate 10⁷ points well enough. A cell with many points gets its own curve.
 const LEVELS: u32 = 12;
 
-/// Levels taken in one step of the curve's automaton.
+/// Levels in one step of the curve's automaton.
 const STRIDE: u32 = 4;
 
-/// A cell with more points than this is ordered along a curve of its own; fewer lie within a short walk of each other
-/// anyway.
+/// A cell with more points than this is ordered along its own curve. Fewer points lie within a short walk of each
+/// other.
 const CROWD: usize = 16;
 
-/// Fewer points than this are sorted by comparison: below it, clearing the counts of a radix sort costs more.
+/// Fewer points than this are sorted by comparison: clearing the counts of a radix sort would cost more.
 const FEW: usize = 2048;
 
-/// Indices of `points` along the Hilbert curve of their box; in a cell with many, along the curve of the box of those.
-/// Equal points come by their indices.
+/// The indices of `points` along the Hilbert curve of their box; in a cell with many points, along the curve of their
+/// own box. Equal points come in the order of their indices.
 pub fn hilbert(points: &[Point]) -> Vec<u32> {
     let mut keyed = along_curve(points, 0..points.len() as u32);
-    // Each curve divides a box by 2^12 along each axis, so that numbers of any two exponents are told apart after a
-    // few.
+    // Each curve divides a box by 2^12 along each axis, so points of very different magnitudes are separated after a
+    // few curves.
     let mut crowds: Vec<(usize, usize)> = crowded(&keyed, 0).collect();
     while let Some((first, end)) = crowds.pop() {
         let indices: Vec<u32> = keyed[first..end].iter().map(|&k| k as u32).collect();
         let finer = along_curve(points, indices.into_iter());
-        // A single cell means that all are equal: there is no finer order.
+        // If all lie in a single cell, all are equal: there is no finer order.
         if finer[0] >> 32 != finer[finer.len() - 1] >> 32 {
             crowds.extend(crowded(&finer, first));
         }
@@ -57,8 +64,8 @@ fn crowded(keyed: &[u64], from: usize) -> impl Iterator<Item = (usize, usize)> {
     })
 }
 
-/// Sorts by the key, bits 32 to 55, and keeps the order of equals: a radix sort in two passes of twelve bits, the lower
-/// first.
+/// Sorts by the key, bits 32 to 55, and keeps the order of equal keys: a radix sort in two passes of twelve bits, the
+/// lower first.
 fn sort_by_key(items: &mut Vec<u64>) {
     const BITS: u32 = LEVELS;
     let mut other = vec![0; items.len()];
@@ -79,11 +86,10 @@ fn sort_by_key(items: &mut Vec<u64>) {
     }
 }
 
-/// Number of the last round: a hash of 32 zeros belongs to round 0.
+/// The number of the last round; a hash of 32 zeros belongs to round 0.
 const LAST: u32 = 10;
 
-/// Places 0..n in rounds, each in the direction opposite to that of the round before, so that it starts where that one
-/// ended.
+/// The places 0..n, in rounds. Each round runs opposite to the one before, so it starts where that one ended.
 pub fn rounds(n: usize) -> Vec<u32> {
     let mut ends = [0usize; LAST as usize + 1];
     (0..n as u32).for_each(|i| ends[round_of(i) as usize] += 1);
@@ -98,7 +104,7 @@ pub fn rounds(n: usize) -> Vec<u32> {
         *end -= 1;
         order[*end] = i;
     }
-    // By now each end is where its round begins.
+    // At this point each end is the beginning of its round.
     for (round, &first) in ends.iter().enumerate().skip(1).step_by(2) {
         let end = ends.get(round + 1).copied().unwrap_or(n);
         order[first..end].reverse();
@@ -106,11 +112,11 @@ pub fn rounds(n: usize) -> Vec<u32> {
     order
 }
 
-/// The round of a place: the last, [`LAST`], holds 7/8 of all, the one before 7/64, and so on. Rounds that double, as
-/// in the paper, were measured to take 15 % longer (longer walks), rounds that grow by 16 or 32 no less (larger
+/// The round of a place: the last, [`LAST`], has 7/8 of all places, the one before 7/64, and so on. Measured: rounds
+/// that double, as in the paper, take 15 % longer (longer walks); rounds that grow by 16 or 32 are not faster (larger
 /// cavities).
 fn round_of(place: u32) -> u32 {
-    // Finalizer of MurmurHash3 (Appleby): every bit of the index stirs every bit of the result.
+    // The finalizer of MurmurHash3 (Appleby): every bit of the index affects every bit of the result.
     let mut h = place;
     h = (h ^ (h >> 16)).wrapping_mul(0x85eb_ca6b);
     h = (h ^ (h >> 13)).wrapping_mul(0xc2b2_ae35);
@@ -118,12 +124,11 @@ fn round_of(place: u32) -> u32 {
     LAST - h.trailing_zeros() / 3
 }
 
-/// Place of a point along the Hilbert curve of a box, in 0..2^24.
+/// The place of a point along the Hilbert curve of a box, in 0..2^24.
 pub fn hilbert_key(p: Point, bounds: Rect) -> u32 {
     let side = bounds.width().max(bounds.height());
     let cells = f64::from(1u32 << LEVELS);
-    // Conversion saturates, so that a quotient which is no number or too large (a tiny box) ends in some cell all the
-    // same.
+    // The conversion saturates, so a quotient that is not a number or too large (a tiny box) still gives some cell.
     let cell = |v: f64, low: f64| (((v - low) / side * cells) as u32).min((1 << LEVELS) - 1);
     let (x, y) = (cell(p.x, bounds.x0), cell(p.y, bounds.y0));
     let (mut key, mut turn) = (0u32, 0);
@@ -136,8 +141,8 @@ pub fn hilbert_key(p: Point, bounds: Rect) -> u32 {
     key
 }
 
-/// How the curve lies in a quadrant: bit 0, axes exchanged; bit 1, both reversed. By that, and the next [`STRIDE`]
-/// digits of x and of y: the next `2 · STRIDE` digits of the key, and how the curve lies in the cell arrived at.
+/// The automaton of the curve. Its state is the orientation in a quadrant: bit 0, axes exchanged; bit 1, both reversed.
+/// By state and the next [`STRIDE`] digits of x and of y: the next `2 · STRIDE` digits of the key, and the next state.
 static STEPS: [[[(u8, u8); 1 << STRIDE]; 1 << STRIDE]; 4] = steps();
 
 const fn steps() -> [[[(u8, u8); 1 << STRIDE]; 1 << STRIDE]; 4] {
@@ -153,7 +158,7 @@ const fn steps() -> [[[(u8, u8); 1 << STRIDE]; 1 << STRIDE]; 4] {
             let (bx, by) = if now & 1 == 1 { (by, bx) } else { (bx, by) };
             let (rx, ry) = (bx ^ (now >> 1), by ^ (now >> 1));
             key = (key << 2) | ((3 * rx) ^ ry);
-            // The lower quadrants are turned so that the curve enters and leaves them at the right corners.
+            // The lower quadrants are turned so that the curve is continuous between quadrants.
             if ry == 0 {
                 now ^= 1 | (rx << 1);
             }

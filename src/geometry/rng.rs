@@ -1,6 +1,6 @@
-//! Seeded numbers: the one source of chance.
+//! Seeded random numbers: the only source of randomness.
 
-/// A sequence of numbers that depends on its seed alone (SplitMix64, Steele, Lea & Flood 2014).
+/// A sequence of random numbers that depends only on its seed (SplitMix64, Steele, Lea & Flood 2014).
 #[derive(Clone, Debug)]
 pub struct Rng(u64);
 
@@ -18,12 +18,12 @@ impl Rng {
         z ^ (z >> 31)
     }
 
-    /// A number in `low..high`.
+    /// A random number in `low..high`.
     pub fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * (self.bits() >> 11) as f64 / (1u64 << 53) as f64
     }
 
-    /// A whole number in `0..n`.
+    /// A random whole number in `0..n`.
     pub fn below(&mut self, n: usize) -> usize {
         (self.bits() % n as u64) as usize
     }

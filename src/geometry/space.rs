@@ -37,49 +37,49 @@ pub fn length(a: [f64; 3]) -> f64 {
     libm::hypot(libm::hypot(a[0], a[1]), a[2])
 }
 
-/// `a` made one unit long; `None` where it has no direction.
+/// The unit vector in the direction of `a`; `None` where `a` has no direction.
 pub fn unit(a: [f64; 3]) -> Option<[f64; 3]> {
-    // Scaled first, so that neither tiny nor huge vectors leave the range.
+    // Scaled first, so that neither tiny nor huge vectors underflow or overflow.
     let scaled = times(a, super::unit_scale(a[0].abs().max(a[1].abs()).max(a[2].abs())));
     let length = length(scaled);
     (length > 0.0 && length.is_finite()).then(|| times(scaled, 1.0 / length))
 }
 
 impl Frame {
-    /// The frame of the plane through `origin` at right angles to `normal`, its first axis as near to `toward` as the
-    /// plane allows; where `toward` is along the normal, as near as may be to a coordinate axis. `None` where the
-    /// normal has no direction.
+    /// The frame of the plane through `origin` perpendicular to `normal`. Its x axis is the projection of `toward`;
+    /// where `toward` is parallel to the normal, the projection of a coordinate axis. `None` where the normal has no
+    /// direction.
     pub fn of_plane(origin: [f64; 3], normal: [f64; 3], toward: [f64; 3]) -> Option<Self> {
         let normal = unit(normal)?;
         let within = |v: [f64; 3]| {
             let v = unit(v)?;
             let v = minus(v, times(normal, dot(v, normal)));
-            // Below this the direction is mere rounding.
+            // Below this the direction is only rounding.
             if length(v) > 1e-9 { unit(v) } else { None }
         };
         let x = within(toward).or_else(|| within([1.0, 0.0, 0.0])).or_else(|| within([0.0, 1.0, 0.0]))?;
-        // Once more, so that x is at right angles to the normal to the last bit that rounding allows.
+        // Once more, so that x is perpendicular to the normal up to the last bit.
         let x = unit(minus(x, times(normal, dot(x, normal))))?;
         let y = unit(cross(normal, x))?;
         origin.iter().all(|c| c.is_finite()).then_some(Self { origin, x, y })
     }
 
-    /// The unit vector from which the plane is seen counter-clockwise.
+    /// The unit normal x × y: seen from its side, the plane is counter-clockwise.
     pub fn normal(&self) -> [f64; 3] {
         cross(self.x, self.y)
     }
 
-    /// The point of the plane below a place in space.
+    /// The projection of a place in space onto the plane, in the coordinates of the frame.
     pub fn flat(&self, place: [f64; 3]) -> Point {
         self.flat_vector(minus(place, self.origin)).to_point()
     }
 
-    /// The part of a vector that lies in the plane.
+    /// The projection of a vector onto the plane, in the coordinates of the frame.
     pub fn flat_vector(&self, v: [f64; 3]) -> Vec2 {
         Vec2::new(dot(v, self.x), dot(v, self.y))
     }
 
-    /// How far a place lies above the plane.
+    /// The signed distance of a place from the plane, positive on the side of the normal.
     pub fn height(&self, place: [f64; 3]) -> f64 {
         dot(minus(place, self.origin), self.normal())
     }

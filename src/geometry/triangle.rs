@@ -2,7 +2,15 @@
 
 use super::{Point, Vec2};
 
-/// Circumcenter and circumradius.
+/// The circumcenter and the circumradius of a triangle; not finite where the corners are collinear.
+///
+/// ```text
+///               ● c
+///              ╱ ╲        The center m = a + offset is equally far from a, b and c. It lies on the bisectors of ab and
+///             ╱ m ╲       ac, so offset·ab = ½ ab² and offset·ac = ½ ac².
+///            ╱  ·  ╲
+///         a ●───────● b
+/// ```
 pub fn circumcircle([a, b, c]: [Point; 3]) -> (Point, f64) {
     let (ab, ac) = (b - a, c - a);
     let (bb, cc) = (ab.hypot2(), ac.hypot2());
@@ -11,7 +19,8 @@ pub fn circumcircle([a, b, c]: [Point; 3]) -> (Point, f64) {
     (a + offset, offset.hypot())
 }
 
-/// sin² of the smallest angle of a triangle.
+/// The squared sine of the smallest angle of a triangle, which is opposite its shortest edge; 0 where two corners
+/// coincide.
 pub fn sin2_smallest([a, b, c]: [Point; 3]) -> f64 {
     let (ab, bc, ca) = (b - a, c - b, a - c);
     let [shortest, l1, l2] = {

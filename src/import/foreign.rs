@@ -1,5 +1,5 @@
-//! Files that are no drawing for any reader here: recognised by their first bytes, or by a suffix where those say
-//! nothing, and refused by name with the way out. A format is recognised only by what no drawing of ours begins with.
+//! Files that are not drawings. They are recognised by their first bytes, else by their suffix, and refused by name
+//! with a way out. The bytes of a format are listed only if no drawing begins with them.
 
 use super::{ImportError, number};
 use std::path::Path;
@@ -7,18 +7,18 @@ use std::path::Path;
 /// What can be done with a file of a kind.
 #[derive(Clone, Copy)]
 enum Way {
-    /// A mesh that is read as a mesh.
+    /// A mesh in a format that squinch reads.
     Mesh,
-    /// A mesh of another program.
+    /// A mesh in a format that squinch does not read.
     OtherMesh,
-    /// A picture of pixels.
+    /// A raster image.
     Pixels,
     /// Curves that another program saves as SVG.
     Page,
     /// Curves that a CAD system saves as DXF.
     Cad,
     Archive,
-    /// Paths of a machine.
+    /// Toolpaths of a machine.
     Machine,
     Other,
 }
@@ -27,10 +27,10 @@ impl Way {
     fn help(self) -> &'static str {
         match self {
             Self::Mesh => {
-                "meshes are judged by `squinch check` and rewritten by `squinch convert`; to mesh, give the drawing"
+                "`squinch check` verifies meshes and `squinch convert` rewrites them; to make a mesh, give the drawing"
             }
             Self::OtherMesh => {
-                "convert it with Gmsh or meshio to .msh or .vtu for `squinch check` and `squinch convert`; to mesh, give the drawing"
+                "convert it with Gmsh or meshio to .msh or .vtu for `squinch check` and `squinch convert`; to make a mesh, give the drawing"
             }
             Self::Pixels => "trace it first: Inkscape (Path > Trace Bitmap) or potrace make an SVG of it",
             Self::Page => "save it as SVG: Inkscape, or `pdftocairo -svg` for PDF, does that",
@@ -46,32 +46,32 @@ impl Way {
 
 /// How a format is recognised by its content.
 enum Sign {
-    /// Bytes at their offsets.
+    /// These bytes at these offsets.
     Bytes(&'static [(usize, &'static [u8])]),
-    /// The first line that is not blank starts so, whatever the case.
+    /// The first line that is not blank begins with this, in any case.
     Start(&'static str),
-    /// A line of the head starts so, whatever the case.
+    /// A line of the head begins with this, in any case.
     Line(&'static str),
     Test(fn(&Head) -> bool),
 }
 
 const SIGNS: &[(&str, Way, Sign)] = &[
-    ("a PNG picture", Way::Pixels, Sign::Bytes(&[(0, b"\x89PNG")])),
-    ("a JPEG picture", Way::Pixels, Sign::Bytes(&[(0, b"\xff\xd8\xff")])),
-    ("a GIF picture", Way::Pixels, Sign::Bytes(&[(0, b"GIF8"), (5, b"a")])),
-    ("a TIFF picture", Way::Pixels, Sign::Bytes(&[(0, b"II*\0")])),
-    ("a TIFF picture", Way::Pixels, Sign::Bytes(&[(0, b"MM\0*")])),
-    ("a WebP picture", Way::Pixels, Sign::Bytes(&[(0, b"RIFF"), (8, b"WEBP")])),
-    ("a BMP picture", Way::Pixels, Sign::Bytes(&[(0, b"BM"), (6, b"\0\0\0\0")])),
-    ("a HEIC or AVIF picture, or a film", Way::Pixels, Sign::Bytes(&[(4, b"ftyp")])),
-    ("a Photoshop picture", Way::Pixels, Sign::Bytes(&[(0, b"8BPS")])),
-    ("a GIMP picture", Way::Pixels, Sign::Bytes(&[(0, b"gimp xcf")])),
+    ("a PNG image", Way::Pixels, Sign::Bytes(&[(0, b"\x89PNG")])),
+    ("a JPEG image", Way::Pixels, Sign::Bytes(&[(0, b"\xff\xd8\xff")])),
+    ("a GIF image", Way::Pixels, Sign::Bytes(&[(0, b"GIF8"), (5, b"a")])),
+    ("a TIFF image", Way::Pixels, Sign::Bytes(&[(0, b"II*\0")])),
+    ("a TIFF image", Way::Pixels, Sign::Bytes(&[(0, b"MM\0*")])),
+    ("a WebP image", Way::Pixels, Sign::Bytes(&[(0, b"RIFF"), (8, b"WEBP")])),
+    ("a BMP image", Way::Pixels, Sign::Bytes(&[(0, b"BM"), (6, b"\0\0\0\0")])),
+    ("a HEIC or AVIF image, or a film", Way::Pixels, Sign::Bytes(&[(4, b"ftyp")])),
+    ("a Photoshop image", Way::Pixels, Sign::Bytes(&[(0, b"8BPS")])),
+    ("a GIMP image", Way::Pixels, Sign::Bytes(&[(0, b"gimp xcf")])),
     ("a PDF document", Way::Page, Sign::Bytes(&[(0, b"%PDF-")])),
     ("a PostScript file (EPS, AI)", Way::Page, Sign::Bytes(&[(0, b"%!PS")])),
     ("a PostScript file (EPS, AI)", Way::Page, Sign::Bytes(&[(0, b"\xc5\xd0\xd3\xc6")])),
     ("a CorelDRAW drawing", Way::Page, Sign::Bytes(&[(0, b"RIFF"), (8, b"CDR")])),
-    ("an EMF picture", Way::Page, Sign::Bytes(&[(40, b" EMF")])),
-    ("a WMF picture", Way::Page, Sign::Bytes(&[(0, b"\xd7\xcd\xc6\x9a")])),
+    ("an EMF image", Way::Page, Sign::Bytes(&[(40, b" EMF")])),
+    ("a WMF image", Way::Page, Sign::Bytes(&[(0, b"\xd7\xcd\xc6\x9a")])),
     ("an Xfig drawing", Way::Page, Sign::Bytes(&[(0, b"#FIG ")])),
     ("an AutoCAD drawing (DWG)", Way::Cad, Sign::Bytes(&[(0, b"AC1"), (6, b"\0")])),
     ("a DWF drawing", Way::Cad, Sign::Bytes(&[(0, b"(DWF V")])),
@@ -113,7 +113,7 @@ const SIGNS: &[(&str, Way, Sign)] = &[
         Sign::Test(|head| !head.is_svg && (head.starts("<!doctype html") || head.starts("<html"))),
     ),
     (
-        "an XML document and no SVG",
+        "an XML document that is not SVG",
         Way::Other,
         Sign::Test(|head| !head.is_svg && (head.starts("<?xml") || head.starts("<!"))),
     ),
@@ -127,9 +127,9 @@ const SIGNS: &[(&str, Way, Sign)] = &[
     ("a plotter file (HPGL)", Way::Machine, Sign::Test(|head| head.text.contains("PU") && head.text.contains(";PD"))),
 ];
 
-/// Suffixes of files that nothing above may be found in.
+/// Suffixes, for files whose content was not recognised.
 const SUFFIXES: &[(&[&str], &str, Way)] = &[
-    (&["png", "jpg", "jpeg", "gif", "tif", "tiff", "webp", "bmp", "heic"], "a picture of pixels", Way::Pixels),
+    (&["png", "jpg", "jpeg", "gif", "tif", "tiff", "webp", "bmp", "heic"], "a raster image", Way::Pixels),
     (&["pdf", "ps", "eps", "ai", "cdr", "emf", "wmf", "fig", "odg", "vsd", "vsdx"], "a document", Way::Page),
     (
         &["dwg", "dwf", "iges", "igs", "3dm", "sldprt", "sldasm", "ipt", "f3d", "fcstd", "x_t", "x_b", "sat"],
@@ -147,10 +147,14 @@ const SUFFIXES: &[(&[&str], &str, Way)] = &[
         Way::OtherMesh,
     ),
     (&["gcode", "nc", "ngc", "tap", "cnc", "gbr", "ger", "drl", "plt", "hpgl"], "a file for a machine", Way::Machine),
-    (&["html", "htm", "xml", "doc", "docx", "xls", "xlsx", "md", "py", "tex"], "no drawing by its suffix", Way::Other),
+    (
+        &["html", "htm", "xml", "doc", "docx", "xls", "xlsx", "md", "py", "tex"],
+        "not a drawing by its suffix",
+        Way::Other,
+    ),
 ];
 
-/// The refusal of a file whose first bytes are those of a format that is not read here.
+/// The refusal of a file by its first bytes, if they are of another kind.
 pub(super) fn by_content(bytes: &[u8]) -> Option<ImportError> {
     let head = Head::of(bytes);
     let (what, way, _) = SIGNS.iter().find(|(_, _, sign)| match sign {
@@ -159,27 +163,27 @@ pub(super) fn by_content(bytes: &[u8]) -> Option<ImportError> {
         Sign::Line(word) => head.has_line(word),
         Sign::Test(test) => test(&head),
     })?;
-    Some(ImportError::new(format!("this is {what}, and no drawing"), way.help()))
+    Some(ImportError::new(format!("this is {what}, not a drawing"), way.help()))
 }
 
-/// The refusal of a file whose suffix is that of a format that is not read here.
+/// The refusal of a file by its suffix, if it is of another kind.
 pub(super) fn by_suffix(path: &Path) -> Option<ImportError> {
     let suffix = path.extension()?.to_str()?.to_ascii_lowercase();
     let (_, what, way) = SUFFIXES.iter().find(|(suffixes, _, _)| suffixes.contains(&suffix.as_str()))?;
-    Some(ImportError::new(format!("a .{suffix} file is {what}, and no drawing"), way.help()))
+    Some(ImportError::new(format!("a .{suffix} file is {what}, not a drawing"), way.help()))
 }
 
 /// The start of a file.
 struct Head<'a> {
     bytes: &'a [u8],
-    /// Its first lines, as far as they are text, without blanks before them.
+    /// Its first lines, as far as they are text, without leading blanks.
     text: String,
     is_svg: bool,
 }
 
 impl<'a> Head<'a> {
     fn of(bytes: &'a [u8]) -> Self {
-        // Decks and meshes begin with comments; theirs seldom fill as much.
+        // Decks and meshes may begin with comments, which are seldom longer.
         const LENGTH: usize = 4096;
         let plain = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes).trim_ascii_start();
         let text = String::from_utf8_lossy(&plain[..plain.len().min(LENGTH)]).replace('\r', "\n");
@@ -194,7 +198,7 @@ impl<'a> Head<'a> {
         self.text.lines().any(|line| starts(line.trim_start(), word))
     }
 
-    /// Whether a line is an assignment to a key, as in `NDIME= 2`.
+    /// Whether a line assigns to a key, as `NDIME= 2` does.
     fn has_key(&self, key: &str) -> bool {
         self.text.lines().any(|line| line.strip_prefix(key).is_some_and(|rest| rest.trim_start().starts_with('=')))
     }
@@ -214,7 +218,7 @@ fn is_number(field: &str) -> bool {
 
 fn is_stl(head: &Head) -> bool {
     let is_text = head.starts("solid") && head.has_line("facet normal");
-    // Eighty bytes of anything, a count, and fifty bytes a triangle.
+    // Binary STL: 80 bytes, a count, and 50 bytes for each triangle.
     let count = head.bytes.get(80..84).and_then(|count| count.try_into().ok()).map(u32::from_le_bytes);
     is_text || count.is_some_and(|n| n > 0 && head.bytes.len() as u64 == 84 + 50 * u64::from(n))
 }
@@ -225,7 +229,7 @@ fn is_obj(head: &Head) -> bool {
     head.fields().filter(vertices).count() >= 3 && !head.starts("solid")
 }
 
-/// `OFF`, or with normals, colours and such as in `STCNOFF`; then three counts.
+/// `OFF`, also with normals, colours and so on, as `STCNOFF`; then three counts.
 fn is_off(head: &Head) -> bool {
     let mut words = head.fields().filter(|fields| !fields[0].starts_with('#')).flatten();
     let is_keyword = |word: &str| word.strip_suffix("OFF").is_some_and(|p| p.chars().all(|c| "STCN4n".contains(c)));
@@ -236,7 +240,7 @@ fn is_geo(head: &Head) -> bool {
     ["Point(", "Point (", "Line(", "Line ("].iter().any(|word| head.has_line(word)) && head.text.contains('{')
 }
 
-/// A keyword of a deck at the start of a line; comments have two stars.
+/// Whether a line begins with a keyword of a deck. Comments have two stars.
 fn is_inp(head: &Head) -> bool {
     ["*NODE", "*HEADING", "*ELEMENT", "*PART", "*PREPRINT"].iter().any(|word| head.has_line(word))
 }
@@ -248,7 +252,7 @@ fn is_unv(head: &Head) -> bool {
     lines.next().is_some_and(|fields| fields == ["-1"]) && lines.next().is_some_and(is_dataset)
 }
 
-/// Two lines of the first fifty hold motions, each after a number of the block at most.
+/// Whether two of the first fifty lines hold motions, each after at most a block number.
 fn is_gcode(head: &Head) -> bool {
     let is_word = |word: &str, letter: char| {
         word.strip_prefix(letter).is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()))

@@ -1,7 +1,7 @@
-//! Readers: files → [`Drawing`], or coordinates of sections. A file or a folder a format, with what there is to know of
-//! it (`Facts`); the list of formats below is the only one. Nothing is welded, split or dropped here, that is
-//! [`Drawing::arrange`]'s part. Every quirk that a reader met and every liberty that it took is a sentence in
-//! [`Drawing::notes`].
+//! Readers: files → [`Drawing`], or coordinates of airfoil sections. Each format has a file or a folder with its
+//! `Facts`; the list of formats below is the only one. A reader does not weld, split or drop curves;
+//! [`Drawing::arrange`] does. A reader adds one sentence to [`Drawing::notes`] for each oddity of the file and for each
+//! guess.
 
 pub mod airfoil;
 pub mod dxf;
@@ -44,10 +44,12 @@ fn place(line: &Option<usize>, column: &Option<usize>) -> String {
 }
 
 impl ImportError {
+    /// An error without a place.
     pub(crate) fn new(what: impl Into<String>, help: impl Into<String>) -> Self {
         Self { what: what.into(), line: None, column: None, help: help.into() }
     }
 
+    /// An error at a line.
     pub(crate) fn at(line: usize, what: impl Into<String>, help: impl Into<String>) -> Self {
         Self { line: Some(line), ..Self::new(what, help) }
     }
@@ -73,29 +75,29 @@ formats! {
     }
 }
 
-/// What there is to know of a format.
+/// The facts of a format.
 struct Facts {
     /// The name by which a user asks for the format.
     name: &'static str,
     /// Suffixes of its files, the usual one first.
     suffixes: &'static [&'static str],
-    /// Whether the first bytes of a file are as this format has them, and how surely that tells.
+    /// Whether first bytes are those of this format, and how surely they tell.
     sign: fn(&[u8]) -> bool,
     certainty: Certainty,
-    /// Reads a file; the text is its name without suffix, the title where the file gives none.
+    /// Reads a file. The text is the file name without suffix, the title where the file gives none.
     read: fn(&[u8], &str, &Options) -> Result<Found, ImportError>,
 }
 
 /// How surely first bytes tell a format.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Certainty {
-    /// They say which it is, and no other file begins so: JSON starts with a brace, DXF with its sentinel or a section,
-    /// XML and gzip each in their own way. Only a mark is held against a wrong suffix, and is asked before files of
-    /// other kinds are told by name.
+    /// No file of another kind begins so: JSON begins with a brace, DXF with its sentinel or a section, XML and gzip in
+    /// their own ways. A file with a mark is refused under a wrong suffix. Marks are tested before files are refused as
+    /// not drawings.
     Mark,
-    /// They have a shape of their own, which no mark contradicts.
+    /// They have the shape of this format. A mark of another format has precedence.
     Shape,
-    /// They hold lines of numbers, as many files do: of the format, if of none above.
+    /// They hold lines of numbers, as many files do. They count if nothing above does.
     Numbers,
 }
 
@@ -115,8 +117,8 @@ impl Format {
         Self::ALL.into_iter().find(|f| f.name() == name)
     }
 
-    /// A guess from the first bytes, for files whose suffix says nothing: what says its format, else what has the shape
-    /// of one, else numbers.
+    /// The format of first bytes, for files whose suffix tells nothing: by a mark, else by a shape, else by lines of
+    /// numbers.
     pub fn sniff(bytes: &[u8]) -> Option<Self> {
         [Certainty::Mark, Certainty::Shape, Certainty::Numbers].into_iter().find_map(|by| Self::told(bytes, by))
     }
@@ -136,12 +138,12 @@ pub fn format_of(path: &Path) -> Option<Format> {
     Format::ALL.into_iter().find(|f| f.suffixes().iter().any(|s| s.eq_ignore_ascii_case(suffix)))
 }
 
-/// What a file holds.
+/// The content of a file.
 #[derive(Clone, Debug)]
 pub enum Found {
     /// The curves, points, names and sizes of the file.
     Drawing(Box<Drawing>),
-    /// Coordinates of sections, of which a drawing is made as it is wanted: by [`crate::section`].
+    /// Coordinates of sections. [`crate::section`] makes a drawing of them.
     Section(airfoil::Coordinates),
 }
 
@@ -151,7 +153,7 @@ impl From<Drawing> for Found {
     }
 }
 
-/// What a reader may be told.
+/// Options of readers.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Options {
     /// The `.node` file beside a `.poly` file that holds no vertices of its own.
@@ -162,14 +164,14 @@ pub struct Options {
     pub face: Option<String>,
     /// For DXF files: the treatment of line types and of heights.
     pub dxf: DxfOptions,
-    /// Of formats that have layers.
+    /// For formats with layers: which are read.
     pub selection: Selection,
 }
 
-/// The format of a file: as its suffix says, else as its content does.
+/// The format of a file: by its suffix, else by its content.
 ///
 /// # Errors
-/// Where neither tells, and where it is another kind of file: that, by name, and what can be done with it.
+/// Where neither tells. Where it is a file of another kind: its name, and what can be done with it.
 pub fn tell_format(path: &Path, bytes: &[u8]) -> Result<Format, ImportError> {
     if let Some(format) = format_of(path).or_else(|| Format::told(bytes, Certainty::Mark)) {
         return Ok(format);
@@ -184,7 +186,7 @@ pub fn tell_format(path: &Path, bytes: &[u8]) -> Result<Format, ImportError> {
     })
 }
 
-/// Refuses a file that is not of the format as which it is to be read, but of one that says so.
+/// Refuses a file that is read as one format but has the mark of another.
 fn refuse_other(bytes: &[u8], format: Format) -> Result<(), ImportError> {
     let marked = Format::told(bytes, Certainty::Mark);
     match marked {
@@ -193,7 +195,7 @@ fn refuse_other(bytes: &[u8], format: Format) -> Result<(), ImportError> {
         Some(Format::Svg) if bytes.starts_with(b"\x1f\x8b") => {
             let help =
                 "unpack it; a compressed drawing is read as SVG alone, by the suffix .svgz or --input-format svg";
-            Err(ImportError::new("this is a gzip archive, and no drawing", help))
+            Err(ImportError::new("this is a gzip archive, not a drawing", help))
         }
         Some(other) => {
             let help = format!("say --input-format {}, or give the file the suffix of what it is", other.name());
@@ -205,7 +207,7 @@ fn refuse_other(bytes: &[u8], format: Format) -> Result<(), ImportError> {
     }
 }
 
-/// Reads a file. `stem` (the file's name without its suffix) is the title where the file gives none.
+/// Reads a file. `stem` (its name without suffix) is the title where the file gives none.
 ///
 /// # Errors
 /// [`ImportError`] with the line where the file breaks its format. Never panics, and takes memory in proportion to

@@ -1,9 +1,9 @@
 //! Triangle's `.poly` and `.node` files (Shewchuk): vertices, segments, hole points and region points.
 //!
-//! A marker is the boundary's name, as text; 0 and no marker are `boundary`. The attribute of a region point is the
-//! region's name. Vertices that no segment uses are kept as points. As in Triangle every bounded face is meshed, but
-//! those reached from a hole point ([`FillRule::Regions`]), and where there are no segments the domain is the convex
-//! hull, whose lines are named `hull`.
+//! A marker is the name of its boundary, as text; 0 and no marker are `boundary`. The attribute of a region point is
+//! the name of its region. Vertices without a segment are kept as points. As in Triangle, each bounded face is meshed
+//! unless a hole point reaches it ([`FillRule::Regions`]). Without segments the domain is the convex hull, whose lines
+//! are named `hull`.
 
 use super::{Certainty, Facts, ImportError, number, numbers, tokens, without_bom};
 use crate::curve::Curve;
@@ -17,6 +17,7 @@ use std::collections::BTreeMap;
 const UNMARKED: &str = "boundary";
 const FORMAT_HELP: &str = "see https://www.cs.cmu.edu/~quake/triangle.poly.html for the format";
 
+/// The facts of `.poly`.
 pub(super) const FACTS: Facts = Facts {
     name: "poly",
     suffixes: &["poly"],
@@ -25,6 +26,7 @@ pub(super) const FACTS: Facts = Facts {
     read: |bytes, stem, options| read_poly(bytes, stem, options.nodes.as_deref()).map(Into::into),
 };
 
+/// The facts of `.node`.
 pub(super) const FACTS_OF_NODE: Facts = Facts {
     name: "node",
     suffixes: &["node"],
@@ -33,7 +35,7 @@ pub(super) const FACTS_OF_NODE: Facts = Facts {
     read: |bytes, stem, _| read_node(bytes, stem).map(Into::into),
 };
 
-/// Lines that hold something, with their numbers; comments (`#` to the end of the line) are cut off.
+/// Lines that are not empty, with their numbers. Comments (from `#` to the end of the line) are removed.
 struct Rows<'a> {
     rest: &'a [u8],
     line: usize,
@@ -76,7 +78,7 @@ impl<'a> Iterator for Rows<'a> {
 }
 
 impl<'a> Row<'a> {
-    /// The first `N` numbers of the row, and the tokens after them.
+    /// The first `N` numbers of the row, and the words after them.
     fn take<const N: usize>(self, what: &str) -> Result<([f64; N], impl Iterator<Item = &'a [u8]>), ImportError> {
         let mut values = [0.0; N];
         let mut rest = tokens(self.text);
@@ -88,7 +90,7 @@ impl<'a> Row<'a> {
         Ok((values, rest))
     }
 
-    /// A row that starts with a count.
+    /// A row that begins with a count.
     fn take_count(self, what: &str) -> Result<usize, ImportError> {
         let ([count], _) = self.take(&format!("the count of {what}"))?;
         self.count(count, what)
@@ -99,16 +101,16 @@ impl<'a> Row<'a> {
     }
 
     fn count(self, value: f64, what: &str) -> Result<usize, ImportError> {
-        // No file that fits in memory holds 2^32 rows, and ids have 32 bits.
+        // No file that fits in memory has 2³² rows, and ids have 32 bits.
         if value >= 0.0 && value < f64::from(u32::MAX) && value == value.trunc() {
             Ok(value as usize)
         } else {
-            Err(self.error(format!("{value} is no count of {what}")))
+            Err(self.error(format!("{value} is not a count of {what}")))
         }
     }
 }
 
-/// How vertex numbers lead to places in the file.
+/// The relation of vertex numbers to positions in the file.
 enum Numbering {
     /// Consecutive from this number.
     From(i64),
@@ -133,17 +135,17 @@ impl Vertices {
     }
 }
 
-/// The value as an integer, where it is one that f64 holds exactly.
+/// The value as an integer, if `f64` holds that integer exactly.
 fn whole(value: f64) -> Option<i64> {
     (value == value.trunc() && value.abs() < 9_007_199_254_740_992.0).then_some(value as i64)
 }
 
-/// A boundary marker: 0 where there is none, or what stands there is no whole number.
+/// A boundary marker: 0 where there is none or where it is not an integer.
 fn as_marker(token: Option<&[u8]>) -> i64 {
     token.and_then(number).and_then(whole).unwrap_or(0)
 }
 
-/// The header `count dimension attributes markers`, the last two optional.
+/// The header `count dimension attributes markers`. The last two are optional.
 fn vertex_header(row: Row) -> Result<(usize, usize, bool), ImportError> {
     let ([count, dimension], mut rest) = row.take("the vertex header (count, dimension, attributes, markers)")?;
     let count = row.count(count, "vertices")?;
@@ -156,14 +158,14 @@ fn vertex_header(row: Row) -> Result<(usize, usize, bool), ImportError> {
 
 fn read_vertices(rows: &mut Rows, header: Row, notes: &mut Vec<String>) -> Result<Vertices, ImportError> {
     let (count, attributes, marked) = vertex_header(header)?;
-    // A row takes at least six bytes, whatever the header says.
+    // A row has at least six bytes, so a larger count in the header needs no more memory.
     let room = count.min(rows.rest.len() / 6 + 1);
     let (mut points, mut markers) = (Vec::with_capacity(room), Vec::with_capacity(room));
     let mut given = Vec::with_capacity(room);
     for i in 0..count {
         let row = expect(rows, header, "vertices", i, count)?;
         let ([n, x, y], mut rest) = row.take("a vertex (number, x, y)")?;
-        given.push((whole(n).ok_or_else(|| row.error(format!("{n} is no vertex number")))?, row.line));
+        given.push((whole(n).ok_or_else(|| row.error(format!("{n} is not a vertex number")))?, row.line));
         points.push(Point::new(x, y));
         let marker = if marked { rest.nth(attributes) } else { None };
         markers.push(as_marker(marker));
@@ -186,11 +188,11 @@ fn numbering(given: &[(i64, usize)], notes: &mut Vec<String>) -> Result<Numberin
     Ok(Numbering::Any(places))
 }
 
-/// The next row of a section, or an error that says which promise of the header is not kept.
+/// The next row of a section, or an error that names the header whose count is too large.
 fn expect<'a>(rows: &mut Rows<'a>, header: Row, what: &str, i: usize, count: usize) -> Result<Row<'a>, ImportError> {
     rows.next().ok_or_else(|| {
-        let promised = format!("line {} promises {count} {what}, but the file ends after {i}", header.line);
-        ImportError::at(rows.line, promised, "the file may be cut off; mend the count or add the missing lines")
+        let missing = format!("line {} announces {count} {what}, but the file ends after {i}", header.line);
+        ImportError::at(rows.line, missing, "the file may be cut off; correct the count or add the missing lines")
     })
 }
 
@@ -216,7 +218,7 @@ impl Markers {
     }
 }
 
-/// Reads a `.poly` file; `nodes` is the `.node` file beside it, needed where the `.poly` itself says "0 vertices".
+/// Reads a `.poly` file. `nodes` is the `.node` file beside it, needed where the `.poly` file has 0 vertices.
 ///
 /// # Errors
 /// [`ImportError`] with the line where the file breaks its format, and where its `.node` file is needed but not given.
@@ -359,7 +361,7 @@ fn keep_points(vertices: &Vertices, used: &[bool], drawing: &mut Drawing) {
     }
 }
 
-/// Draws the convex hull of the vertices; tells which of them are its corners.
+/// Adds the convex hull of the vertices to the drawing, and tells which vertices are its corners.
 fn add_hull(vertices: &Vertices, drawing: &mut Drawing) -> Vec<bool> {
     let mut used = vec![false; vertices.points.len()];
     let hull = convex_hull(&vertices.points);
@@ -371,7 +373,7 @@ fn add_hull(vertices: &Vertices, drawing: &mut Drawing) -> Vec<bool> {
     for (i, &a) in hull.iter().enumerate() {
         let b = hull[(i + 1) % hull.len()];
         used[a] = true;
-        // The corners of a hull differ and are finite, which is all that a line asks.
+        // The corners of a hull differ and are finite, so a line between them exists.
         if let Ok(curve) = Curve::line(vertices.points[a], vertices.points[b]) {
             drawing.add(curve, "hull", format!("hull edge {}", i + 1));
         }
@@ -385,7 +387,7 @@ fn convex_hull(points: &[Point]) -> Vec<usize> {
     let unit = unit_scale(magnitude(bounds));
     let at = |i: usize| scaled(points[i], unit);
     let mut order: Vec<usize> = (0..points.len()).collect();
-    // -0 and 0 are one place, but two to total_cmp: adding 0 makes them one.
+    // `total_cmp` tells −0 from 0. Adding 0 makes them equal.
     let key = |i: usize| (points[i].x + 0.0, points[i].y + 0.0);
     order.sort_by(|&a, &b| key(a).0.total_cmp(&key(b).0).then(key(a).1.total_cmp(&key(b).1)).then(a.cmp(&b)));
     order.dedup_by(|a, b| points[*a] == points[*b]);
@@ -408,15 +410,15 @@ fn convex_hull(points: &[Point]) -> Vec<usize> {
     hull
 }
 
-/// What a file of Triangle's holds.
+/// The kind of a file of Triangle.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Holds {
     Vertices,
     More,
 }
 
-/// What the text holds if it starts as Triangle's files do: the first line holds whole numbers of which the second, the
-/// dimension, is 2; with one line of that shape more, the segment header, it is a `.poly`.
+/// The kind of a text that begins as Triangle's files do: the first line holds integers, and the second integer, the
+/// dimension, is 2. If a later line has the form of a segment header, it is a `.poly`.
 fn sniff(bytes: &[u8]) -> Option<Holds> {
     let mut rows = Rows::new(without_bom(bytes));
     let header = rows.next()?;

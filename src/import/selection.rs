@@ -1,4 +1,4 @@
-//! Which layers of a file are read: all but those that are named, or those that are named.
+//! Which layers of a file are read.
 
 use crate::domain::Unmatched;
 use glob::{MatchOptions, Pattern};
@@ -26,7 +26,7 @@ impl Glob {
 impl FromStr for Glob {
     type Err = String;
     fn from_str(text: &str) -> Result<Self, String> {
-        // A name may hold brackets that are no pattern: it matches itself then.
+        // Where the brackets of a name are not a valid pattern, the name matches itself.
         let pattern = Pattern::new(text).or_else(|_| Pattern::new(&Pattern::escape(text)));
         Ok(Self { text: text.into(), pattern: pattern.map_err(|e| e.to_string())? })
     }
@@ -51,7 +51,7 @@ impl fmt::Display for Glob {
     }
 }
 
-/// The layers that a reader is asked for.
+/// Which layers are read.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case", default)]
 pub struct Selection {
@@ -65,14 +65,14 @@ pub struct Selection {
     pub skip_layers: Vec<Glob>,
 }
 
-/// What the names that stand for an entity say of it.
+/// What the selection says about an entity by its names.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Choice {
     asked: bool,
     skipped: bool,
 }
 
-/// Asks for each entity whether it is selected, and remembers which patterns matched.
+/// Decides for each entity whether it is selected, and records which patterns matched.
 pub(super) struct Chooser<'a> {
     selection: &'a Selection,
     case: MatchOptions,
@@ -80,23 +80,24 @@ pub(super) struct Chooser<'a> {
     matched: BTreeSet<&'a str>,
 }
 
-/// Names that are offered in the place of one that does not exist.
+/// Largest number of similar names that are offered for one that does not exist.
 const NEAR: usize = 5;
 
 impl<'a> Chooser<'a> {
+    /// Compiles the patterns.
     pub fn new(selection: &'a Selection, case_sensitive: bool) -> Self {
         let case = MatchOptions { case_sensitive, ..MatchOptions::default() };
         Self { selection, case, names: BTreeSet::new(), matched: BTreeSet::new() }
     }
 
-    /// Whether an entity is read that all of these names stand for: its layer, or in SVG its own names and those of all
-    /// groups around it.
+    /// Whether an entity with these names is read: its layer, or in SVG its own names and those of all groups around
+    /// it.
     pub fn takes<'n>(&mut self, names: impl IntoIterator<Item = &'n str>) -> bool {
         let choice = self.choice(Choice::default(), names);
         self.allows(choice)
     }
 
-    /// What is said of an entity by its own names and by what is said of the groups around it.
+    /// What the selection says about an entity by its own names, inside groups about which it says `around`.
     pub fn choice<'n>(&mut self, around: Choice, names: impl IntoIterator<Item = &'n str>) -> Choice {
         names.into_iter().fold(around, |said, name| {
             if !self.names.contains(name) {
@@ -108,12 +109,12 @@ impl<'a> Chooser<'a> {
         })
     }
 
-    /// Whether an entity is read of which this is said.
+    /// Whether an entity is read about which the selection says this.
     pub fn allows(&self, choice: Choice) -> bool {
         (self.selection.layers.is_empty() || choice.asked) && !choice.skipped
     }
 
-    /// Takes note of a layer, also one on which nothing is drawn.
+    /// Records a layer, also if nothing is drawn on it.
     pub fn learn(&mut self, name: &str) {
         let globs = self.selection.layers.iter().chain(&self.selection.skip_layers);
         self.matched.extend(globs.filter(|glob| glob.matches(name, self.case)).map(|glob| glob.text.as_str()));

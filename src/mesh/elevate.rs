@@ -1,10 +1,18 @@
 //! Order 2: a node within every edge, on the true curve where the edge lies on one, and every cell valid.
 //!
 //! A cell is valid where its Jacobian determinant is positive throughout ([`quality::is_valid`] proves it by Bézier
-//! bounds). The node of a curved side is where the curve crosses the bisector of its chord, which keeps the map even.
-//! Where a cell is not valid so, other places on the curve are tried; where none will do, as in the cell between two
-//! tangent curves, a side is straightened and listed. Sides only ever go from one place to the next and at last
-//! straight, and a cell with straight sides is valid: the search ends.
+//! bounds). The node of a curved side lies where the curve crosses the bisector of its chord, which keeps the map even.
+//! If a cell is not valid with it, other places on the curve are tried. If none makes it valid, as in the cell between
+//! two tangent curves, a side is straightened and listed. A straightened side stays straight, and a cell with straight
+//! sides is valid: so the search ends.
+//!
+//! ```text
+//!             b       The curved side a b has its chord ┆ and its node m on the curve:
+//!           ╱ ┆`.     1. where the curve crosses the bisector of the chord,
+//!         m₂  ┆  m    2. else at the parameter share 0.5, 0.45, 0.55, …,
+//!       ╱     ┆  :    3. else at the midpoint of the chord: the side is straightened.
+//!     c ──m₁──a.´
+//! ```
 
 use super::{Mesh, quality};
 use crate::curve::Curve;
@@ -12,24 +20,23 @@ use crate::domain::Domain;
 use crate::geometry::Point;
 use crate::ids::{Id, IdVec, TriangleId, VertexId};
 
-/// Places tried after the bisector, as shares of the way from one end to the other in the curve's parameter: middle
-/// first.
+/// The places tried after the bisector, as shares of the parameter range from one end to the other: the middle first.
 const PLACES: [f64; 7] = [0.5, 0.45, 0.55, 0.4, 0.6, 0.33, 0.67];
 
-/// An edge of the mesh and what lies within it.
+/// An edge of the mesh, with the node within it.
 struct Edge {
     ends: [VertexId; 2],
     mid: VertexId,
     /// The cells beside it.
     cells: [Option<TriangleId>; 2],
-    /// The place in `Mesh::edges`, of an edge on a curve that is not straight.
+    /// The place in `Mesh::edges`, for an edge on a curve that is not straight.
     curved: Option<usize>,
 }
 
-/// Makes a mesh of order 1 one of order 2. Returns the curved edges (places in `Mesh::edges`) that had to be
+/// Elevates a mesh from order 1 to order 2. Returns the curved edges (places in `Mesh::edges`) that had to be
 /// straightened, ascending.
 ///
-/// Edges are linked to the curves of `domain`; its cells run counter-clockwise.
+/// The edges of the mesh must be linked to the curves of `domain`, and its cells run counter-clockwise.
 pub fn elevate(mesh: &mut Mesh, domain: &Domain) -> Vec<usize> {
     let edges = edges(mesh, domain);
     let mut sides: IdVec<TriangleId, [u32; 3]> = vec![[0; 3]; mesh.triangles.len()].into();
@@ -84,7 +91,7 @@ fn edges(mesh: &Mesh, domain: &Domain) -> Vec<Edge> {
     edges
 }
 
-/// The edges that the mesh lists, and their places among all.
+/// The edges listed in the mesh, by place in `Mesh::edges`, with their places among all edges.
 fn listed(mesh: &Mesh, edges: &[Edge]) -> Vec<(usize, usize)> {
     let place = |ends| edges.binary_search_by_key(&ascending(ends), |e: &Edge| e.ends).ok();
     mesh.edges.iter().enumerate().filter_map(|(i, e)| Some((i, place(e.nodes)?))).collect()
@@ -99,13 +106,13 @@ struct Elevation<'a> {
 }
 
 impl Elevation<'_> {
-    /// The curve of a curved edge and the parameters of its ends.
+    /// The curve of a curved edge and the parameters of its ends; `None` where the edge is not curved.
     fn stretch(&self, edge: usize) -> Option<(&Curve, [f64; 2])> {
         let link = self.mesh.edges[self.edges[edge].curved?].link?;
         Some((&self.domain.curves()[link.curve].curve, link.t))
     }
 
-    /// Moves the node of every curved edge to its curve's crossing with the bisector.
+    /// Moves the node of every curved edge to the crossing of its curve with the bisector of its chord.
     fn bend(&mut self) {
         for edge in 0..self.edges.len() {
             if let Some((curve, [t0, t1])) = self.stretch(edge) {
@@ -126,11 +133,11 @@ impl Elevation<'_> {
     fn straighten_where_needed(&mut self) -> Vec<usize> {
         let mut straightened = Vec::new();
         let curved = |e: &&Edge| e.curved.is_some();
-        let mut suspects: Vec<TriangleId> =
+        let mut candidates: Vec<TriangleId> =
             self.edges.iter().filter(curved).flat_map(|e| e.cells).flatten().filter(|&t| !self.is_valid(t)).collect();
-        suspects.sort_unstable_by(|a, b| b.cmp(a));
-        suspects.dedup();
-        while let Some(t) = suspects.pop() {
+        candidates.sort_unstable_by(|a, b| b.cmp(a));
+        candidates.dedup();
+        while let Some(t) = candidates.pop() {
             if self.is_valid(t) || self.move_a_node(t) {
                 continue;
             }
@@ -138,7 +145,7 @@ impl Elevation<'_> {
             let [a, b] = self.edges[edge].ends.map(|v| self.mesh.nodes[v]);
             self.put(edge, a.midpoint(b));
             straightened.extend(self.edges[edge].curved.take());
-            suspects.extend(self.edges[edge].cells.iter().flatten());
+            candidates.extend(self.edges[edge].cells.iter().flatten());
         }
         straightened.sort_unstable();
         straightened
@@ -148,8 +155,8 @@ impl Elevation<'_> {
         self.sides[t].into_iter().map(|e| e as usize).filter(|&e| self.edges[e].curved.is_some())
     }
 
-    /// Moves the node of one curved side along its curve until the cells on both sides are valid; `false`, and nothing
-    /// moved, where no place will do.
+    /// Moves the node of one curved side along its curve until the cells on both sides are valid. `false`, and nothing
+    /// moved, where there is no such place.
     fn move_a_node(&mut self, t: TriangleId) -> bool {
         let sides: Vec<usize> = self.curved_sides(t).collect();
         for edge in sides {
@@ -167,7 +174,8 @@ impl Elevation<'_> {
         false
     }
 
-    /// The flattest curved side of a cell that, straight, makes it valid; where none does, the most bent one.
+    /// The curved side of a cell to straighten: the flattest one that makes the cell valid once it is straight; where
+    /// none does, the most bent one.
     fn edge_to_straighten(&mut self, t: TriangleId) -> Option<usize> {
         let mut sides: Vec<(f64, usize)> = self.curved_sides(t).map(|e| (self.sagitta(e), e)).collect();
         sides.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));

@@ -1,5 +1,5 @@
-//! The mesh: plain data, whoever made it. Nodes, cells, regions, boundaries, links back to curves, and the balls that
-//! excuse cells.
+//! The mesh as plain data, from either engine or a file: nodes, cells, regions, boundaries, links to curves, and the
+//! balls that exempt cells.
 
 pub mod elevate;
 pub mod quality;
@@ -11,7 +11,7 @@ use crate::ids::{Colour, CurveId, IdVec, NameId, Names, PointId, RegionId, Trian
 /// A triangle mesh in the plane, with names and links back to the domain where they are known.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mesh {
-    /// Corners first; then, of a mesh of order 2, the nodes within edges.
+    /// Corners first; then, in a mesh of order 2, the nodes within edges.
     pub nodes: IdVec<VertexId, Point>,
     /// Corners of each triangle, counter-clockwise.
     pub triangles: IdVec<TriangleId, [VertexId; 3]>,
@@ -26,16 +26,16 @@ pub struct Mesh {
     pub names: Names,
     /// The colours of regions, by name, where the drawing has some.
     pub colours: std::collections::BTreeMap<NameId, Colour>,
-    /// For each node that is a point of P: which (sorted by point).
+    /// The points of P that are nodes, each with its node; sorted by point.
     pub points: Vec<(PointId, VertexId)>,
     /// Nodes that have a name of their own, by node.
     pub named_nodes: Vec<(VertexId, NameId)>,
     /// Protecting balls that were set around acute corners.
     pub balls: Vec<Ball>,
-    /// Of order 2: the node within each side of each triangle: between its corners 0 and 1, 1 and 2, 2 and 0. Empty of
-    /// order 1.
+    /// Order 2: the node within each side of each triangle, between its corners 0 and 1, 1 and 2, 2 and 0. Order 1:
+    /// empty.
     pub triangle_mids: IdVec<TriangleId, [VertexId; 3]>,
-    /// Of order 2: the node within each of `edges`. Empty of order 1.
+    /// Order 2: the node within each of `edges`. Order 1: empty.
     pub edge_mids: Vec<VertexId>,
     /// The physical unit of a coordinate, where known.
     pub unit: Option<String>,
@@ -50,11 +50,11 @@ pub struct CurveEdge {
     pub nodes: [VertexId; 2],
     /// The name of the boundary.
     pub name: NameId,
-    /// Curve and parameters of the two nodes, where known (ours always; a foreign mesh never).
+    /// Curve and parameters of the two nodes, where known: always in a mesh of ours, never in a foreign one.
     pub link: Option<CurveLink>,
 }
 
-/// The part of a curve of the domain that a mesh edge stands for.
+/// The part of a curve of the domain that a mesh edge approximates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CurveLink {
     /// The curve in the domain.
@@ -84,23 +84,23 @@ pub const RIM_ROUNDING: f64 = 64.0 * f64::EPSILON;
 pub enum BallReason {
     /// (√2−1)·lfs₀, untouched.
     LocalFeatureSize,
-    /// Shrunk by β because a vertex came in.
+    /// Shrunk by β because a vertex lay in the ball.
     Encroached,
-    /// Capped at birth so that its spokes and fans meet the size limits: exempt from the lfs check.
+    /// Capped from the start so that its spokes and fans meet the size limits. Exempt from the lfs check.
     Size,
 }
 
-/// A vertex as a refinement inserted it that promises a density for it (Foteinos, Chernikov & Chrisochoides 2010,
-/// section 2).
+/// The insertion of a vertex, as constrained refinement records it for the check of densities (Foteinos, Chernikov &
+/// Chrisochoides 2010, section 2).
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Insertion {
     /// The type of the insertion.
     pub kind: InsertionKind,
     /// The place of the vertex.
     pub at: Point,
-    /// R(p): the distance to the nearest vertex that it saw (Definition 2.4).
+    /// R(p): the distance to the nearest visible vertex right after the insertion (Definition 2.4).
     pub radius: f64,
-    /// p̂, because of which it was inserted (Definition 2.5); none of a vertex that a size asked for.
+    /// p̂, the parent (Definition 2.5); `None` where the vertex was inserted for a size limit.
     pub parent: Option<Point>,
 }
 
@@ -111,7 +111,7 @@ pub enum InsertionKind {
     A,
     /// On a segment.
     B,
-    /// On a segment that another vertex on a segment, or of the input, crowds.
+    /// On a segment in whose diametral circle there is a visible vertex of the input or of another segment.
     C,
 }
 
@@ -144,7 +144,7 @@ impl Mesh {
         self.edges.iter().filter(move |edge| name == Some(edge.name))
     }
 
-    /// The mesh without what ties it to a domain: links, points and balls.
+    /// The mesh without its ties to a domain: links, points and balls.
     pub fn untied(mut self) -> Self {
         self.edges.iter_mut().for_each(|edge| edge.link = None);
         self.points.clear();
@@ -152,7 +152,7 @@ impl Mesh {
         self
     }
 
-    /// All coordinates and radii times a power of two: exact.
+    /// The mesh with all coordinates and radii multiplied by `factor`, a power of two: exact.
     pub fn scaled(mut self, factor: f64) -> Self {
         for p in self.nodes.iter_mut() {
             *p = crate::geometry::scaled(*p, factor);
@@ -203,7 +203,7 @@ mod tests {
         for absent in ["", "Plate", "seam", "nowhere"] {
             assert!(of(&mesh, absent).is_empty(), "{absent:?} is no region");
         }
-        // Regions of one name are one for who asks by name.
+        // By name, regions of one name are one.
         let again = mesh.regions.push(mesh.regions[RegionId(0)]);
         mesh.triangle_regions[TriangleId(1)] = again;
         assert_eq!((of(&mesh, "plate"), of(&mesh, "rib")), (vec![0, 1], vec![]));

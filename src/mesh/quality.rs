@@ -7,15 +7,15 @@ use crate::ids::{Id, TriangleId, VertexId};
 use schemars::JsonSchema;
 use serde::{Serialize, Serializer};
 
-/// What a mesh measures; angles in degrees, the rest in the drawing's units. Angles of a mesh without triangles: the
-/// smallest is 180, the largest 0.
+/// Measures of a mesh; angles in degrees, the rest in the drawing's units. Without triangles the smallest angle is 180
+/// and the largest 0.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Quality {
     /// The smallest angle of all triangles, in degrees, between their corners.
     pub min_angle_deg: f64,
     /// The largest angle of all triangles, in degrees, between their corners.
     pub max_angle_deg: f64,
-    /// The smallest angle of the triangles that no corner excuses.
+    /// The smallest angle of the triangles that are not exempt, in degrees.
     pub min_unexcused_angle_deg: f64,
     /// How many angles (three a triangle) lie in each whole degree.
     #[serde(serialize_with = "as_sequence")]
@@ -56,7 +56,7 @@ pub struct BoundaryMeasure {
 }
 
 impl Quality {
-    /// Measures a mesh; `exempt` are the triangles that a corner excuses.
+    /// Measures a mesh; `exempt` are the triangles that a corner exempts.
     pub fn of(domain: Option<&Domain>, mesh: &Mesh, exempt: impl IntoIterator<Item = TriangleId>) -> Self {
         let mut excused = vec![false; mesh.triangles.len()];
         exempt.into_iter().for_each(|cell| excused[cell.index()] = true);
@@ -127,7 +127,7 @@ pub fn boundary_measures(mesh: &Mesh) -> Vec<BoundaryMeasure> {
         entry.edges += 1;
         let [a, b] = edge.nodes.map(|v| mesh.nodes[v]);
         let chord = a.distance(b);
-        // Of order 2, two chords cut the error of one to a quarter: extrapolated.
+        // Order 2: two chords have a quarter of the error of one, so the length is extrapolated.
         entry.length += mesh.edge_mids.get(i).map_or(chord, |&m| {
             let m = mesh.nodes[m];
             (4.0 * (a.distance(m) + m.distance(b)) - chord) / 3.0
@@ -142,8 +142,8 @@ pub fn area([a, b, c]: [Point; 3]) -> f64 {
     0.5 * (b - a).cross(c - a)
 }
 
-/// Signed area of a cell. Of order 2, a side is a parabola through its three nodes, two thirds of the way from the
-/// chord to the parallelogram around it.
+/// Signed area of a cell. In order 2 a side is a parabola through its three nodes: between it and the chord lie two
+/// thirds of the parallelogram around it.
 pub fn cell_area(mesh: &Mesh, t: TriangleId) -> f64 {
     let corners = mesh.corners(t);
     let bulge = |mids: &[VertexId; 3]| -> f64 {
@@ -153,8 +153,8 @@ pub fn cell_area(mesh: &Mesh, t: TriangleId) -> f64 {
     area(corners) + mesh.triangle_mids.get(t).map_or(0.0, |mids| bulge(mids) * 2.0 / 3.0)
 }
 
-/// Whether the Jacobian determinant of a cell is positive throughout: proven by bounds, never by samples, so that a
-/// doubtful cell counts as not valid. Of order 1: whether it runs counter-clockwise.
+/// Whether the Jacobian determinant of a cell is positive throughout. It is proven by bounds, never by samples, so a
+/// doubtful cell counts as not valid. Order 1: whether the cell runs counter-clockwise.
 pub fn is_valid(mesh: &Mesh, t: TriangleId) -> bool {
     let corners = mesh.corners(t);
     match mesh.triangle_mids.get(t) {
@@ -169,7 +169,7 @@ struct Jacobian {
     at: [f64; 3],
     /// Within the sides 0–1, 1–2, 2–0.
     within: [f64; 3],
-    /// What rounding can do to a coefficient.
+    /// A bound on the rounding of a coefficient.
     noise: f64,
 }
 
@@ -194,17 +194,27 @@ impl Jacobian {
         }
     }
 
-    /// The polar form: the value at `a` where both are the same, a coefficient over a part of the triangle where they
-    /// are two of its corners.
+    /// The polar form. Where `a` and `b` are the same it is the value there; where they are two corners of a part of
+    /// the triangle it is a coefficient over that part.
     fn polar(&self, a: Place, b: Place) -> f64 {
         let diagonal: f64 = (0..3).map(|i| self.at[i] * a[i] * b[i]).sum();
         let mixed = |i: usize, j: usize| self.within[i] * (a[i] * b[j] + a[j] * b[i]);
         diagonal + mixed(0, 1) + mixed(1, 2) + mixed(2, 0)
     }
 
-    /// Cuts the triangle into four until each part has positive coefficients, or a value that is not.
+    /// Cuts the triangle into four parts, again and again, until all coefficients of each part are positive, or a value
+    /// is not.
+    ///
+    /// ```text
+    ///           c         Over the part a b c: polar(a, a), polar(b, b), polar(c, c) are values at corners,
+    ///         ╱   ╲       polar(a, b), polar(b, c), polar(c, a) coefficients within the sides.
+    ///      ca ─── bc      All positive: the polynomial is positive on the part.
+    ///      ╱ ╲   ╱ ╲
+    ///     a ── ab ── b
+    /// ```
     fn is_positive(&self) -> bool {
-        /// Each cut brings coefficients four times nearer to values; 4^6 to one is as near to zero as is of any use.
+        /// Each cut brings coefficients four times nearer to values. After six cuts a coefficient that is not positive
+        /// means a value too near to zero to be of use.
         const CUTS: u32 = 6;
         let mut parts = vec![([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], CUTS)];
         while let Some(([a, b, c], cuts)) = parts.pop() {

@@ -1,4 +1,14 @@
-//! A mesh as it is read: cells as they come, checked as a whole at the end.
+//! A mesh while it is read. Cells are added one by one and checked at the end.
+//!
+//! ```text
+//!    Nodes of second-order cells, in our order, which is also VTK's and Gmsh's:
+//!
+//!            2                      triangle: corners 0 1 2, then 3 within side 01, 4 within 12, 5 within 20
+//!           ╱ ╲                     line:     ends 0 1, then 2 within
+//!          5   4
+//!         ╱     ╲                   Readers reorder the nodes of other formats. In our numbers these have:
+//!        0───3───1    0───2───1     Abaqus' lines 0 2 1, Triangle's triangles 0 1 2 4 5 3
+//! ```
 
 use super::{MeshFile, Result, broken, unsupported};
 use crate::geometry::{Frame, Point};
@@ -8,40 +18,45 @@ use std::collections::BTreeMap;
 
 /// Name of regions and of boundaries where the file has none.
 pub const REGION: &str = "region";
+/// Name of boundaries where the file has none.
 pub const BOUNDARY: &str = "boundary";
-/// Cell arrays by which other programs tell groups of cells apart: ours, Gmsh's by meshio, Medit's, a common word.
+/// Cell arrays by which programs distinguish groups of cells: ours, Gmsh's by meshio, Medit's, and two common names.
 pub const FOREIGN: [&str; 5] = ["region", "gmsh:physical", "medit:ref", "CellEntityIds", "material"];
 
+/// A mesh while it is read.
 #[derive(Default)]
 pub struct Draft {
+    /// The nodes.
     pub nodes: Vec<[f64; 3]>,
     triangles: Vec<(Vec<usize>, RegionId)>,
     edges: Vec<(Vec<usize>, NameId)>,
     names: Names,
     regions: IdVec<RegionId, NameId>,
     region_of: BTreeMap<NameId, RegionId>,
-    /// Cells that are points.
+    /// Number of cells that are points.
     pub vertices: usize,
 }
 
 impl Draft {
+    /// The region of this name, added if it is new.
     pub fn region(&mut self, name: &str) -> RegionId {
         let name = self.names.intern(name);
         *self.region_of.entry(name).or_insert_with(|| self.regions.push(name))
     }
 
-    /// A triangle: 3 corners, then none or 3 nodes within its sides, as [`Mesh::triangle_mids`] has them.
+    /// Adds a triangle: 3 corners, then none or 3 nodes within its sides, in the order of [`Mesh::triangle_mids`].
     pub fn triangle(&mut self, nodes: Vec<usize>, region: &str) {
         let region = self.region(region);
         self.triangles.push((nodes, region));
     }
 
-    /// A line: 2 ends, then none or 1 node within.
+    /// Adds a line: 2 ends, then none or 1 node within.
     pub fn line(&mut self, nodes: Vec<usize>, name: &str) {
         let name = self.names.intern(name);
         self.edges.push((nodes, name));
     }
 
+    /// The mesh, after all checks.
     pub fn finish(mut self) -> Result<MeshFile> {
         self.check()?;
         let order = if self.triangles.iter().any(|(nodes, _)| nodes.len() == 6) { 2 } else { 1 };
@@ -88,7 +103,7 @@ impl Draft {
         Ok(())
     }
 
-    /// Lines of an order 2 that lack their mid node (some formats have none) take it from the triangle beside them.
+    /// A line of order 2 without a mid node (some formats have none) takes it from the triangle beside it.
     fn find_mids(&mut self) -> Result<()> {
         if self.edges.iter().all(|(nodes, _)| nodes.len() == 3) {
             return Ok(());
@@ -102,12 +117,12 @@ impl Draft {
         }
         for (nodes, _) in self.edges.iter_mut().filter(|(nodes, _)| nodes.len() == 2) {
             let mid = mids.get(&(nodes[0].min(nodes[1]), nodes[0].max(nodes[1])));
-            nodes.push(*mid.ok_or_else(|| broken("a straight line is no side of a triangle of second order"))?);
+            nodes.push(*mid.ok_or_else(|| broken("a straight line is not a side of a triangle of second order"))?);
         }
         Ok(())
     }
 
-    /// Renumbers the nodes, keeping their order, so that nodes within sides come last.
+    /// Renumbers the nodes so that nodes within sides come last. Otherwise their order is kept.
     fn corners_first(&mut self) {
         let mut corner = vec![false; self.nodes.len()];
         let mut mid = vec![false; self.nodes.len()];
@@ -129,10 +144,10 @@ impl Draft {
     }
 }
 
-/// How far off its plane a node may lie, in units of the mesh's extent: files of 32-bit numbers hold no more.
+/// Largest distance of a node from the plane, in parts of the mesh's extent: the rounding of 32-bit numbers.
 const FLATNESS: f64 = 1e-6;
 
-/// Nodes in their plane, and the plane's frame where it is not z = 0.
+/// The nodes in their plane, and the frame of the plane if it is not z = 0.
 pub fn plane(places: &[[f64; 3]]) -> Result<(IdVec<VertexId, Point>, Option<Frame>)> {
     let z = places.first().map_or(0.0, |p| p[2]);
     if places.iter().all(|p| p[2] == z) {
@@ -164,7 +179,7 @@ pub fn plane(places: &[[f64; 3]]) -> Result<(IdVec<VertexId, Point>, Option<Fram
     for (i, p) in places.iter().enumerate() {
         let d = from(p);
         let off: [f64; 3] = std::array::from_fn(|k| d[k] - dot(d, x) * x[k] - dot(d, y) * y[k]);
-        // Not a number where coordinates are too large to be squared.
+        // NaN where coordinates are too large to be squared.
         if norm(off).is_nan() || norm(off) > FLATNESS * far {
             let what = format!("the mesh is not flat: node {i} lies {:.3e} off the plane of the others", norm(off));
             return Err(unsupported(what, "only meshes in a plane can be read"));

@@ -1,17 +1,17 @@
 //! glTF 2.0: `.glb`, or `.gltf` with its buffer inside as base64.
 //!
-//! A node with a mesh of one primitive for every region (triangles), then for every boundary (lines), each under its
-//! name, all over one list of positions; `extras` of a primitive say `{"region": NAME}` or `{"boundary": NAME}`, and
-//! each region's material bears its name and its colour in the drawing, where that has one. They hang on the root node,
-//! which converts to metres (a unit that is not known stays as it is; `extras` say which it was) and stands +Y up: a
-//! mesh in the plane has its y upward as it is, a mesh that lies in space is turned from CAD's +Z up. The root is also
-//! shifted to the middle of the mesh, so that positions, float32 by the format, keep small features far from the
-//! origin.
+//! Each region has a node with a mesh of one primitive (triangles), then each boundary has one (lines), under its name.
+//! All share one list of positions. `extras` of a primitive hold `{"region": NAME}` or `{"boundary": NAME}`. The
+//! material of a region has its name, and its colour in the drawing if there is one. All nodes hang on the root node.
+//! The root converts to metres (an unknown unit is kept; `extras` name it) and to +Y up: a mesh in the plane keeps its
+//! y, a mesh in space is rotated from CAD's +Z up. The root is also shifted to the middle of the mesh, because
+//! positions are float32 and would lose small features far from the origin.
 //!
-//! MeshLab makes triangles of the lines: they can be left out (`lines` false).
+//! MeshLab makes triangles of the lines, so they can be left out (`lines` false).
 //!
-//! Cells of order 2 are written as straight ones between all their nodes: four a triangle, two an edge. Not held: order
-//! 2, more than float32 of a coordinate, links to curves, balls. A mesh without triangles is refused: glTF has none.
+//! Cells of order 2 are written as straight ones between all their nodes: four for a triangle, two for an edge. Not
+//! held: order 2, more than float32 of a coordinate, links to curves, balls. A mesh without triangles is refused,
+//! because glTF has none.
 
 use super::colours;
 use super::groups::{Groups, straight_edges, straight_triangles};
@@ -30,6 +30,7 @@ use serde_json::json;
 use std::f32::consts::FRAC_1_SQRT_2;
 use std::io::{self, Write};
 
+/// The facts of binary glTF.
 pub(super) const FACTS_OF_GLB: Facts = Facts {
     name: "glb",
     suffixes: &["glb"],
@@ -37,6 +38,7 @@ pub(super) const FACTS_OF_GLB: Facts = Facts {
     ..FACTS
 };
 
+/// The facts of glTF as JSON.
 pub(super) const FACTS: Facts = Facts {
     name: "gltf",
     suffixes: &["gltf"],
@@ -61,11 +63,12 @@ fn losses(losses: &mut Losses) {
     losses.links();
 }
 
-/// Writes binary glTF, the boundaries as lines where asked for.
+/// Writes binary glTF, with the boundaries as lines if `lines`.
 ///
 /// # Errors
-/// Those of `out`; `Unsupported` of no triangles; `InvalidInput` where the mesh's lists do not fit together, where
-/// coordinates exceed float32 or the file 4 GB.
+/// Those of `out`; `Unsupported` where there are no triangles; `InvalidInput` where the lists of the mesh do not fit
+/// together, where
+/// a coordinate exceeds float32 or the file exceeds 4 GB.
 fn write_glb(mesh: &Mesh, lines: bool, out: &mut impl Write) -> io::Result<()> {
     let (root, mut binary) = Scene::of(mesh, lines)?.finish(None)?;
     let mut text = root.to_vec().map_err(io::Error::other)?;
@@ -83,7 +86,7 @@ fn write_glb(mesh: &Mesh, lines: bool, out: &mut impl Write) -> io::Result<()> {
     out.write_all(&binary)
 }
 
-/// Writes glTF as JSON with everything inside, the boundaries as lines where asked for.
+/// Writes glTF as JSON with everything inside, with the boundaries as lines if `lines`.
 ///
 /// # Errors
 /// As [`write_glb`].
@@ -106,7 +109,7 @@ fn extras(value: &serde_json::Value) -> io::Result<Extras> {
     Ok(Some(json::extras::RawValue::from_string(value.to_string()).map_err(io::Error::other)?))
 }
 
-/// The document as it grows, and its one buffer.
+/// The document so far, and its one buffer.
 struct Scene {
     root: Root,
     buffer: Index<json::Buffer>,
@@ -140,7 +143,7 @@ impl Scene {
         Ok((self.root, self.binary))
     }
 
-    /// Takes bytes into the buffer, as a view.
+    /// Adds bytes to the buffer, as a view.
     fn view(&mut self, bytes: &[u8], target: Target) -> Index<json::buffer::View> {
         let offset = self.binary.len();
         self.binary.extend_from_slice(bytes);
@@ -257,7 +260,7 @@ impl Scene {
         self.root.push(json::Node { mesh: Some(mesh), name, ..Default::default() })
     }
 
-    /// The node that all others hang on.
+    /// The root node.
     fn root(&mut self, mesh: &Mesh, nodes: Vec<Index<json::Node>>, placement: &Placement) -> io::Result<()> {
         let z_up = json::scene::UnitQuaternion([-FRAC_1_SQRT_2, 0.0, 0.0, FRAC_1_SQRT_2]);
         let root = self.root.push(json::Node {
@@ -275,14 +278,13 @@ impl Scene {
     }
 }
 
-/// How the root node places the mesh: scaled, turned where the mesh lies in space, then shifted.
+/// The transform of the root node: a scaling, a rotation if the mesh lies in space, then a translation.
 struct Placement {
-    /// Metres to a unit.
+    /// Metres per unit.
     scale: f32,
     /// In metres, +Y up, as float32 holds it.
     translation: [f32; 3],
-    /// The place that is shifted there, in the mesh's coordinates: about its middle. What is subtracted is what the
-    /// node adds.
+    /// The place in the mesh that the translation restores, near its middle. Positions have it subtracted.
     origin: [f64; 3],
 }
 
@@ -290,7 +292,7 @@ impl Placement {
     fn of(mesh: &Mesh) -> Self {
         let scale = mesh.unit.as_deref().and_then(metres).unwrap_or(1.0) as f32;
         let in_space = mesh.frame.is_some();
-        // A zero stays one without sign.
+        // Subtraction from 0 gives 0, not −0.
         let upward = |[x, y, z]: [f64; 3]| if in_space { [x, z, 0.0 - y] } else { [x, y, z] };
         let back = |[x, y, z]: [f64; 3]| if in_space { [x, 0.0 - z, y] } else { [x, y, z] };
         let translation = upward(centre(mesh)).map(|part| (part * f64::from(scale)) as f32);

@@ -1,11 +1,11 @@
-//! The named groups of a mesh as files number them, and names that a format can bear.
+//! The named groups of a mesh, numbered for files.
 
 use crate::ids::{Id, NameId, RegionId, TriangleId, VertexId};
 use crate::mesh::{CurveEdge, Mesh};
 use std::collections::BTreeMap;
 use std::io;
 
-/// What a group is of; the word is how files call it.
+/// The kind of a group.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     Region,
@@ -13,6 +13,7 @@ pub enum Kind {
 }
 
 impl Kind {
+    /// The word that files use for it.
     pub const fn word(self) -> &'static str {
         match self {
             Self::Region => "region",
@@ -21,12 +22,15 @@ impl Kind {
     }
 }
 
-/// Regions and boundaries by name, each kind numbered from 0 in the order of first use. Regions of one name are one
+/// Regions and boundaries by name, each kind numbered from 0 in the order of first use. Regions with one name are one
 /// group.
 pub struct Groups<'m> {
     mesh: &'m Mesh,
+    /// Names of regions.
     pub regions: Vec<&'m str>,
+    /// Names of boundaries.
     pub boundaries: Vec<&'m str>,
+    /// Names of nodes.
     pub points: Vec<&'m str>,
     region_of: Vec<usize>,
     boundary_of: BTreeMap<NameId, usize>,
@@ -35,7 +39,7 @@ pub struct Groups<'m> {
 
 impl<'m> Groups<'m> {
     /// # Errors
-    /// `InvalidInput` where the mesh's lists do not fit together: writers index it without asking again.
+    /// `InvalidInput` where the lists of the mesh do not fit together. Writers rely on this check.
     pub fn of(mesh: &'m Mesh) -> io::Result<Self> {
         check(mesh)?;
         let mut numbers = BTreeMap::new();
@@ -76,7 +80,7 @@ impl<'m> Groups<'m> {
         triangles
     }
 
-    /// The edges of every boundary, as places in [`Mesh::edges`], in the mesh's order.
+    /// The edges of every boundary, as indices of [`Mesh::edges`], in the order of the mesh.
     pub fn edges(&self) -> Vec<Vec<usize>> {
         let mut edges = vec![Vec::new(); self.boundaries.len()];
         for (i, edge) in self.mesh.edges.iter().enumerate() {
@@ -93,7 +97,8 @@ fn number<'m>(numbers: &mut BTreeMap<NameId, usize>, texts: &mut Vec<&'m str>, m
     })
 }
 
-/// The lists of a mesh fit together: one region a triangle, every id within its list, mid nodes for all or for none.
+/// Checks that the lists of a mesh fit together: one region for each triangle, each id within its list, mid nodes for
+/// all or for none.
 pub fn check(mesh: &Mesh) -> io::Result<()> {
     let names = mesh.names.iter().count();
     let node = |v: &VertexId| v.index() < mesh.nodes.len();
@@ -113,7 +118,7 @@ pub fn check(mesh: &Mesh) -> io::Result<()> {
     Err(io::Error::new(io::ErrorKind::InvalidInput, "the lists of the mesh do not fit together"))
 }
 
-/// Every triangle as straight ones: itself, or of order 2 the four between its corners and mid nodes.
+/// A triangle as straight ones: itself, or for order 2 the four between its corners and mid nodes.
 pub fn straight_triangles(mesh: &Mesh, t: TriangleId) -> impl Iterator<Item = [VertexId; 3]> {
     let [a, b, c] = mesh.triangles[t];
     let four = mesh.triangle_mids.get(t).map(|&[ab, bc, ca]| [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]);
@@ -121,7 +126,7 @@ pub fn straight_triangles(mesh: &Mesh, t: TriangleId) -> impl Iterator<Item = [V
     one.into_iter().chain(four.into_iter().flatten())
 }
 
-/// Every edge as straight ones: itself, or of order 2 its halves.
+/// An edge as straight ones: itself, or for order 2 its halves.
 pub fn straight_edges(mesh: &Mesh, edge: usize) -> impl Iterator<Item = [VertexId; 2]> {
     let [a, b] = mesh.edges[edge].nodes;
     let halves = mesh.edge_mids.get(edge).map(|&m| [[a, m], [m, b]]);
@@ -129,8 +134,8 @@ pub fn straight_edges(mesh: &Mesh, edge: usize) -> impl Iterator<Item = [VertexI
     one.into_iter().chain(halves.into_iter().flatten())
 }
 
-/// For every side of a triangle, its ends as [`undirected`] gives them: the triangles that have it, and as which of
-/// their sides (0: between corners 0 and 1, …).
+/// For each side of a triangle, keyed by its ends as [`undirected`] gives them: the triangles that have it, and the
+/// number of the side in each (0 is between corners 0 and 1).
 pub fn sides(mesh: &Mesh) -> BTreeMap<[VertexId; 2], Vec<(TriangleId, usize)>> {
     let mut sides: BTreeMap<[VertexId; 2], Vec<(TriangleId, usize)>> = BTreeMap::new();
     for (t, &corners) in mesh.triangles.enumerate() {
@@ -141,7 +146,7 @@ pub fn sides(mesh: &Mesh) -> BTreeMap<[VertexId; 2], Vec<(TriangleId, usize)>> {
     sides
 }
 
-/// For every edge of the mesh whether triangles lie on both its sides; its lists must fit together ([`check`]).
+/// For each edge of the mesh, whether triangles lie on both its sides. The lists must fit together ([`check`]).
 pub fn interior(mesh: &Mesh) -> impl Iterator<Item = bool> {
     let sides = sides(mesh);
     mesh.edges.iter().map(move |edge| sides.get(&undirected(edge.nodes)).is_some_and(|there| there.len() > 1))

@@ -1,12 +1,12 @@
 //! Mesh files: [`Mesh`] → files, and files, ours or not, → [`Mesh`], with the names that the format has.
 //!
-//! A format is a file, or a folder with `write.rs` and `read.rs`. What there is to know of it is said once, in its
-//! `Facts`, and the list of formats below is the only one: the enum, its names and suffixes, the writer, the reader and
-//! what the writer loses are all made from that line.
+//! A format is a file, or a folder with `write.rs` and `read.rs`. Its `Facts` hold all that differs between formats.
+//! The list of formats below is the only one: the enum, names and suffixes, writers, readers and losses are made from
+//! it.
 //!
-//! Written is all that a format can hold; [`Format::losses`] tells the rest. Read are triangles and lines, straight
-//! ones or of second order (all of one kind), in a plane. Vertices as cells are left out and counted; any other cell is
-//! an error. Nothing is believed: every count is held against the bytes at hand.
+//! A writer writes all that its format can hold; [`Format::losses`] tells the rest. Readers read triangles and lines in
+//! a plane, straight ones or of second order (all of one kind). Point cells are left out and counted; any other cell is
+//! an error. Input is untrusted: readers check every count against the bytes at hand.
 
 mod colours;
 mod draft;
@@ -66,28 +66,28 @@ formats! {
 
 /// The bytes of each file of an output.
 type Files = Vec<Vec<u8>>;
-/// Keys and values that say how a mesh was made.
+/// Keys and values about how a mesh was made.
 type Stamps = [(String, String)];
-/// The files beside the one that is read, as far as there are any.
+/// The files beside the one that is read, if there are any.
 type Beside = [Option<Vec<u8>>];
 
-/// What there is to know of a format.
+/// The facts of a format.
 struct Facts {
     /// The name by which a user asks for the format.
     name: &'static str,
     /// Suffixes of the files of one output, in the order of [`encode`].
     suffixes: &'static [&'static str],
-    /// Whether the first file keeps the name that the user gave and the others stand beside it, where the output has a
-    /// name at all. Otherwise each file has its own suffix, whatever the user's.
+    /// Whether the first file has the user's name and the others stand beside it, where the output has a name.
+    /// Otherwise each file has its own suffix.
     first_as_named: bool,
-    /// What the format leaves to choose.
+    /// The choices that the format leaves.
     choices: &'static [Choice],
-    /// Where it has straight cells only, and refuses others: what can be done.
+    /// For a format with straight cells only: the way out for order 2.
     straight_only: Option<&'static str>,
     write: fn(&Mesh, &Stamps, &WriteOptions) -> io::Result<Files>,
-    /// Tells what of a mesh is not held, in the order in which people are told.
+    /// Reports what the format does not hold of a mesh, in the order for people.
     losses: fn(&mut Losses),
-    /// `None`: the format is only written.
+    /// How the format is read; `None`: it is only written.
     reading: Option<Reading>,
 }
 
@@ -97,9 +97,9 @@ pub struct Reading {
     pub suffix: &'static str,
     /// Suffixes of files that are read beside it.
     pub beside: &'static [&'static str],
-    /// Whether a file may be of this format, by its first bytes, blanks left out.
+    /// Whether the first bytes, without blanks, are those of this format.
     begins: fn(&[u8]) -> bool,
-    /// Reads the file, with those beside it as far as there are any.
+    /// Reads the file, with the files beside it.
     read: fn(&[u8], &Beside) -> Result<MeshFile>,
 }
 
@@ -110,7 +110,7 @@ pub enum Choice {
     Plain,
     /// [`WriteOptions::lines`].
     Lines,
-    /// The same, of what [`WriteOptions::plain`] writes.
+    /// The same, for what [`WriteOptions::plain`] writes.
     PlainLines,
     /// [`WriteOptions::xdmf`].
     Grids,
@@ -127,8 +127,8 @@ impl Format {
         self.facts().suffixes
     }
 
-    /// Whether the first file of an output keeps the name that a user gave, whatever its suffix, and the others stand
-    /// beside it, where the output has a name ([`WriteOptions::stem`]); otherwise every file has its own suffix.
+    /// Whether the first file of an output has the user's name, with any suffix, and the others stand beside it, where
+    /// the output has a name ([`WriteOptions::stem`]). Otherwise each file has its own suffix.
     pub const fn first_as_named(self) -> bool {
         self.facts().first_as_named
     }
@@ -148,26 +148,25 @@ impl Format {
         Self::ALL.into_iter().find(|f| f.name().eq_ignore_ascii_case(name))
     }
 
-    /// The format in which a path's suffix asks to be written.
+    /// The format in which a path with this suffix is written.
     pub fn to_write(path: &Path) -> Option<Self> {
         let suffix = path.extension()?.to_str()?;
         Self::ALL.into_iter().find(|f| f.suffixes().iter().any(|s| s.eq_ignore_ascii_case(suffix)))
     }
 
-    /// The format as which a path's suffix asks to be read; `None` where it names none that is read.
+    /// The format as which a path with this suffix is read; `None` where there is none.
     pub fn to_read(path: &Path) -> Option<Self> {
         let suffix = path.extension()?.to_str()?;
         Self::ALL.into_iter().find(|f| f.reading().is_some_and(|r| r.suffix.eq_ignore_ascii_case(suffix)))
     }
 
-    /// A guess from the first bytes, for standard input and strange suffixes.
+    /// The format of first bytes, for standard input and unknown suffixes.
     pub fn sniff(bytes: &[u8]) -> Option<Self> {
         let start = bytes.trim_ascii_start();
         Self::ALL.into_iter().find(|f| f.reading().is_some_and(|r| (r.begins)(start)))
     }
 
-    /// Whether cells of this order can be written at all; where they are written as straight ones, [`Format::losses`]
-    /// says so.
+    /// Whether cells of this order can be written. [`Format::losses`] tells whether they are written as straight ones.
     ///
     /// # Errors
     /// `Unsupported`, with the way out.
@@ -178,7 +177,7 @@ impl Format {
         }
     }
 
-    /// What of this mesh the format does not hold, or holds as something else, written so: a phrase each, for people.
+    /// What the format does not hold of this mesh, or holds as something else: a phrase each, for people.
     pub fn losses(self, mesh: &Mesh, options: &WriteOptions) -> Vec<&'static str> {
         let mut losses = Losses::new(mesh, options);
         (self.facts().losses)(&mut losses);
@@ -193,27 +192,27 @@ impl Format {
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 #[serde(rename_all = "kebab-case")]
 pub enum XdmfGrids {
-    /// One grid of both kinds of cells, as meshio and ParaView take them.
+    /// One grid of both kinds of cells, for meshio and ParaView.
     Single,
-    /// A grid of triangles and one of lines, as FEniCSx takes them.
+    /// A grid of triangles and one of lines, for FEniCSx.
     #[default]
     Double,
 }
 
-/// How a mesh is written where a format, or a reader of it, leaves a choice.
+/// Choices of writing, where a format or a reader of it leaves one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WriteOptions {
     /// VTU without field data, and so without names.
     pub plain: bool,
     /// Whether boundaries with triangles on both sides are written: interfaces, and lines within a region.
     pub interior_lines: bool,
-    /// Whether the boundaries are written as lines, in formats that have readers who go wrong beside lines: glTF, OBJ,
-    /// text VTK and plain VTU. `None`: in the first two.
+    /// Whether boundaries are written as lines, in formats with readers that misread files with lines: glTF, OBJ, text
+    /// VTK and plain VTU. `None`: in the first two.
     pub lines: Option<bool>,
     /// Whether XDMF holds triangles and lines in one grid or in two.
     pub xdmf: XdmfGrids,
-    /// The name without suffix by which the files of one output speak of each other: OBJ's of its `.mtl`. `None`: an
-    /// output that is a stream, and its first file alone.
+    /// The name without suffix by which the files of one output refer to each other: OBJ's to its `.mtl`. `None`: the
+    /// output is a stream and has its first file only.
     pub stem: Option<String>,
 }
 
@@ -223,12 +222,12 @@ impl Default for WriteOptions {
     }
 }
 
-/// A mesh in a format: the bytes of each file of [`Format::suffixes`], of an OBJ without a stem those of the first.
-/// `stamps` (key and value) say how the mesh was made, where the format has a place for them (VTU). The same mesh gives
-/// the same bytes.
+/// A mesh in a format: the bytes of each file of [`Format::suffixes`], for an OBJ without a stem those of the first.
+/// `stamps` (key and value) tell how the mesh was made, in formats with a place for them (VTU). The same mesh gives the
+/// same bytes.
 ///
 /// # Errors
-/// `Unsupported` where the format cannot hold such a mesh at all; `InvalidInput` where the mesh's lists do not fit
+/// `Unsupported` where the format cannot hold such a mesh; `InvalidInput` where the lists of the mesh do not fit
 /// together or it is too large for the format.
 pub fn encode(
     mesh: &Mesh,
@@ -258,14 +257,14 @@ fn file(write: impl FnOnce(&mut Vec<u8>) -> io::Result<()>) -> io::Result<Vec<u8
 
 // ---- reading ----
 
-/// A mesh as read, with what was said of it.
+/// A mesh as read, with stamps and notes.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MeshFile {
     /// The mesh, with the names that the file has.
     pub mesh: Mesh,
-    /// Keys and values that our writer was given; empty of a foreign file.
+    /// Keys and values that our writer added; empty for a file of another program.
     pub stamps: Vec<(String, String)>,
-    /// What was left out, one sentence each.
+    /// Notes about what was left out, one sentence each.
     pub notes: Vec<String>,
 }
 
@@ -281,10 +280,10 @@ pub struct MeshError {
 
 type Result<T> = std::result::Result<T, MeshError>;
 
-/// Reads a mesh; `beside` are the files of [`Reading::beside`], in its order, as far as there are any.
+/// Reads a mesh. `beside` are the files of [`Reading::beside`], in its order.
 ///
 /// # Errors
-/// [`MeshError`] with the place where the file breaks its format, or what in it cannot be read, or that the format is
+/// [`MeshError`] with the place where the file breaks its format, or with what cannot be read, or that the format is
 /// only written. Never panics, and takes memory in proportion to the bytes.
 pub fn read(bytes: &[u8], format: Format, beside: &[Option<Vec<u8>>]) -> Result<MeshFile> {
     match format.reading() {
@@ -305,7 +304,7 @@ fn unsupported(what: impl Into<String>, help: &str) -> MeshError {
     MeshError { what: what.into(), help: help.into() }
 }
 
-/// Whether a file starts with one of these words, whatever the case.
+/// Whether a file starts with one of these words, in any case.
 fn begins(start: &[u8], words: &[&str]) -> bool {
     words.iter().any(|word| start.get(..word.len()).is_some_and(|s| s.eq_ignore_ascii_case(word.as_bytes())))
 }

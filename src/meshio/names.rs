@@ -1,11 +1,11 @@
-//! Names of groups as formats can bear them, and as the comments of our writers keep them for our readers.
+//! Names of groups that a format allows, and the comments in which our writers keep the original names.
 
 use super::groups::Kind;
 use super::text;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Names that a format can bear: each made `legal`, cut to `longest` bytes, and told apart (without regard to case) by
-/// a number at its end.
+/// Names that a format allows: each made `legal`, cut to `longest` bytes, and made unique, regardless of case, by a
+/// number at its end.
 pub fn legal_names(names: &[&str], longest: usize, legal: impl Fn(&str) -> String) -> Vec<String> {
     let mut taken = BTreeSet::new();
     let cut = |text: &str, longest: usize| {
@@ -26,7 +26,7 @@ pub fn legal_names(names: &[&str], longest: usize, legal: impl Fn(&str) -> Strin
     names.iter().map(&mut unique).collect()
 }
 
-/// What a comment says of a name that the format could not bear; readers of ours take the name from it.
+/// A comment with the original of a name that the format does not allow. Our readers restore the name from it.
 pub fn name_comment(kind: Kind, legal: &str, name: &str) -> String {
     let one_line: String = name.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
     format!("name {} {legal} = {one_line}", kind.word())
@@ -45,7 +45,7 @@ pub fn word(name: &str) -> String {
     if text.is_empty() { "_".into() } else { text }
 }
 
-/// A text as the value of an XML attribute; white space that a parser would turn into blanks is written by number.
+/// A text as the value of an XML attribute. White space that a parser would replace by blanks is written by number.
 pub fn xml_attribute(text: &str) -> String {
     let mut value = String::with_capacity(text.len());
     for c in text.chars() {
@@ -62,7 +62,7 @@ pub fn xml_attribute(text: &str) -> String {
     value
 }
 
-/// What a comment of our writers says of a name that its format could not bear: see [`name_comment`].
+/// The original names in comments of our writers: see [`name_comment`].
 #[derive(Default)]
 pub struct NameComments {
     regions: BTreeMap<String, String>,
@@ -70,7 +70,7 @@ pub struct NameComments {
 }
 
 impl NameComments {
-    /// Takes in a comment (its mark left out), if it is one of a name.
+    /// Reads a comment (without its mark), if it is one of a name.
     pub fn hear(&mut self, comment: &[u8]) {
         let comment = text(comment);
         let comment = comment.trim_start();
@@ -87,10 +87,12 @@ impl NameComments {
         }
     }
 
+    /// The original name of a region.
     pub fn region(&self, legal: &str) -> String {
         self.regions.get(&legal.to_ascii_lowercase()).cloned().unwrap_or_else(|| legal.to_owned())
     }
 
+    /// The original name of a boundary.
     pub fn boundary(&self, legal: &str) -> String {
         self.boundaries.get(&legal.to_ascii_lowercase()).cloned().unwrap_or_else(|| legal.to_owned())
     }

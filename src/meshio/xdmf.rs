@@ -1,14 +1,14 @@
-//! XDMF 3 as one text file, its numbers inside. Two grids, as FEniCSx reads them (it takes no mixed one): `mesh` of
-//! triangles with the cell attribute `region`, `boundaries` of lines with the cell attribute `boundary`. Or one grid of
-//! both kinds of cells with both attributes, 0 at cells of the other kind. Numbers count from 1; their names are
-//! `Information` elements (`region:NAME`). Coordinates have all their digits: two of a mesh in the plane, three of one
-//! in space. Order 2 is held (Triangle_6, Edge_3).
+//! XDMF 3 as one text file with its numbers inside. With two grids, for FEniCSx, which reads no mixed grid: `mesh` of
+//! triangles with the cell attribute `region`, and `boundaries` of lines with the cell attribute `boundary`. Or with
+//! one grid of both kinds of cells and both attributes, 0 for cells of the other kind. Numbers count from 1. Names are
+//! `Information` elements (`region:NAME`). Coordinates have all their digits: two for a mesh in the plane, three for
+//! one in space. Order 2 is held (Triangle_6, Edge_3).
 //!
-//! One grid is for meshio 5.3, which takes a domain of one grid and nothing else, no `Time` either, and names in a form
-//! of its own; of order 2 it reads one kind of cells only. VTK 9.7 (`vtkXdmfReader`, ParaView's) reads both forms, two
-//! grids as blocks. `pyvista.read` (0.49) fails on any XDMF without times: give it VTU.
+//! One grid is for meshio 5.3, which reads a domain of one grid only, without `Time`, with names in a form of its own.
+//! For order 2 it reads one kind of cells only. VTK 9.7 (`vtkXdmfReader`, also in ParaView) reads both forms, two grids
+//! as blocks. `pyvista.read` (0.49) fails on any XDMF without times: use VTU there.
 //!
-//! Not held: the unit is an `Information` of two grids only; links to curves, balls.
+//! Not held: with one grid, the unit (two grids have it as an `Information`); links to curves, balls.
 
 use super::groups::{Groups, Kind};
 use super::losses::Losses;
@@ -17,6 +17,7 @@ use super::{Choice, Facts, XdmfGrids, one_file};
 use crate::mesh::Mesh;
 use std::io::{self, Write};
 
+/// The facts of XDMF.
 pub(super) const FACTS: Facts = Facts {
     name: "xdmf",
     suffixes: &["xdmf"],
@@ -89,13 +90,13 @@ fn write(mesh: &Mesh, grids: XdmfGrids, out: &mut impl Write) -> io::Result<()> 
     writeln!(out, "</Domain>\n</Xdmf>")
 }
 
-/// Every group: its kind, number and name.
+/// Each group: its kind, number and name.
 fn names<'g>(groups: &'g Groups) -> impl Iterator<Item = (Kind, usize, &'g str)> {
     let numbered = |kind: Kind, names: &'g [&str]| (1..).zip(names).map(move |(number, name)| (kind, number, *name));
     numbered(Kind::Region, &groups.regions).chain(numbered(Kind::Boundary, &groups.boundaries))
 }
 
-/// Names with number and dimension as meshio reads them: markup within a text.
+/// Names with number and dimension in the form that meshio reads: markup within a text.
 fn meshio_names(groups: &Groups) -> String {
     let key = |(kind, number, name): (Kind, usize, &str)| {
         let dimension = if kind == Kind::Region { 2 } else { 1 };
@@ -105,12 +106,12 @@ fn meshio_names(groups: &Groups) -> String {
     format!("<Information Name=\"names\" Value=\"\"><![CDATA[<names>{keys}</names>]]></Information>\n")
 }
 
-/// A kind of cells: its name, its nodes, and the numbers that announce one among cells of several kinds.
+/// A kind of cells: its name, its number of nodes, and the numbers before each of its cells in a mixed list.
 type Cell = (&'static str, usize, &'static [u32]);
 
 const TRIANGLE: Cell = ("Triangle", 3, &[4]);
 const TRIANGLE_6: Cell = ("Triangle_6", 6, &[36]);
-/// A polyline also says how many nodes it has.
+/// A polyline is preceded by its number of nodes, too.
 const LINE: Cell = ("Polyline", 2, &[2, 2]);
 const LINE_3: Cell = ("Edge_3", 3, &[34]);
 
@@ -146,7 +147,7 @@ fn write_grid(
     writeln!(out, "</Grid>")
 }
 
-/// Cells of one kind as a table; of several as one list, each behind the numbers that announce it.
+/// Writes cells of one kind as a table, of several kinds as one list with their kind before each.
 fn write_topology(cells: &[(Cell, Vec<Vec<u32>>)], count: usize, out: &mut impl Write) -> io::Result<()> {
     let one = match cells {
         [((name, nodes, _), _)] => Some((name, nodes)),

@@ -1,4 +1,4 @@
-//! What is drawn over and below a picture: markers of repairs, and the legend.
+//! Marks on a picture and the text below it: markers of repairs, and the legend.
 
 use super::PictureOptions;
 use super::canvas::{Anchor, Canvas, Colour, Label, Paint, Stroke, text_width};
@@ -17,7 +17,7 @@ const LEGEND_NAMES_MAX: usize = 36;
 
 /// Characters of a name in a legend.
 const NAME_MAX: usize = 40;
-/// A place in the legend: a swatch and its text.
+/// An entry of the legend: a swatch and its text.
 struct Chip {
     at: Pixel,
     text: String,
@@ -32,7 +32,7 @@ enum Swatch {
 }
 
 impl Sheet {
-    /// Marks every repair that is in sight.
+    /// Marks each repair within the window.
     pub fn repairs(&mut self, options: &PictureOptions) {
         let radius = self.pen(RADIUS);
         let markers = markers(self.canvas.frame(), options, 3.0 * radius);
@@ -48,7 +48,8 @@ impl Sheet {
         }
     }
 
-    /// On a white rim, to be seen on lines of any colour; dashed where nothing was mended.
+    /// Draws a marker on a white rim, which makes it visible on lines of any colour. It is dashed where nothing was
+    /// repaired.
     pub fn marker(&mut self, mended: Mended, at: Pixel, radius: f64) {
         let (shape, closed) = mended.shape(at, radius);
         let mut outline = Path::default();
@@ -62,17 +63,19 @@ impl Sheet {
 }
 
 impl Sheet {
+    /// The top of the legend, in pixels.
     pub fn legend_top(&self) -> f64 {
         self.canvas.frame().plot().y1 + self.margin
     }
 
+    /// The height of the legend, in pixels.
     pub fn legend_height(&self, legend: &Legend) -> f64 {
         let scale = if legend.scale.is_some() { self.type_px * 5.4 } else { 0.0 };
         let chips = self.chips(legend).last().map_or(0.0, |c| c.at.y - self.legend_top() + self.type_px * 0.4);
         chips.max(self.type_px * 1.4) + scale
     }
 
-    /// Caption, then markers, areas and lines, each row filled from the left.
+    /// Caption, then markers, areas and lines. Each row is filled from the left.
     fn chips(&self, legend: &Legend) -> Vec<Chip> {
         let swatches = (0..).zip(&legend.areas).map(|(i, name)| (Swatch::Area(area_colour(i)), name));
         let lines = (0..).zip(&legend.lines).map(|(i, name)| (Swatch::Line(i), name));
@@ -100,6 +103,7 @@ impl Sheet {
         chips
     }
 
+    /// Adds marks, frame, caption and legend, and returns the canvas.
     pub fn finish(mut self, options: &PictureOptions, legend: &Legend) -> Canvas {
         self.repairs(options);
         self.marks(&options.marks);
@@ -135,19 +139,19 @@ impl Sheet {
         self.canvas
     }
 
-    /// A histogram whose bars carry the colours: the scale and the distribution in one.
+    /// A histogram whose bars have the colours of the scale.
     fn scale(&mut self, scale: &Scale, top: f64) {
         let (left, size) = (self.margin.round(), self.type_px * 0.8);
         let (floor, tall) = ((top + self.type_px * 2.2).round(), self.type_px * 1.9);
         let most = scale.counts.iter().copied().max().unwrap_or(0).max(1) as f64;
-        // Whole pixels, or smoothing would draw a seam between two shades.
+        // Whole pixels, because smoothing would draw a seam between two shades.
         let step = (self.width * 0.42 / scale.counts.len().max(1) as f64).floor().max(1.0);
         let length = step * scale.counts.len() as f64;
         for (i, (&count, &shade)) in scale.counts.iter().zip(&scale.shades).enumerate() {
             let x = left + i as f64 * step;
             self.canvas.rect(Rect::new(x, floor, x + step, floor + self.type_px * 0.5), Paint::fill(shade, 1.0));
             if count > 0 {
-                // A single triangle is still to be seen: at least a pixel and a half.
+                // At least a pixel and a half, so that a single triangle is visible.
                 let bar = (tall * count as f64 / most).max(1.5);
                 let ink = shade.mix(INK, 0.15);
                 self.canvas.rect(Rect::new(x, floor - bar, x + step * 0.85, floor), Paint::fill(ink, 1.0));

@@ -1,9 +1,9 @@
-//! One scene in pixels, written as SVG text or painted as PNG.
+//! A scene in pixels, written as SVG text or painted as PNG.
 //!
-//! A [`Frame`] maps the drawing to pixels (y upward becomes y downward); everything after that is in pixels, rounded
-//! to hundredths, so that the text is short and the same on every machine. A layer of a very large mesh would make an
-//! SVG of hundreds of megabytes: beyond `SVG_POINTS_MAX` points it is painted once, pixel for pixel, and embedded as
-//! an image.
+//! A [`Frame`] maps the drawing to pixels (y upward becomes y downward). All coordinates after that are pixels, rounded
+//! to hundredths, so that the text is short and the same on each machine. The SVG of a very large mesh would have
+//! hundreds of megabytes. So a layer with more than `SVG_POINTS_MAX` points is painted once, pixel for pixel, and
+//! embedded as an image.
 
 use super::frame::Frame;
 use super::glyphs;
@@ -12,11 +12,12 @@ use crate::geometry::Rect;
 use base64::Engine;
 use std::io;
 
-/// Points of a layer beyond which SVG embeds it as an image: about 10 bytes a point, so 2 MB.
+/// Number of points above which SVG embeds a layer as an image: about 10 bytes each, so 2 MB.
 const SVG_POINTS_MAX: usize = 200_000;
 /// Largest side of a picture in pixels: 8192² pixels of four bytes are 268 MB.
 const SIDE_MAX: f64 = 8192.0;
 
+/// A colour: red, green, blue.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Colour(pub u8, pub u8, pub u8);
 
@@ -26,7 +27,7 @@ impl Colour {
         Self((rgb >> 16) as u8, (rgb >> 8) as u8, rgb as u8)
     }
 
-    /// From `self` (t = 0) to `other` (t = 1), component by component.
+    /// The mix of `self` (t = 0) and `other` (t = 1), component by component.
     pub fn mix(self, other: Self, t: f64) -> Self {
         let lerp = |a: u8, b: u8| (f64::from(a) + (f64::from(b) - f64::from(a)) * t.clamp(0.0, 1.0)).round() as u8;
         Self(lerp(self.0, other.0), lerp(self.1, other.1), lerp(self.2, other.2))
@@ -37,52 +38,63 @@ impl Colour {
     }
 }
 
-/// A line's look. Widths and dashes in pixels.
+/// The style of a line. Widths and dashes are in pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stroke {
+    /// Colour.
     pub colour: Colour,
+    /// Width.
     pub width: f64,
+    /// Opacity, from 0 to 1.
     pub opacity: f64,
     /// Lengths of dash and gap.
     pub dash: Option<[f64; 2]>,
 }
 
 impl Stroke {
+    /// A solid, opaque line.
     pub const fn new(colour: Colour, width: f64) -> Self {
         Self { colour, width, opacity: 1.0, dash: None }
     }
 
+    /// The same with an opacity.
     pub const fn opacity(self, opacity: f64) -> Self {
         Self { opacity, ..self }
     }
 
+    /// The same with dashes.
     pub const fn dashed(self, dash: f64, gap: f64) -> Self {
         Self { dash: Some([dash, gap]), ..self }
     }
 }
 
-/// What an item is painted with; a fill is a colour and its opacity (even–odd).
+/// The paint of an item. A fill is a colour and its opacity (even-odd).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Paint {
+    /// Colour and opacity of the fill.
     pub fill: Option<(Colour, f64)>,
+    /// The line along the outline.
     pub stroke: Option<Stroke>,
 }
 
 impl Paint {
+    /// A fill without a line.
     pub const fn fill(colour: Colour, opacity: f64) -> Self {
         Self { fill: Some((colour, opacity)), stroke: None }
     }
 
+    /// A line without a fill.
     pub const fn stroke(stroke: Stroke) -> Self {
         Self { fill: None, stroke: Some(stroke) }
     }
 
+    /// The same with a line.
     pub const fn and_stroke(self, stroke: Stroke) -> Self {
         Self { fill: self.fill, stroke: Some(stroke) }
     }
 }
 
-/// Which end of a text stands at its place.
+/// Which end of a text is at its place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Anchor {
     Start,
@@ -97,29 +109,34 @@ enum Item {
     Text(Label),
 }
 
-/// A line of text, its baseline at `at`; sizes in pixels.
+/// A line of text with its baseline at `at`. Sizes are in pixels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Label {
+    /// The place.
     pub at: Pixel,
+    /// The text.
     pub text: String,
+    /// Font size.
     pub size: f64,
+    /// Which end of the text is at the place.
     pub anchor: Anchor,
+    /// Colour.
     pub colour: Colour,
-    /// Drawn on a white rim, to be read on top of a mesh.
+    /// Whether the text has a white rim, for reading on top of a mesh.
     pub rim: bool,
 }
 
 #[derive(Clone, Debug, PartialEq)]
 struct Layer {
     id: &'static str,
-    /// Whether the layer is cut off at the frame.
+    /// Whether the layer is clipped to the frame.
     clip: bool,
-    /// Fills are not smoothed: neighbours leave no hairline between them, and each pixel has one colour.
+    /// Whether fills are not smoothed: then neighbours have no hairline between them, and each pixel has one colour.
     crisp: bool,
     items: Vec<Item>,
 }
 
-/// A scene: layers, the later on top.
+/// A scene: layers, later ones on top.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Canvas {
     width: f64,
@@ -129,7 +146,7 @@ pub struct Canvas {
 }
 
 impl Canvas {
-    /// A white picture of `width` × `height` pixels around a frame.
+    /// A white scene of `width` × `height` pixels around a frame.
     pub fn new(width: f64, height: f64, frame: Frame) -> Self {
         let side = |v: f64| v.ceil().clamp(1.0, SIDE_MAX);
         Self { width: side(width), height: side(height), frame, layers: Vec::new() }
@@ -140,29 +157,29 @@ impl Canvas {
         &self.frame
     }
 
-    /// Begins a layer; what follows is drawn into it, cut off at the frame where `clip`.
+    /// Begins a layer for the items that follow, clipped to the frame if `clip`.
     pub fn layer(&mut self, id: &'static str, clip: bool) {
         self.layers.push(Layer { id, clip, crisp: false, items: Vec::new() });
     }
 
-    /// Begins a layer of cells that adjoin, cut off at the frame: not smoothed, so that no hairlines shine through.
+    /// Begins a layer of adjoining cells, clipped to the frame. It is not smoothed, which would show hairlines.
     pub fn layer_of_cells(&mut self, id: &'static str) {
         self.layers.push(Layer { id, clip: true, crisp: true, items: Vec::new() });
     }
 
-    /// Adds a path to the current layer; an empty path is left out.
+    /// Adds a path to the current layer, unless it is empty.
     pub fn path(&mut self, path: Path, paint: Paint) {
         if !path.is_empty() {
             self.push(Item::Path { path, paint });
         }
     }
 
-    /// Adds a circle to the current layer, centre and radius in pixels. It is left out where it is clearly out of
-    /// sight, or the radius is not above 0 and below 1e7.
+    /// Adds a circle to the current layer, with centre and radius in pixels. It is left out where it is far outside of
+    /// the canvas, or where the radius is not between 0 and 1e7.
     pub fn circle(&mut self, at: Pixel, radius: f64, paint: Paint) {
         let reach = radius + self.frame.plot().width();
         let near = Rect::new(at.x - reach, at.y - reach, at.x + reach, at.y + reach);
-        // Comparisons, so that a centre or radius that is no number is left away.
+        // The comparisons are false for NaN.
         if radius > 0.0 && radius < 1e7 && near.x0 <= self.width && near.x1 >= 0.0 && near.y0 <= self.height {
             self.push(Item::Circle { at, radius, paint });
         }
@@ -226,7 +243,7 @@ impl Canvas {
         Ok(text)
     }
 
-    /// The picture as a PNG file, `scale` image pixels to a pixel of the scene.
+    /// The picture as a PNG file, with `scale` image pixels for each pixel of the scene.
     ///
     /// # Errors
     /// Where the image does not fit into memory or cannot be encoded.
@@ -373,18 +390,22 @@ impl Item {
 }
 
 impl Label {
+    /// A black text that begins at a place.
     pub fn new(at: Pixel, text: impl Into<String>, size: f64) -> Self {
         Self { at, text: text.into(), size, anchor: Anchor::Start, colour: Colour::hex(0x2b3440), rim: false }
     }
 
+    /// The same with another anchor.
     pub fn anchor(self, anchor: Anchor) -> Self {
         Self { anchor, ..self }
     }
 
+    /// The same with a colour.
     pub fn colour(self, colour: Colour) -> Self {
         Self { colour, ..self }
     }
 
+    /// The same with a white rim.
     pub fn rim(self) -> Self {
         Self { rim: true, ..self }
     }
@@ -402,13 +423,13 @@ impl Label {
             text.push_str("</text>\n");
         };
         if self.rim {
-            // A text of its own below the other: not every viewer knows `paint-order`.
+            // A second text below the first, because not all viewers support `paint-order`.
             line(" fill=\"none\" stroke=\"#fff\" stroke-width=\"3\"");
         }
         line(&format!(" fill=\"{}\"", self.colour.text()));
     }
 
-    /// The text as strokes of a pen, for painting without fonts.
+    /// The text as pen strokes, for painting without fonts.
     fn strokes(&self) -> Path {
         let left = match self.anchor {
             Anchor::Start => 0.0,
@@ -427,7 +448,7 @@ impl Label {
     }
 }
 
-/// Width of a text in pixels: exact in PNG, an estimate in SVG, whose font is the reader's.
+/// Width of a text in pixels: exact in PNG, an estimate in SVG, whose font depends on the viewer.
 pub fn text_width(text: &str, size: f64) -> f64 {
     text.chars().map(glyphs::advance).sum::<f64>() * size
 }

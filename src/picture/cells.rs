@@ -10,25 +10,26 @@ use crate::geometry::{Point, turn_from};
 use crate::ids::{NameId, TriangleId, VertexId};
 use crate::mesh::Mesh;
 
-/// The colour class of every triangle (few, so that one path holds all of a colour).
+/// The colour class of each triangle. There are few classes, so one path holds all triangles of a colour.
 pub struct CellColours<'a> {
     mesh: &'a Mesh,
     colour: MeshColour,
     regions: &'a [NameId],
-    /// Logarithms of the smallest and largest root of area.
+    /// Logarithms of the smallest and the largest root of an area.
     sizes: [f64; 2],
 }
 
-/// A colour as it is seen over white.
+/// A colour painted over white.
 fn on_white([r, g, b, a]: [u8; 4]) -> Colour {
     let over = |part: u8| ((u32::from(part) * u32::from(a) + 255 * (255 - u32::from(a)) + 127) / 255) as u8;
     Colour(over(r), over(g), over(b))
 }
 
-/// Steps of a colour scale: finer ones cannot be told apart.
+/// Number of shades of a colour scale. More cannot be distinguished.
 const SHADES: usize = 60;
 
 impl<'a> CellColours<'a> {
+    /// Colours of the triangles of a mesh.
     pub fn new(mesh: &'a Mesh, colour: MeshColour, regions: &'a [NameId]) -> Self {
         let mut sizes = [f64::INFINITY, f64::NEG_INFINITY];
         if colour == MeshColour::Size {
@@ -39,6 +40,7 @@ impl<'a> CellColours<'a> {
         Self { mesh, colour, regions, sizes }
     }
 
+    /// The colour class of a triangle.
     pub fn class(&self, t: TriangleId) -> usize {
         let abc = corners(self.mesh, &self.mesh.triangles[t]);
         let shade = |fraction: f64| ((fraction * SHADES as f64) as usize).min(SHADES - 1);
@@ -52,6 +54,7 @@ impl<'a> CellColours<'a> {
         }
     }
 
+    /// The colour of a class.
     pub fn paint(&self, class: usize) -> Colour {
         let middle = (class as f64 + 0.5) / SHADES as f64;
         match self.colour {
@@ -65,15 +68,15 @@ impl<'a> CellColours<'a> {
         }
     }
 
-    /// Whether dark lines cannot be seen on the colour: scales are chosen for them, a drawing's colours are what they
-    /// are.
+    /// Whether dark lines are invisible on the colour. Scales are chosen so that they are visible; colours of a drawing
+    /// are arbitrary.
     pub fn is_dark(&self, class: usize) -> bool {
         let Colour(r, g, b) = self.paint(class);
-        // Rec. 709's luma, of 255.
+        // Luma by Rec. 709, from 0 to 255.
         self.colour == MeshColour::Paint && 0.2126 * f64::from(r) + 0.7152 * f64::from(g) + 0.0722 * f64::from(b) < 90.0
     }
 
-    /// The legend's scale: its histogram, and what its ends and ticks say.
+    /// The scale of the legend: its histogram, and the text of its ends and ticks.
     pub fn scale(&self) -> Option<Scale> {
         let mut counts = vec![0; SHADES];
         for t in self.mesh.triangles.ids() {
@@ -94,11 +97,12 @@ impl<'a> CellColours<'a> {
     }
 }
 
+/// The corners of a triangle.
 pub fn corners(mesh: &Mesh, triangle: &[VertexId; 3]) -> [Point; 3] {
     triangle.map(|v| mesh.nodes.get(v).copied().unwrap_or(Point::new(f64::NAN, f64::NAN)))
 }
 
-/// 0 of a triangle that has no angles.
+/// The smallest angle; 0 for a triangle without angles.
 pub fn smallest_angle_deg([a, b, c]: [Point; 3]) -> f64 {
     let angle = |p: Point, q: Point, r: Point| turn_from(q - p, r - p).abs().to_degrees();
     let least = angle(a, b, c).min(angle(b, c, a)).min(angle(c, a, b));

@@ -1,71 +1,72 @@
-//! How the drawing is laid into the picture, and what lies too far outside to be drawn.
+//! The map from the drawing to pixels, and the removal of what is far outside.
 
 use super::path::{Path, Pixel, px};
 use crate::geometry::{Point, Rect};
 
-/// How the drawing is laid into the picture.
+/// The map from the drawing to pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frame {
-    /// What is seen, in the drawing's units.
+    /// The visible part, in the drawing's units.
     view: Rect,
-    /// Pixels a unit.
+    /// Pixels for each unit.
     scale: f64,
-    /// The view's box in pixels.
+    /// The box of the view in pixels.
     plot: Rect,
-    /// How far strokes, balls and dots may reach out of the box, in pixels: 0 for a window into a larger drawing.
+    /// How far strokes, balls and dots may extend beyond the box, in pixels; 0 for a window of a larger drawing.
     rim: f64,
 }
 
 impl Frame {
-    /// Lays `view` into a box of `width` pixels and at most `height_max`, its upper left corner at `corner`; centred
-    /// where it is narrower.
+    /// Fits `view` into a box of `width` pixels and at most `height_max`, with its upper left corner at `corner`. A
+    /// narrower view is centred.
     pub fn new(view: Rect, corner: Pixel, width: f64, height_max: f64) -> Self {
         let (w, h) = (view.width().abs(), view.height().abs());
         let side = w.max(h);
-        // A single point is shown in a box of its own magnitude; at the origin, of one unit.
+        // A single point has a box of its own magnitude, or of one unit at the origin.
         let side = if side > 0.0 && side.is_finite() { side } else { view.x0.abs().max(view.y0.abs()).max(1.0) };
-        // A flat view is given 1/50 of its length, so that a straight line has room for its stroke.
+        // A flat view gets 1/50 of its length, so that a straight line has room for its stroke.
         let (w, h) = (w.clamp(side / 50.0, side), h.clamp(side / 50.0, side));
         let centre = view.center();
         let scale = (width / w).min(height_max / h);
         let plot = Rect::new(corner.x, corner.y, corner.x + width, corner.y + h * scale);
-        // The view is what the plot shows: where the picture is narrower than the box, more of the plane is seen on
-        // both sides.
+        // If the view is narrower than the box, more of the plane is visible on both sides.
         let half = (width / scale / 2.0, h / 2.0);
         let view = Rect::new(centre.x - half.0, centre.y - half.1, centre.x + half.0, centre.y + half.1);
         Self { view, scale, plot, rim: 0.0 }
     }
 
-    /// The frame with a rim of so many pixels around its plot, into which strokes may reach.
+    /// The frame with a rim of this many pixels around its box, for strokes.
     pub fn with_rim(self, rim: f64) -> Self {
         Self { rim, ..self }
     }
 
+    /// The box of the view in pixels.
     pub fn plot(&self) -> Rect {
         self.plot
     }
 
-    /// The plot with the rim into which strokes may reach: what layers are cut off at.
+    /// The box with its rim. Layers are clipped to it.
     pub fn window(&self) -> Rect {
         self.plot.inflate(self.rim, self.rim)
     }
 
-    /// Pixels a unit of the drawing.
+    /// Pixels for each unit of the drawing.
     pub fn scale(&self) -> f64 {
         self.scale
     }
 
+    /// A place of the drawing in pixels.
     pub fn pixel(&self, p: Point) -> Pixel {
         px(self.plot.x0 + (p.x - self.view.x0) * self.scale, self.plot.y1 - (p.y - self.view.y0) * self.scale)
     }
 
-    /// The plot with a rim of its own size: what lies outside can be left away unseen, strokes and dashes included.
+    /// The box enlarged by its own size. Nothing outside of it is visible, with strokes and dashes.
     fn reach(&self) -> Rect {
         let rim = self.plot.width().max(self.plot.height());
         self.plot.inflate(rim, rim)
     }
 
-    /// Adds a polyline, the stretches far outside the plot left away.
+    /// Adds a polyline without the stretches far outside of the box.
     pub fn add_line(&self, path: &mut Path, line: &[Pixel]) {
         let reach = self.reach();
         let mut run: Vec<Pixel> = Vec::new();
@@ -84,7 +85,7 @@ impl Frame {
         path.add(run, false);
     }
 
-    /// Adds a polygon, cut off far outside the plot.
+    /// Adds a polygon, clipped far outside of the box.
     pub fn add_polygon(&self, path: &mut Path, corners: &[Pixel]) {
         let reach = self.reach();
         if corners.iter().all(|&p| inside(p, reach)) {
@@ -94,7 +95,7 @@ impl Frame {
         }
     }
 
-    /// Whether the box around some places meets the plot.
+    /// Whether the box around some places meets the box of the view.
     pub fn sees(&self, places: &[Pixel]) -> bool {
         let range = |f: fn(&Pixel) -> f64| {
             places.iter().map(f).fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), v| (lo.min(v), hi.max(v)))
@@ -126,7 +127,7 @@ fn clip_segment(a: Pixel, b: Pixel, r: Rect) -> Option<(Pixel, Pixel)> {
             t1 = t1.min(room / step);
         }
     }
-    // Written so that an end that is no number is left away.
+    // The comparison is false for NaN, which leaves such an end out.
     (t0 <= t1).then(|| {
         let at = |t: f64| px(a.x + dx * t, a.y + dy * t);
         (if t0 > 0.0 { at(t0) } else { a }, if t1 < 1.0 { at(t1) } else { b })

@@ -1,22 +1,22 @@
 //! A pen alphabet, so that a PNG needs no font: each glyph is a few polylines on a grid of 0.08 em.
 //!
-//! A polyline is a word of places, each a digit (x) and a letter (y: `d` is the baseline, `m` the height of capitals,
-//! `j` that of small letters).
+//! A polyline is a word of places. A place is a digit (x) and a letter (y: `d` is the baseline, `m` the height of
+//! capitals, `j` that of small letters).
 
 /// Size of a grid step, in em: capitals are 9 steps, 0.72 em, as in common sans-serif fonts.
 const STEP: f64 = 0.08;
-/// Room between two glyphs, in steps.
+/// Space between two glyphs, in steps.
 const GAP: f64 = 2.2;
 /// Width of the pen, in em.
 pub(super) const PEN: f64 = 0.09;
 
-/// How far the pen moves on after a character, in em.
+/// The advance of the pen after a character, in em.
 pub(super) fn advance(c: char) -> f64 {
     let widest = glyph(c).split(' ').flat_map(places).map(|(x, _)| x).fold(0.0, f64::max);
     if c.is_whitespace() { 4.0 * STEP } else { widest + GAP * STEP }
 }
 
-/// Gives every polyline of a character: places in em right of and above the start of its baseline.
+/// Passes each polyline of a character to `line`: places in em, to the right of and above the start of its baseline.
 pub(super) fn strokes(c: char, mut line: impl FnMut(&mut dyn Iterator<Item = (f64, f64)>)) {
     for word in glyph(c).split(' ').filter(|w| !w.is_empty()) {
         line(&mut places(word));

@@ -1,5 +1,5 @@
-//! Repairs in a picture: a shape a kind around every place, the same size whatever the repair's own. Where shapes would
-//! crowd, one stands for several, and has their number beside it.
+//! Markers of repairs. Each kind has a shape, of one size. Where markers would overlap, one stands for several and has
+//! their number beside it.
 
 use super::PictureOptions;
 use super::canvas::Colour;
@@ -10,25 +10,26 @@ use crate::domain::{Repair, RepairKind};
 use crate::geometry::Point;
 use std::collections::BTreeMap;
 
-/// More markers than this would drown the drawing.
+/// More markers would cover the drawing.
 const MARKERS_MAX: usize = 250;
 const REPAIRED: Colour = Colour::hex(0x7a1fa2);
 const LEFT: Colour = Colour::hex(0xc2187e);
 
-/// What a marker stands for.
+/// The kind of a marker.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Mended {
-    /// Found, but left as it is.
+    /// Whether the flaw was found but not repaired.
     pub left: bool,
     kind: RepairKind,
 }
 
 impl Mended {
+    /// The colour of the marker.
     pub fn colour(self) -> Colour {
         if self.left { LEFT } else { REPAIRED }
     }
 
-    /// The marker around a place, as a polyline, and whether it closes. Every kind has a shape of its own.
+    /// The marker around a place as a polyline, and whether it is closed. Each kind has a different shape.
     pub fn shape(self, at: Pixel, radius: f64) -> (Vec<Pixel>, bool) {
         let corners = |turns: &[f64], reach: &[f64]| -> Vec<Pixel> {
             let corner = |(k, turn): (usize, &f64)| {
@@ -38,7 +39,7 @@ impl Mended {
             };
             turns.iter().enumerate().map(corner).collect()
         };
-        // Corners from the top on, clockwise as seen.
+        // Corners from the top on, clockwise on the page.
         let regular = |n: u32, first: f64, reach: &[f64]| {
             corners(&(0..n).map(|k| first + f64::from(k) / f64::from(n)).collect::<Vec<_>>(), reach)
         };
@@ -62,15 +63,18 @@ impl Mended {
     }
 }
 
-/// A marker, and how many repairs it stands for.
+/// A marker, with the number of repairs that it stands for.
 #[derive(Clone, Copy)]
 pub struct Marker {
+    /// The kind.
     pub mended: Mended,
+    /// The place in the drawing.
     pub at: Point,
+    /// Number of repairs.
     pub count: usize,
 }
 
-/// Legend entries of what `options` point at: every kind with its number.
+/// Legend entries of the repairs in `options`: each kind with its number.
 pub fn entries(options: &PictureOptions) -> Vec<(Mended, String)> {
     let mut counts: BTreeMap<Mended, usize> = BTreeMap::new();
     mended(options).for_each(|(mended, _)| *counts.entry(mended).or_default() += 1);
@@ -81,13 +85,14 @@ pub fn entries(options: &PictureOptions) -> Vec<(Mended, String)> {
     counts.into_iter().map(entry).collect()
 }
 
+/// The repairs in `options`, with their kinds.
 pub fn mended(options: &PictureOptions) -> impl Iterator<Item = (Mended, &Repair)> {
     let of = |repairs, left| <[Repair]>::iter(repairs).map(move |r| (Mended { left, kind: r.kind }, r));
     of(&options.repairs, false).chain(of(&options.unhealed, true))
 }
 
-/// Markers of what is in sight: all that falls into one cell of a grid has one, of the rarest kind and at the place of
-/// that. The cells are as wide as a marker and the gap beside it, or as many times that as it takes.
+/// Markers in the window. All repairs within one cell of a grid share a marker, of the rarest kind among them and at
+/// its place. The cells are as wide as a marker and its gap, enlarged until there are few enough markers.
 pub fn markers(frame: &Frame, options: &PictureOptions, width: f64) -> Vec<Marker> {
     let seen: Vec<(Mended, Point, Pixel)> = mended(options)
         .map(|(mended, repair)| (mended, Point::new(repair.at[0], repair.at[1])))
@@ -106,7 +111,7 @@ pub fn markers(frame: &Frame, options: &PictureOptions, width: f64) -> Vec<Marke
             let rarer = totals[&mended] < totals[&marker.mended];
             *marker = if rarer { Marker { mended, at, count } } else { Marker { count, ..*marker } };
         }
-        // A cell as wide as any picture holds all there is.
+        // A cell wider than any picture holds all markers.
         if cells.len() <= MARKERS_MAX || cell > 1e4 {
             return cells.into_values().collect();
         }

@@ -1,7 +1,16 @@
 //! Pictures of a drawing, a domain and a mesh: curves by the name of their boundary, cells by quality, region or size.
 //!
-//! `scene.rs` says what is drawn of each, on a `sheet.rs` with its `annotations.rs`; that is a [`Canvas`] of pixels,
+//! `scene.rs` draws each of them on a `sheet.rs` with its `annotations.rs`. The result is a [`Canvas`] in pixels,
 //! written as SVG or painted as PNG.
+//!
+//! ```text
+//!     layers, from below:    drawing                domain              mesh
+//!                            curves by name         regions             cells by colour
+//!                            points, ends           curves by name      edges, thin
+//!                            labels of seeds        points of P         boundary edges by name
+//!                                                   acute corners       balls, dashed
+//!                            ────────── repairs, marks and labels, caption and legend ──────────
+//! ```
 
 mod annotations;
 mod canvas;
@@ -38,7 +47,7 @@ impl Format {
     /// Every format.
     pub const ALL: [Self; 2] = [Self::Svg, Self::Png];
 
-    /// The name by which a user asks for the format, which is the suffix of its files.
+    /// The name by which a user asks for the format, equal to the suffix of its files.
     pub const fn name(self) -> &'static str {
         self.suffixes()[0]
     }
@@ -73,38 +82,38 @@ impl Format {
     }
 }
 
-/// What the triangles of a mesh are coloured by.
+/// What colours the triangles of a mesh.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum MeshColour {
     /// The smallest angle, 0–60°.
     #[default]
     Quality,
-    /// The name of the region: one colour a name.
+    /// The name of the region: one colour for each name.
     Region,
-    /// The colour of the region in the drawing; that of `Region` where it has none.
+    /// The colour of the region in the drawing; without one, that of `Region`.
     Paint,
     /// The root of the area, on a logarithmic scale.
     Size,
 }
 
-/// How a picture is made.
+/// Options of a picture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PictureOptions {
-    /// The width of the picture in pixels; 120 to 8192, others are clamped.
+    /// Width in pixels, from 120 to 8192; other values are clamped.
     pub width_px: u32,
     /// The window to show, in the drawing's units; `None`: all of it.
     pub view: Option<Rect>,
-    /// Protecting balls as dashed circles.
+    /// Whether protecting balls are drawn, as dashed circles.
     pub balls: bool,
-    /// Of a drawing: curves by their layers, not by their names.
+    /// Of a drawing: whether curves are coloured by layer instead of by name.
     pub layers: bool,
-    /// Places to point at, each with a label: flaws.
+    /// Places to mark with a label: flaws.
     pub marks: Vec<(Point, String)>,
-    /// What was mended, marked by kind; where many crowd, one marker has their number beside it.
+    /// Repairs, marked by kind. Where many are near each other, one marker has their number beside it.
     pub repairs: Vec<Repair>,
-    /// What was found and left as it is, marked likewise.
+    /// Flaws that were found and not repaired, marked likewise.
     pub unhealed: Vec<Repair>,
-    /// First words of the caption.
+    /// The beginning of the caption.
     pub title: String,
 }
 
@@ -133,7 +142,7 @@ impl std::str::FromStr for MeshColour {
             "region" => Ok(Self::Region),
             "paint" => Ok(Self::Paint),
             "size" => Ok(Self::Size),
-            _ => Err(format!("'{text}' is no colouring: quality, region, paint or size")),
+            _ => Err(format!("'{text}' is not a colouring: quality, region, paint or size")),
         }
     }
 }

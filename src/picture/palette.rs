@@ -1,22 +1,26 @@
-//! Colours, chosen for every kind of colour vision.
+//! Colours that people with any kind of colour vision can distinguish.
 
 use super::canvas::{Colour, Stroke};
 
+/// Text and lines.
 pub const INK: Colour = Colour::hex(0x2b3440);
 /// Edges on dark cells.
 pub const CHALK: Colour = Colour::hex(0xffffff);
+/// Secondary text.
 pub const FAINT: Colour = Colour::hex(0x7b8794);
+/// Acute corners and flaws.
 pub const ALARM: Colour = Colour::hex(0xd6002a);
+/// Protecting balls.
 pub const BALL: Colour = Colour::hex(0x7a1fa2);
 
-/// Boundary names: Okabe & Ito's colours, told apart by every kind of colour vision (their yellow darkened to be seen
-/// on white).
+/// Boundary names: the colours of Okabe & Ito, for any kind of colour vision. Their yellow is darkened for a white
+/// background.
 pub const LINES: [u32; 8] = [0x0072b2, 0xd55e00, 0x009e73, 0xcc79a7, 0x8c6d00, 0x56b4e9, 0xe69f00, 0x444444];
-/// Regions: the same hues, light enough to lie under lines.
+/// Regions: the same hues, light enough for lines on top.
 pub const AREAS: [u32; 8] = [0xcfe3f1, 0xf8ddc9, 0xcdebdf, 0xf2dde9, 0xebe4c4, 0xdcf0fb, 0xfbe9c6, 0xdddddd];
-/// Smallest angle of a triangle: brown (bad) over orange and cream to blue (good), a pair that colour-blind eyes keep
-/// apart. It turns pale just above 20.7°, the angle that corner lopping reaches: what stands out is what a corner
-/// excuses.
+/// Smallest angle of a triangle: from brown (bad) over orange and cream to blue (good), a pair for any kind of colour
+/// vision. It turns pale just above 20.7°, the angle that corner lopping reaches. So the triangles that a corner
+/// exempts are conspicuous.
 pub const QUALITY: [(f64, u32); 7] = [
     (0.0, 0x6b1f00),
     (10.0, 0xc8500a),
@@ -26,11 +30,11 @@ pub const QUALITY: [(f64, u32); 7] = [
     (44.0, 0xb7d9ee),
     (60.0, 0x4f9ccb),
 ];
-/// Size: dark where fine, light where coarse; lightness alone tells.
+/// Size: dark is fine, light is coarse. Lightness alone tells them apart.
 pub const SIZE: [(f64, u32); 5] =
     [(0.0, 0x1f2a5a), (0.25, 0x22668d), (0.5, 0x37a08f), (0.75, 0x9ad07a), (1.0, 0xf6f3b0)];
 
-/// The look of a boundary: eight colours, then the same colours dashed.
+/// The line of a boundary: one of eight colours, then the same colours dashed.
 pub fn line_stroke(index: usize, width: f64) -> Stroke {
     let stroke = Stroke::new(Colour::hex(LINES[index % LINES.len()]), width);
     match index / LINES.len() % 3 {
@@ -40,10 +44,12 @@ pub fn line_stroke(index: usize, width: f64) -> Stroke {
     }
 }
 
+/// The colour of an area.
 pub fn area_colour(index: usize) -> Colour {
     Colour::hex(AREAS[index % AREAS.len()])
 }
 
+/// The colour of a value on a scale.
 pub fn along(scale: &[(f64, u32)], value: f64) -> Colour {
     let above = scale.partition_point(|&(at, _)| at < value).clamp(1, scale.len() - 1);
     let ((a, from), (b, to)) = (scale[above - 1], scale[above]);

@@ -2,17 +2,19 @@
 
 use std::fmt::Write;
 
-/// Hundredths of a pixel: finer than anything visible at a zoom of ten.
+/// Steps per pixel: finer than anything visible at a zoom of ten.
 const STEPS: f64 = 100.0;
 
 /// A place in the picture: x to the right, y downward, in pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pixel {
+    /// To the right, in pixels.
     pub x: f64,
+    /// Downward, in pixels.
     pub y: f64,
 }
 
-/// Shorthand for a place in the picture.
+/// A place in the picture.
 pub const fn px(x: f64, y: f64) -> Pixel {
     Pixel { x, y }
 }
@@ -22,12 +24,12 @@ pub const fn px(x: f64, y: f64) -> Pixel {
 pub struct Path {
     /// In hundredths of a pixel.
     points: Vec<[i32; 2]>,
-    /// End of each run in `points`, and whether it closes.
+    /// The end of each run in `points`, and whether it is closed.
     runs: Vec<(usize, bool)>,
 }
 
 impl Path {
-    /// Adds a polyline (or a polygon, where `closed`). Points that fall on the one before are dropped.
+    /// Adds a polyline, or a polygon if `closed`. Points equal to the one before are dropped.
     pub fn add(&mut self, line: impl IntoIterator<Item = Pixel>, closed: bool) {
         let first = self.points.len();
         for p in line {
@@ -48,6 +50,7 @@ impl Path {
         self.points.len()
     }
 
+    /// Whether there are no points.
     pub fn is_empty(&self) -> bool {
         self.runs.is_empty()
     }
@@ -61,7 +64,7 @@ impl Path {
         })
     }
 
-    /// SVG path data, relative after the first point: sums of integers, so no error accumulates.
+    /// SVG path data, relative after the first point. They are sums of integers, so errors do not accumulate.
     pub fn data(&self) -> String {
         let mut text = String::with_capacity(self.points.len() * 10);
         let mut at = [0, 0];
@@ -87,6 +90,7 @@ impl Path {
         text
     }
 
+    /// The path for painting.
     pub fn to_skia(&self) -> Option<tiny_skia::Path> {
         let mut builder = tiny_skia::PathBuilder::with_capacity(self.points.len() + self.runs.len(), self.points.len());
         for (run, closed) in self.runs() {
@@ -102,7 +106,7 @@ impl Path {
     }
 }
 
-/// To hundredths of a pixel, within ±10⁷ pixels (which an i32 holds).
+/// A length in hundredths of a pixel, within ±10⁷ pixels, which fits i32.
 fn steps(v: f64) -> i32 {
     (v.clamp(-1e7, 1e7) * STEPS).round() as i32
 }

@@ -42,13 +42,13 @@ pub fn picture_of_drawing(drawing: &Drawing, options: &PictureOptions) -> Canvas
     sheet.finish(options, &legend)
 }
 
-/// The colour of every drawn curve by its name, as a place in the list of those that are used.
+/// The colour of each drawn curve by its name, as an index into the names in use.
 fn by_name(drawing: &Drawing) -> (Vec<usize>, Vec<String>) {
     let used = distinct(drawing.curves.iter().map(|c| c.name));
     (drawing.curves.iter().map(|c| rank(&used, c.name)).collect(), entries(&used, &drawing.names))
 }
 
-/// The same by its layer; what is on none comes first.
+/// The same by layer. Curves without a layer come first.
 fn by_layer(drawing: &Drawing) -> (Vec<usize>, Vec<String>) {
     let used: Vec<Option<LayerId>> =
         drawing.curves.iter().map(|c| c.layer).collect::<BTreeSet<_>>().into_iter().collect();
@@ -58,7 +58,7 @@ fn by_layer(drawing: &Drawing) -> (Vec<usize>, Vec<String>) {
     (ranks, used.iter().map(name).collect())
 }
 
-/// A domain: regions filled, curves by name, the points of P, acute corners ringed with their angle.
+/// A domain: regions filled, curves by name, the points of P, acute corners with a ring and their angle.
 pub fn picture_of_domain(domain: &Domain, options: &PictureOptions) -> Canvas {
     let used = distinct(domain.curves().iter().map(|c| c.name));
     let areas = distinct(domain.regions().iter().map(|r| r.name));
@@ -94,8 +94,8 @@ pub fn picture_of_domain(domain: &Domain, options: &PictureOptions) -> Canvas {
     sheet.finish(options, &legend)
 }
 
-/// A mesh: cells by `colour`, edges thin, boundary edges thick by name (along the exact curves where the domain is
-/// given), balls dashed.
+/// A mesh: cells by `colour`, thin edges, thick boundary edges by name (along the exact curves if the domain is given),
+/// dashed balls.
 pub fn picture_of_mesh(mesh: &Mesh, domain: Option<&Domain>, colour: MeshColour, options: &PictureOptions) -> Canvas {
     let used = distinct(mesh.edges.iter().map(|e| e.name));
     let regions = distinct(mesh.regions.iter().copied());
@@ -104,7 +104,7 @@ pub fn picture_of_mesh(mesh: &Mesh, domain: Option<&Domain>, colour: MeshColour,
     match colour {
         MeshColour::Region => legend.areas = entries(&regions, &mesh.names),
         MeshColour::Paint if mesh.colours.is_empty() => legend.areas = entries(&regions, &mesh.names),
-        // The colours are those of the drawing: nothing to explain.
+        // These are the colours of the drawing, which need no legend.
         MeshColour::Paint => {}
         MeshColour::Quality | MeshColour::Size => legend.scale = cells.scale(),
     }

@@ -1,7 +1,6 @@
-//! What is drawn on a sheet: curves, cells, edges, balls, points and labels, each with a pen that looks the same at
-//! every width.
+//! Draws curves, cells, edges, balls, points and labels. Pens scale with the width of the picture.
 //!
-//! Curves are flattened here for the eye only, to a tenth of a pixel; nothing else in the library flattens them.
+//! Only pictures flatten curves, to a tenth of a pixel.
 
 use super::PictureOptions;
 use super::canvas::{Canvas, Colour, Label, Paint, Stroke, text_width};
@@ -19,25 +18,30 @@ use crate::ids::{CurveId, NameId, PointId, RegionId, VertexId};
 use crate::mesh::{BallReason, Mesh};
 use std::collections::BTreeMap;
 
-/// Characters of what is said beside a mark.
+/// Largest number of characters of a label beside a mark.
 const MARK_MAX: usize = 60;
 
-/// A picture in the making: the canvas, the pens, and where labels stand.
+/// A picture while it is drawn: the canvas, the pens, and the places of labels.
 pub struct Sheet {
+    /// The canvas.
     pub canvas: Canvas,
+    /// The caption.
     pub caption: String,
-    /// Type size, in pixels, from the picture's width.
+    /// Font size in pixels, from the width of the picture.
     pub type_px: f64,
+    /// Width in pixels.
     pub width: f64,
+    /// Margin in pixels.
     pub margin: f64,
-    /// Where labels stand already.
+    /// The boxes of the labels so far.
     pub labels: Vec<Rect>,
 }
 
 impl Sheet {
+    /// An empty sheet for these bounds.
     pub fn new(bounds: Rect, options: &PictureOptions, caption: &str, legend: &Legend) -> Self {
         let width = f64::from(options.width_px.clamp(120, 8192));
-        // At the default width of 1200: 16 px type, a margin of 36 px.
+        // At the default width of 1200: a font of 16 px, a margin of 36 px.
         let (type_px, margin) = ((width / 75.0).clamp(9.0, 22.0), width * 0.03);
         let view = options.view.unwrap_or(bounds);
         let frame = Frame::new(view, px(margin, margin), width - 2.0 * margin, width);
@@ -51,17 +55,19 @@ impl Sheet {
         sheet
     }
 
+    /// A place of the drawing in pixels.
     pub fn pixel(&self, p: Point) -> Pixel {
         self.canvas.frame().pixel(p)
     }
 
-    /// A width that looks the same at every picture width.
+    /// A width that is given for a picture 1200 px wide, scaled to this one.
     pub fn pen(&self, at_1200: f64) -> f64 {
         at_1200 * (self.width / 1200.0).clamp(0.5, 2.0)
     }
 
     // -- curves --
 
+    /// Draws curves, each with the class of its colour.
     pub fn curves<'a>(&mut self, classes: usize, curves: impl Iterator<Item = (usize, &'a Curve)>) {
         let mut paths = vec![Path::default(); classes];
         for (class, curve) in curves {
@@ -79,13 +85,13 @@ impl Sheet {
         }
     }
 
-    /// The part of a curve as a polyline within about a tenth of a pixel, by halving; at most 4097 places.
+    /// A part of a curve as a polyline within about a tenth of a pixel, by bisection, with at most 4097 places.
     fn flatten(&self, curve: &Curve, t0: f64, t1: f64) -> Vec<Pixel> {
         let at = |t: f64| self.pixel(curve.point(t));
         if curve.as_line().is_some() {
             return vec![at(t0), at(t1)];
         }
-        // Eight parts to begin with, so that a wave whose middle lies on the chord is not taken for flat.
+        // It begins with eight parts, because a wave whose middle lies on the chord looks flat.
         let first: Vec<(f64, Pixel)> =
             (0..=8).map(|i| t0 + (t1 - t0) * f64::from(i) / 8.0).map(|t| (t, at(t))).collect();
         let mut line = vec![first[0].1];
@@ -96,7 +102,7 @@ impl Sheet {
                 let t = 0.5 * (from.0 + to.0);
                 let middle = at(t);
                 let bent = deviation(from.1, to.1, middle) > 0.1;
-                // 9 halvings of 8 parts give the 4096 pieces.
+                // Nine bisections of 8 parts give 4096 pieces.
                 if bent && ahead.len() <= 9 {
                     ahead.push((t, middle));
                 } else {
@@ -109,7 +115,7 @@ impl Sheet {
         line
     }
 
-    /// The outline of a region: its curves chained into closed contours (in any way: by even–odd they fill the same).
+    /// The outline of a region: its curves chained into closed contours. Any chaining fills the same area by even-odd.
     pub fn outline(&self, domain: &Domain, region: RegionId) -> Path {
         let mut leaving: BTreeMap<PointId, Vec<(CurveId, End)>> = BTreeMap::new();
         for (id, curve) in domain.curves().enumerate() {
@@ -141,6 +147,7 @@ impl Sheet {
 
     // -- meshes --
 
+    /// Draws the triangles.
     pub fn cells(&mut self, mesh: &Mesh, colours: &CellColours) {
         let mut paths: BTreeMap<usize, Path> = BTreeMap::new();
         for (t, triangle) in mesh.triangles.enumerate() {
@@ -155,8 +162,8 @@ impl Sheet {
         }
     }
 
-    /// Every edge once, light where all about it is dark, fainter as cells get small: a mesh of pixel-sized cells would
-    /// else be black.
+    /// Draws each edge once: light where all cells around it are dark, and fainter as cells get small. Otherwise a mesh
+    /// of very small cells would be black.
     pub fn edges(&mut self, mesh: &Mesh, colours: &CellColours) {
         let mut edges: Vec<([VertexId; 2], bool)> = Vec::with_capacity(mesh.triangles.len() * 3);
         for (t, &[a, b, c]) in mesh.triangles.enumerate() {
@@ -166,7 +173,7 @@ impl Sheet {
                 edges.extend([[a, b], [b, c], [c, a]].map(|[u, v]| (if u < v { [u, v] } else { [v, u] }, is_dark)));
             }
         }
-        // Of the two cells at an edge a light one comes first.
+        // Of the two cells at an edge the light one comes first.
         edges.sort_unstable();
         edges.dedup_by_key(|(edge, _)| *edge);
         let mut classes: [[Path; 2]; 3] = Default::default();
@@ -190,6 +197,7 @@ impl Sheet {
         }
     }
 
+    /// Draws the boundary edges, along the exact curves if the domain is given.
     pub fn boundary(&mut self, mesh: &Mesh, domain: Option<&Domain>, used: &[NameId]) {
         let mut paths = vec![Path::default(); used.len()];
         for edge in &mesh.edges {
@@ -204,13 +212,14 @@ impl Sheet {
         self.boundary_paths(paths);
     }
 
-    /// Whether an edge is long enough to show its curve, and in sight (a curved edge may bulge by less than its
-    /// length).
+    /// Whether an edge is long enough to show its curve, and in the window. A curved edge may bulge by less than its
+    /// length.
     fn near(&self, [a, b]: [Pixel; 2]) -> bool {
         let l = libm::hypot(a.x - b.x, a.y - b.y);
         l > 1.0 && self.canvas.frame().sees(&[a, b, px(a.x - l, a.y - l), px(a.x + l, a.y + l)])
     }
 
+    /// Draws the balls.
     pub fn balls(&mut self, mesh: &Mesh) {
         self.canvas.layer("balls", true);
         let nodes: BTreeMap<PointId, Point> =
@@ -218,7 +227,7 @@ impl Sheet {
         for ball in &mesh.balls {
             let Some(&corner) = nodes.get(&ball.corner) else { continue };
             let (at, radius) = (self.pixel(corner), ball.radius * self.canvas.frame().scale());
-            // Below a pixel and a half the circle would be a blot.
+            // A smaller circle would be a blot.
             if radius < 1.5 {
                 continue;
             }
@@ -230,6 +239,7 @@ impl Sheet {
 
     // -- points and labels --
 
+    /// A dot at a place.
     pub fn dot(&mut self, p: Point, colour: Colour) {
         let (at, radius) = (self.pixel(p), self.pen(2.6));
         if self.canvas.frame().sees(&[at]) {
@@ -237,6 +247,7 @@ impl Sheet {
         }
     }
 
+    /// A ring around a place.
     pub fn ring(&mut self, p: Point, radius: f64, colour: Colour) {
         let (at, radius, width) = (self.pixel(p), self.pen(radius), self.pen(1.3));
         if self.canvas.frame().sees(&[at]) {
@@ -244,15 +255,15 @@ impl Sheet {
         }
     }
 
-    /// A label beside a place, at the first of four sides where it hides no other label and stays in the picture; if
-    /// there is none, it is left away, unless it is `always`.
+    /// A label beside a place, on the first of four sides where it covers no other label and is inside of the picture.
+    /// If there is no such side, the label is left out, unless it is `always` drawn.
     pub fn label(&mut self, p: Point, text: &str, colour: Colour, always: bool) {
         let at = self.pixel(p);
         if text.is_empty() || !self.canvas.frame().sees(&[at]) {
             return;
         }
         let size = self.type_px * 0.85;
-        // A cross, with its rim, reaches farther than a dot.
+        // A cross with its rim extends farther than a dot.
         let [beside, above] = if always { [12.0, 11.0] } else { [9.0, 7.0] };
         let (dx, up, down, width) =
             (self.pen(beside), self.pen(above), self.pen(above) + 0.7 * size, text_width(text, size));
@@ -268,10 +279,11 @@ impl Sheet {
         self.canvas.text(Label::new(px(room.x0, room.y1 - 0.25 * size), text, size).colour(colour).rim());
     }
 
+    /// Draws crosses with labels.
     pub fn marks(&mut self, marks: &[(Point, String)]) {
         self.canvas.layer("marks", true);
         let arm = self.pen(7.0);
-        // No label may hide a cross.
+        // No label may cover a cross.
         for (p, _) in marks {
             let (at, side) = (self.pixel(*p), 2.0 * arm);
             self.labels.push(Rect::from_center_size((at.x, at.y), (side, side)));

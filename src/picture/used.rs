@@ -1,4 +1,4 @@
-//! The names in use, each once, in order: a name's place among them chooses its colour.
+//! The names in use, each once, in order. The index of a name chooses its colour.
 
 use crate::ids::{NameId, Names};
 use std::collections::BTreeSet;
@@ -8,11 +8,12 @@ pub fn distinct(names: impl Iterator<Item = NameId>) -> Vec<NameId> {
     names.collect::<BTreeSet<_>>().into_iter().collect()
 }
 
-/// The place of a name among those in use.
+/// The index of a name among those in use.
 pub fn rank(used: &[NameId], name: NameId) -> usize {
     used.partition_point(|&n| n < name)
 }
 
+/// The names as text.
 pub fn entries(used: &[NameId], names: &Names) -> Vec<String> {
     used.iter().map(|&n| names.text(n).to_owned()).collect()
 }

@@ -1,4 +1,4 @@
-//! Numbers and names as people read them in a picture.
+//! Numbers and names for people.
 
 /// "1 curve", "12 345 curves".
 pub fn counted(n: usize, what: &str) -> String {
@@ -6,6 +6,7 @@ pub fn counted(n: usize, what: &str) -> String {
     counted_words(n, [what, &many])
 }
 
+/// A count with its noun in singular and plural.
 pub fn counted_words(n: usize, [one, many]: [&str; 2]) -> String {
     let digits = n.to_string();
     let mut number = String::new();
@@ -18,7 +19,7 @@ pub fn counted_words(n: usize, [one, many]: [&str; 2]) -> String {
     format!("{number} {}", if n == 1 { one } else { many })
 }
 
-/// Three significant digits, for people.
+/// A number with three significant digits.
 pub fn short(v: f64) -> String {
     if v == 0.0 || !v.is_finite() {
         return format!("{v}");
@@ -33,7 +34,7 @@ pub fn short(v: f64) -> String {
     format!("{v:.2e}")
 }
 
-/// A text of so many characters at most.
+/// A text cut to this many characters.
 pub fn clipped(text: &str, most: usize) -> String {
     if text.chars().count() <= most {
         text.to_owned()

@@ -1,10 +1,10 @@
-//! The constrained Delaunay triangulation: sides that carry a subcurve stand whatever lies around them, and nobody sees
-//! across.
+//! The constrained Delaunay triangulation: an edge with a subcurve is constrained. It stays whatever lies around it,
+//! and blocks the view.
 //!
-//! A triangulation is constrained Delaunay if no vertex lies inside the circle of a triangle and is visible from its
-//! inside (Chew 1989; Lee & Lin 1986), which is so exactly when every side without a subcurve is locally Delaunay. Storage
-//! and exact signs are those of [`Kernel`]; cavities end at pieces, flips leave them alone. Every operation notes the
-//! triangles it makes, for whoever judges them.
+//! A triangulation is constrained Delaunay if no vertex inside the circle of a triangle is visible from its inside
+//! (Chew 1989; Lee & Lin 1986). That holds exactly when every edge without a subcurve is locally Delaunay. Storage and
+//! exact signs are those of [`Kernel`]. Cavities end at constrained edges, and flips leave them alone. Every operation
+//! notes the triangles that it makes, so that the engine can assess them.
 
 use super::insert::{Cavity, Degenerate, Kernel, Location, hull_side};
 use super::triangulation::{GHOST, HalfEdge, Triangulation};
@@ -13,16 +13,16 @@ use crate::geometry::exact::{CircleSide, Orientation, in_circle, in_diametral, o
 use crate::ids::{Id, SubcurveId, TriangleId, VertexId};
 use std::collections::VecDeque;
 
-/// What a look along a line meets first.
+/// The first thing on a straight line: its end, or a constrained edge.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Look {
-    /// The place looked for, which may be on a subcurve.
+    /// The end of the line is visible; it may lie on a subcurve.
     Seen(Location),
-    /// A side with a subcurve, from the side of the one who looks.
+    /// A constrained edge blocks the line: its half-edge with the start of the line on the left.
     Blocked(HalfEdge),
 }
 
-/// What keeps two vertices from being joined.
+/// Why two vertices cannot be joined.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Obstacle {
     /// A vertex on the segment between them.
@@ -31,16 +31,16 @@ pub enum Obstacle {
     Subcurve(SubcurveId),
 }
 
-/// The constrained Delaunay triangulation of points and of the sides that carry pieces.
+/// The constrained Delaunay triangulation of points and constrained edges.
 pub struct Constrained {
     delaunay: Kernel,
-    /// Triangles made since they were last taken; some may be gone again, some stand twice.
+    /// Triangles made since they were last taken; some may have been removed since, some are listed twice.
     touched: Vec<TriangleId>,
-    /// What the search that is under way has seen; kept for its memory.
+    /// The triangles met by the current search; kept to reuse its memory.
     search: Search,
 }
 
-/// A set of triangles that is emptied at no cost, and sides that lead to others.
+/// A set of triangles that is cleared in constant time, and the half-edges at its rim that are still to be crossed.
 #[derive(Default)]
 struct Search {
     /// The round in which each triangle was added last.
@@ -58,14 +58,14 @@ impl Search {
         self.rounds.resize(capacity.max(self.rounds.len()), 0);
     }
 
-    /// Whether it was not in the set.
+    /// Adds a triangle; `true` where it was not in the set.
     fn insert(&mut self, t: TriangleId) -> bool {
         std::mem::replace(&mut self.rounds[t.index()], self.round) != self.round
     }
 }
 
 impl Constrained {
-    /// The triangulation of points, without pieces so far.
+    /// The triangulation of points, with no constrained edges.
     ///
     /// # Errors
     /// As [`Kernel::new`].
@@ -73,17 +73,17 @@ impl Constrained {
         Ok(Self { delaunay: Kernel::new(points)?, touched: Vec::new(), search: Search::default() })
     }
 
-    /// The triangles, with their pieces and regions.
+    /// The triangles, with their subcurves and regions.
     pub fn topology(&self) -> &Triangulation {
         self.delaunay.topology()
     }
 
-    /// Points, locating and counters. It is no Delaunay triangulation.
+    /// Points, location and counters. Its triangulation is constrained Delaunay only.
     pub fn kernel(&self) -> &Kernel {
         &self.delaunay
     }
 
-    /// For labels of triangles; pieces are laid by [`Constrained::join`].
+    /// For regions of triangles; [`Constrained::join`] sets subcurves.
     pub(super) fn kernel_mut(&mut self) -> &mut Kernel {
         &mut self.delaunay
     }
@@ -94,23 +94,33 @@ impl Constrained {
         self.delaunay.point(v)
     }
 
-    /// Moves the triangles made since the last time, each as often as it was made, to the end of a list.
+    /// Moves the triangles made since the last call to the end of a list, each as often as it was made.
     pub fn take_touched(&mut self, list: &mut Vec<TriangleId>) {
         list.append(&mut self.touched);
     }
 
-    fn is_piece(&self, s: HalfEdge) -> bool {
+    fn is_subcurve(&self, s: HalfEdge) -> bool {
         self.topology().subcurve(s).is_some()
     }
 
     // ---- insertion ----
 
-    /// Looks: the triangles that see `p` inside their circle, given where `p` lies. Empty where `p` is a vertex.
+    /// Looks: finds the triangles that have `p` inside their circle and visible from their inside, given where `p`
+    /// lies. Empty where `p` is a vertex.
+    ///
+    /// ```text
+    ///         d          a d is constrained: the cavity of p is (d, a, b) and (b, c, d).
+    ///      .´┃ ╲`.       (d, e, a) is kept although its circle holds p: p is not visible
+    ///   e   ┃ p ╲   c    from its inside.
+    ///    ╲ ┃     ╲ ╱
+    ///     a───────b
+    /// ```
     pub fn cavity(&self, p: Point, at: Location, cavity: &mut Cavity) {
-        self.delaunay.cavity_within(|s| self.is_piece(s), p, at, cavity);
+        self.delaunay.cavity_within(|s| self.is_subcurve(s), p, at, cavity);
     }
 
-    /// Acts: replaces the cavity of `p`, which must not lie on a subcurve, by the triangles that join `p` to its border.
+    /// Acts: replaces the cavity of `p` by the triangles that join `p` to its border. `p` must not lie on a constrained
+    /// edge.
     pub fn fill(&mut self, p: Point, cavity: &Cavity) -> VertexId {
         let v = self.star(p, &cavity.triangles, &cavity.border);
         self.check_slowly();
@@ -124,14 +134,23 @@ impl Constrained {
         v
     }
 
-    // ---- pieces ----
+    // ---- constrained edges ----
 
-    /// Makes the segment between two vertices a side and lays a subcurve on it.
+    /// Makes the segment between two vertices a constrained edge with a subcurve.
     ///
-    /// Sides that cross it are flipped away (Sloan 1993), and what that spoils is flipped back to constrained Delaunay.
+    /// Edges p q that cross the segment are flipped until none does (Sloan 1993). Then the new edges c d are flipped
+    /// until the triangulation is constrained Delaunay again.
     ///
     /// # Errors
-    /// The first vertex on the segment, or the first subcurve that crosses it; then nothing has changed.
+    /// The first vertex on the segment, or the first subcurve that crosses it; nothing is changed then.
+    ///
+    /// ```text
+    ///        p─────r                      p─────r          p q, p s, r s cross a b. If its two triangles are strictly
+    ///     .´ │╲    │ `.                .´ .-´     `.       convex, one is flipped to its diagonal c d: a s, a r, a b.
+    ///  a┄┄┄┄┄│┄┄╲┄┄│┄┄┄┄┄b    ─▶    a─────────────────b    Else, or if c d still crosses a b, it goes to the end.
+    ///     `. │    ╲│ .´                `. `-.     .´
+    ///        q─────s                      q─────s
+    /// ```
     pub fn join(&mut self, a: VertexId, b: VertexId, subcurve: SubcurveId) -> Result<HalfEdge, Obstacle> {
         let mut crossing: VecDeque<[VertexId; 2]> = self.crossings(a, b)?.into();
         let mut diagonals = Vec::new();
@@ -150,15 +169,15 @@ impl Constrained {
             }
         }
         let side = self.topology().side_between(a, b).expect("nothing crosses it any more");
-        self.delaunay.topology.set_piece(side, Some(subcurve));
+        self.delaunay.topology.set_subcurve(side, Some(subcurve));
         let mut stack = diagonals.into_iter().filter_map(|[c, d]| self.topology().side_between(c, d)).collect();
         self.restore(&mut stack);
         self.check_slowly();
         Ok(self.topology().side_between(a, b).expect("a subcurve is never flipped"))
     }
 
-    /// Whether a point beside or on a side may part the two triangles at it in four: it sees their other sides from
-    /// within, and if one is a ghost, the hull stays convex.
+    /// Whether a point on or beside an edge may split the two triangles at the edge into four: it lies strictly to the
+    /// left of their other four half-edges, and where one triangle is a ghost, the hull stays convex.
     pub fn can_part(&self, s: HalfEdge, p: Point) -> bool {
         let topology = self.topology();
         let keeps_hull = |side: HalfEdge| {
@@ -175,17 +194,27 @@ impl Constrained {
         })
     }
 
-    /// Inserts a point that [may](Constrained::can_part) part the two triangles at a side, and lays two pieces for the
-    /// one that was there: the first at the end where the side begins. Comes to what [`Constrained::release`] and
-    /// [`Constrained::join`] come to, which insert any point.
-    pub fn part(&mut self, s: HalfEdge, p: Point, pieces: [SubcurveId; 2]) -> VertexId {
+    /// Inserts a point that [can](Constrained::can_part) split the two triangles at a constrained edge x y. Two
+    /// subcurves replace the one of the edge; the first ends at the origin x of the half-edge. The result is that of
+    /// [`Constrained::release`], insertion and [`Constrained::join`], which work for any point.
+    ///
+    /// ```text
+    ///          c                        c
+    ///       .´   `.                  .´ │ `.        p, on s or beside it, is joined to the rim x d, d y, y c, c x;
+    ///     .´       `.              .´   │   `.      p x carries subcurves[0], p y carries subcurves[1].
+    ///   x ──s──p────▶ y    ─▶    x ─────p───── y    Then edges are flipped until all is constrained Delaunay.
+    ///     `.       .´              `.   │   .´
+    ///       `.   .´                  `. │ .´
+    ///          d                        d
+    /// ```
+    pub fn part(&mut self, s: HalfEdge, p: Point, subcurves: [SubcurveId; 2]) -> VertexId {
         let topology = self.topology();
         let (n, rim) = (topology.twin(s), self.rim(s));
         let ends = [topology.origin(s), topology.target(s)];
         let v = self.star(p, &[s.triangle(), n.triangle()], &rim);
-        for (end, subcurve) in ends.into_iter().zip(pieces) {
+        for (end, subcurve) in ends.into_iter().zip(subcurves) {
             let side = self.topology().side_between(v, end).expect("both ends are on the rim");
-            self.delaunay.topology.set_piece(side, Some(subcurve));
+            self.delaunay.topology.set_subcurve(side, Some(subcurve));
         }
         let mut stack = self.topology().sides_from(v).flat_map(|spoke| [spoke, spoke.next()]).collect();
         self.restore(&mut stack);
@@ -193,21 +222,21 @@ impl Constrained {
         v
     }
 
-    /// The other sides of the two triangles at a side, counter-clockwise.
+    /// The other four half-edges of the two triangles at an edge, counter-clockwise.
     fn rim(&self, s: HalfEdge) -> [HalfEdge; 4] {
         let n = self.topology().twin(s);
         [s.next(), s.prev(), n.next(), n.prev()]
     }
 
-    /// Takes the subcurve from a side; the triangulation is again constrained Delaunay.
+    /// Removes the subcurve from an edge; the triangulation is constrained Delaunay again.
     pub fn release(&mut self, s: HalfEdge) {
         self.touched.extend([s.triangle(), self.topology().twin(s).triangle()]);
-        self.delaunay.topology.set_piece(s, None);
+        self.delaunay.topology.set_subcurve(s, None);
         self.restore(&mut vec![s]);
         self.check_slowly();
     }
 
-    /// The sides that the segment between two vertices crosses, in order.
+    /// The edges that the segment from `a` to `b` crosses, in order.
     fn crossings(&self, a: VertexId, b: VertexId) -> Result<Vec<[VertexId; 2]>, Obstacle> {
         let topology = self.topology();
         let (from, to) = (self.point(a), self.point(b));
@@ -231,7 +260,7 @@ impl Constrained {
                 entry = Some(s.next());
             }
         }
-        // Two vertices of one triangulation: the segment leaves the one for the other.
+        // a and b are vertices of one triangulation of the hull, which is convex: the segment enters a triangle at a.
         let mut s = entry.expect("the segment enters a triangle at its start");
         let mut crossed = Vec::new();
         loop {
@@ -252,7 +281,7 @@ impl Constrained {
         }
     }
 
-    /// Whether the two triangles at a side make a strictly convex quadrilateral.
+    /// Whether the two triangles at an edge form a strictly convex quadrilateral.
     fn is_flippable(&self, s: HalfEdge) -> bool {
         let topology = self.topology();
         let n = topology.twin(s);
@@ -275,10 +304,10 @@ impl Constrained {
         self.delaunay.topology.flip(s);
     }
 
-    /// Flips sides without a subcurve that are not locally Delaunay, from those on the stack on (Lawson 1977).
+    /// Flips edges without a subcurve that are not locally Delaunay, beginning with those on the stack (Lawson 1977).
     fn restore(&mut self, stack: &mut Vec<HalfEdge>) {
         while let Some(s) = stack.pop() {
-            if self.is_piece(s) || self.delaunay.is_locally_delaunay(s) {
+            if self.is_subcurve(s) || self.delaunay.is_locally_delaunay(s) {
                 continue;
             }
             let (t, u) = (s.triangle(), self.topology().twin(s).triangle());
@@ -289,10 +318,13 @@ impl Constrained {
 
     // ---- removal ----
 
-    /// Deletes a vertex inside the hull that no subcurve ends at, of any degree.
+    /// Deletes a vertex of any degree, inside the hull and not the end of a subcurve.
+    ///
+    /// # Panics
+    /// Where the vertex is dead, on the hull, or the end of a subcurve.
     pub fn remove(&mut self, v: VertexId) {
         let star: Vec<HalfEdge> = self.topology().sides_from(v).collect();
-        let bound = star.iter().any(|&s| self.topology().target(s) == GHOST || self.is_piece(s));
+        let bound = star.iter().any(|&s| self.topology().target(s) == GHOST || self.is_subcurve(s));
         assert!(!star.is_empty() && !bound, "only free vertices go");
         self.touched.extend(star.into_iter().map(HalfEdge::triangle));
         let mut diagonals = self.delaunay.clip_ears(v);
@@ -303,9 +335,17 @@ impl Constrained {
 
     // ---- visibility ----
 
-    /// Follows the straight line from within a triangle to `p`, up to the first subcurve: from its middle, or where the
-    /// triangle is so thin that the middle is rounded out of it, from its border. `None` where no line starts that
-    /// rounding leaves inside.
+    /// Follows the straight line from a place in a triangle to `p`, up to the first constrained edge. The place is the
+    /// centroid; where the triangle is so thin that rounding moves the centroid out of it, it is the middle of an edge
+    /// or a corner. `None` where rounding leaves no start.
+    ///
+    /// ```text
+    ///       b───────x         The line from the centroid ● of t to p is followed from triangle to
+    ///     .´ ╲     ╱┃         triangle. It crosses b a and a x; the constrained edge x y blocks it.
+    ///   c  ●┄┄╲┄┄┄╱┄┃┄┄┄┄p
+    ///     `. t ╲ ╱  ┃
+    ///        `──a───y
+    /// ```
     pub fn look_from(&self, t: TriangleId, p: Point) -> Option<Look> {
         let topology = self.topology();
         let sides = [0, 1, 2].map(|i| t.side_of(i));
@@ -324,7 +364,7 @@ impl Constrained {
         let (from, mut s) = starts.into_iter().find_map(line)?;
         // A straight line meets every triangle at most once.
         loop {
-            if self.is_piece(s) {
+            if self.is_subcurve(s) {
                 return Some(Look::Blocked(s));
             }
             let beyond = topology.twin(s);
@@ -332,7 +372,7 @@ impl Constrained {
             if apex == GHOST {
                 return Some(Look::Seen(Location::Triangle(beyond.triangle())));
             }
-            // Through a vertex: to its right.
+            // A line through a vertex passes to the right of it.
             s = match orient(from, p, self.point(apex)) {
                 Orientation::CounterClockwise => beyond.next(),
                 Orientation::Clockwise | Orientation::Collinear => beyond.prev(),
@@ -347,7 +387,7 @@ impl Constrained {
         orient(self.point(self.topology().origin(s)), self.point(self.topology().target(s)), p)
     }
 
-    /// Where a point lies that a finite triangle holds.
+    /// Where a point lies that is in a finite triangle.
     fn place_in(&self, t: TriangleId, p: Point) -> Location {
         if let Some(&v) = self.topology().corners(t).iter().find(|&&v| self.point(v) == p) {
             return Location::Vertex(v);
@@ -356,21 +396,20 @@ impl Constrained {
         on.map_or(Location::Triangle(t), Location::HalfEdge)
     }
 
-    /// Whether neither a subcurve nor a vertex lies between two vertices.
+    /// Whether two vertices are visible to each other: neither a subcurve nor a vertex lies between them.
     pub fn see_each_other(&self, a: VertexId, b: VertexId) -> bool {
         self.crossings(a, b).is_ok()
     }
 
-    /// Whether a vertex to the left of a side sees any place between its ends.
+    /// Whether any place between the ends of a half-edge is visible from a vertex to its left.
     pub fn sees(&self, v: VertexId, side: HalfEdge) -> bool {
         let [x, y] = [self.topology().origin(side), self.topology().target(side)].map(|v| self.point(v));
         let below = x + (y - x) * share_along(self.point(v), [x, y]).clamp(0.01, 0.99);
         self.glimpses(v, below, side) || self.makes_out(v, side)
     }
 
-    /// Whether the ray from a vertex towards a place leaves through a side before any subcurve, and meets no vertex on the
-    /// way: then the vertex sees the side. One line, where [`Constrained::makes_out`] looks through all that lies
-    /// between.
+    /// Whether the ray from a vertex towards a place meets `side` before any subcurve, and no vertex on the way: then
+    /// `side` is visible. It tests one line, where [`Constrained::makes_out`] tests all.
     fn glimpses(&self, v: VertexId, toward: Point, side: HalfEdge) -> bool {
         let topology = self.topology();
         let from = self.point(v);
@@ -379,17 +418,27 @@ impl Constrained {
             is(topology.origin(*s), Orientation::Clockwise) && is(topology.target(*s), Orientation::CounterClockwise)
         };
         let mut exit = topology.sides_from(v).map(HalfEdge::next).find(leaves);
-        while let Some(s) = exit.filter(|&s| s != side && !self.is_piece(s)) {
+        while let Some(s) = exit.filter(|&s| s != side && !self.is_subcurve(s)) {
             let beyond = topology.twin(s);
             exit = [beyond.next(), beyond.prev()].into_iter().find(leaves);
         }
         exit == Some(side)
     }
 
-    /// [`Constrained::sees`], by all there is to see.
+    /// [`Constrained::sees`], decided by all lines from the vertex.
     ///
-    /// Triangular expansion: the cone of what the vertex sees is followed from triangle to triangle, narrowed by every
-    /// side it passes and ended by pieces.
+    /// Triangular expansion: the cone of lines from `v` to `side` is followed from triangle to triangle. Each edge that
+    /// it passes narrows it, and a constrained edge ends it.
+    ///
+    /// ```text
+    ///             left──.           The cone from v between right and left passes the edge s, with apex beyond.
+    ///          .´  │     `-.        If apex lies to the left of v→right, the cone passes right→apex,
+    ///       .´     │        apex      from right to apex, or to left where apex lies beyond it.
+    ///     v        s      .´        If apex lies to the right of v→left, the cone passes apex→left,
+    ///       `.     │    .´            from apex to left, or from right where apex lies before it.
+    ///          `.  │  .´
+    ///             right
+    /// ```
     fn makes_out(&self, v: VertexId, side: HalfEdge) -> bool {
         let topology = self.topology();
         let from = self.point(v);
@@ -415,7 +464,7 @@ impl Constrained {
             if s == side {
                 return true;
             }
-            if self.is_piece(s) {
+            if self.is_subcurve(s) {
                 continue;
             }
             let beyond = topology.twin(s);
@@ -435,8 +484,8 @@ impl Constrained {
         false
     }
 
-    /// Whether the apex of a side's triangle lies inside the side's diametral circle. If not, nothing that sees the
-    /// side from its left does.
+    /// Whether the apex of the triangle of a half-edge lies inside the diametral circle of the half-edge. If not, no
+    /// vertex to the left from which the half-edge is visible lies inside.
     pub fn has_apex_in_half_circle(&self, side: HalfEdge) -> bool {
         let topology = self.topology();
         let [x, y] = [topology.origin(side), topology.target(side)].map(|v| self.point(v));
@@ -444,10 +493,17 @@ impl Constrained {
         apex != GHOST && in_diametral(x, y, self.point(apex)) == CircleSide::Inside
     }
 
-    /// The vertices inside the diametral circle of a side, to its left, that may see it: all that do, and some others;
-    /// ascending.
+    /// The vertices inside the diametral circle of a half-edge and to its left that may be visible from it: all that
+    /// are, and some others. Ascending.
     ///
-    /// Triangles are searched that hang together within the half circle.
+    /// The search goes through triangles that are connected within the half circle, and never across constrained edges.
+    ///
+    /// ```text
+    ///         . - ~ ~ ~ - .       u and w lie inside, and triangles within the half circle connect
+    ///      .´   w           `.    them to x y: both are found. The constrained edge a b occludes w,
+    ///     : a━━━━━━━━━━b u   :    which `sees` decides.
+    ///     x ─────side──────▶ y
+    /// ```
     pub fn in_half_circle(&mut self, side: HalfEdge) -> Vec<VertexId> {
         if !self.has_apex_in_half_circle(side) {
             return Vec::new();
@@ -459,28 +515,28 @@ impl Constrained {
         found
     }
 
-    /// [`Constrained::in_half_circle`], from an apex that lies in it on.
+    /// [`Constrained::in_half_circle`], where the apex lies inside.
     fn search_half_circle(&self, side: HalfEdge, search: &mut Search) -> Vec<VertexId> {
         let topology = self.topology();
         let [x, y] = [topology.origin(side), topology.target(side)].map(|v| self.point(v));
         let inside = |v: VertexId| in_diametral(x, y, self.point(v)) == CircleSide::Inside;
         let left = |v: VertexId| orient(x, y, self.point(v)) == Orientation::CounterClockwise;
-        // What a rounded distance leaves out is no vertex inside: those are told exactly.
+        // The rounded distance only limits the search; whether a vertex lies inside is decided exactly.
         let (center, reach2) = (x.midpoint(y), 0.25 * x.distance_squared(y) * (1.0 + 1e-9));
         let mut found = vec![topology.apex(side)];
         search.insert(side.triangle());
         search.open.extend([side.next(), side.prev()]);
         while let Some(s) = search.open.pop() {
             let beyond = topology.twin(s);
-            if self.is_piece(s) || topology.is_ghost(beyond.triangle()) {
+            if self.is_subcurve(s) || topology.is_ghost(beyond.triangle()) {
                 continue;
             }
-            // A line of sight crosses only sides that reach to the left.
+            // A line of sight crosses only edges with an end to the left.
             let ends = [topology.origin(s), topology.target(s)];
             let near = comes_near(ends.map(|v| self.point(v)), center, reach2);
             if near && ends.into_iter().any(left) && search.insert(beyond.triangle()) {
                 search.open.extend([beyond.next(), beyond.prev()]);
-                // Its other corners were asked before.
+                // Its other corners were tested before.
                 found.extend(Some(topology.apex(beyond)).filter(|&v| inside(v) && left(v)));
             }
         }
@@ -491,15 +547,16 @@ impl Constrained {
 
     // ---- checks ----
 
-    /// With feature `slow-checks`: the first change that spoils something is the one reported.
+    /// With feature `slow-checks`: checks the whole triangulation after each change, so that the change at fault is the
+    /// one reported.
     fn check_slowly(&self) {
         if cfg!(feature = "slow-checks") {
             assert_eq!(self.flaws(), Vec::<String>::new());
         }
     }
 
-    /// What is wrong, with culprits: structure, orientation, and sides without a subcurve that are not locally Delaunay.
-    /// All signs exact. Empty when all is well. Takes linear time.
+    /// The flaws, each with its place: of the structure, of orientations, and edges without a subcurve that are not
+    /// locally Delaunay. All signs are exact. Empty where there are none. Takes linear time.
     pub fn flaws(&self) -> Vec<String> {
         let topology = self.topology();
         let mut flaws = topology.flaws();
@@ -512,7 +569,7 @@ impl Constrained {
                 flaws.push(format!("triangle {} is not counter-clockwise", t.0));
                 continue;
             }
-            for s in [0, 1, 2].map(|i| t.side_of(i)).into_iter().filter(|&s| !self.is_piece(s)) {
+            for s in [0, 1, 2].map(|i| t.side_of(i)).into_iter().filter(|&s| !self.is_subcurve(s)) {
                 let d = topology.apex(topology.twin(s));
                 if d != GHOST && in_circle(a, b, c, self.point(d)) == CircleSide::Inside {
                     flaws.push(format!("triangle {} sees vertex {} in its circle", t.0, d.0));

@@ -1,4 +1,4 @@
-//! The kept triangles as plain data.
+//! Extraction of the mesh: the kept triangles, those with a region, as plain data.
 
 use super::insert::Kernel;
 use super::subcurves::{Carrier, Subcurves};
@@ -7,16 +7,19 @@ use crate::geometry::{Point, order};
 use crate::ids::{CurveId, IdVec, SubcurveId, TriangleId, VertexId};
 use crate::mesh::{CurveEdge, CurveLink, Mesh};
 
-/// What a mesh is taken from: vertices 0, 1, … of the triangulation are the points of the domain.
+/// The sources of a mesh. Vertices 0, 1, … of the triangulation are the points of the domain.
 pub struct Extraction<'a> {
+    /// The domain that was meshed.
     pub domain: &'a Domain,
+    /// The triangulation, with regions.
     pub delaunay: &'a Kernel,
+    /// C′; each is an edge of the triangulation.
     pub subcurves: &'a Subcurves,
 }
 
 impl Extraction<'_> {
-    /// The kept triangles as plain data. Nodes are numbered along a Hilbert curve, triangles by their nodes: whoever
-    /// walks through the mesh finds neighbours near each other in memory, and files compress better.
+    /// The kept triangles as plain data. Nodes are numbered along a Hilbert curve, triangles by their nodes. So
+    /// neighbours in the plane are neighbours in memory, and files compress better.
     pub fn mesh(&self) -> Mesh {
         let topology = self.delaunay.topology();
         let kept: Vec<TriangleId> = topology.triangles().filter(|&t| topology.region(t).is_some()).collect();
@@ -37,7 +40,7 @@ impl Extraction<'_> {
         mesh
     }
 
-    /// Makes the corners of the kept triangles nodes of the mesh, and says which.
+    /// Makes the corners of the kept triangles nodes of the mesh. Returns the node of each vertex.
     fn nodes(&self, kept: &[TriangleId], mesh: &mut Mesh) -> IdVec<VertexId, Option<VertexId>> {
         let topology = self.delaunay.topology();
         let mut node_of: IdVec<VertexId, Option<VertexId>> = vec![None; self.delaunay.points().len()].into();
@@ -50,9 +53,9 @@ impl Extraction<'_> {
         node_of
     }
 
-    /// Pieces of curves with a kept region on a side, by curve and along it.
+    /// The subcurves of curves with a kept region on a side, by curve and in order along it.
     fn curve_edges(&self, node_of: &IdVec<VertexId, Option<VertexId>>) -> Vec<CurveEdge> {
-        let mut pieces: Vec<(CurveId, f64, SubcurveId)> = self
+        let mut subcurves: Vec<(CurveId, f64, SubcurveId)> = self
             .subcurves
             .ids()
             .filter_map(|id| match self.subcurves.get(id) {
@@ -63,8 +66,8 @@ impl Extraction<'_> {
                 },
             })
             .collect();
-        pieces.sort_unstable_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
-        pieces
+        subcurves.sort_unstable_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
+        subcurves
             .into_iter()
             .filter(|&(curve, ..)| self.domain.curves()[curve].sides.iter().any(Option::is_some))
             .map(|(curve, _, id)| {

@@ -1,15 +1,15 @@
-//! Points joined to topology: bulk construction, locating, cavities (looking) and filling (acting).
+//! The triangulation with coordinates: bulk construction, location, cavities and their filling.
 //!
-//! Insertion is that of Bowyer (1981) and Watson (1981), in two steps: [`Kernel::cavity`] looks at what a point would
-//! replace and changes nothing, [`Kernel::fill`] replaces it. All signs are exact, so a cavity is always a disk
-//! without inner vertices: its triangles hang together as a tree, and a walk around that tree needs no marks and meets
-//! the border in counter-clockwise order.
+//! Insertion is that of Bowyer (1981) and Watson (1981), in two steps. [`Kernel::cavity`] finds the triangles that a
+//! point would replace, and changes nothing. [`Kernel::fill`] replaces them. All signs are exact, so a cavity is always
+//! a disk without inner vertices. Its triangles form a tree by adjacency. A walk around that tree needs no marks and
+//! meets the border in counter-clockwise order.
 //!
 //! **Serial order.** [`Kernel::new`] inserts in rounds that grow eightfold, each along a Hilbert curve
-//! (`geometry::order`); afterwards the order is that of the calls. The triangulation, ids included, is a function of
-//! the points and that order alone: cocircular points keep the diagonal that was there first. Looking needs only
-//! `&self` and the caller's own [`Cavity`], so that cavities of many points can be looked at in parallel and those that
-//! do not touch filled in the serial order later.
+//! (`geometry::order`); later insertions follow the order of the calls. The triangulation, ids included, depends on the
+//! points and that order alone: of cocircular points the first diagonal stays. [`Kernel::cavity`] needs only `&self`
+//! and a [`Cavity`] of the caller. So the cavities of many points can be found in parallel, and disjoint ones filled
+//! later in the serial order.
 
 use super::triangulation::{GHOST, HalfEdge, Net, Record, Triangulation, after, before};
 use crate::geometry::exact::{self, CircleSide, Orientation};
@@ -47,20 +47,20 @@ pub enum Degenerate {
 pub enum Location {
     /// At the coordinates of a vertex.
     Vertex(VertexId),
-    /// Between the ends of a side; which of the two twins is not promised.
+    /// On an edge, between its ends; either of its two half-edges.
     HalfEdge(HalfEdge),
     /// Inside a finite triangle, or outside the hull, in the open half-plane of a ghost triangle.
     Triangle(TriangleId),
 }
 
-/// What a point would replace: kept by the caller and used again, so that looking allocates nothing.
+/// The triangles that a point would replace. The caller keeps it and uses it again, which saves allocations.
 #[derive(Clone, Default, Debug)]
 pub struct Cavity {
-    /// The triangles, each after one it shares a side with.
+    /// The triangles, each after one that it shares an edge with.
     pub triangles: Vec<TriangleId>,
-    /// Sides of those triangles whose twins lie outside, counter-clockwise around the cavity.
+    /// The half-edges of those triangles whose twins lie outside, counter-clockwise around the cavity.
     pub border: Vec<HalfEdge>,
-    /// Sides of triangles still to be looked at, the twins of the cavity's own.
+    /// Half-edges into triangles that are still to be tested: twins of half-edges of the cavity.
     open: Vec<HalfEdge>,
 }
 
@@ -71,15 +71,15 @@ pub struct Counters {
     pub orient: u64,
     /// In-circle signs that were evaluated.
     pub in_circle: u64,
-    /// Signs that the static filter could not tell.
+    /// Signs that the static filter did not decide.
     pub exact_fallbacks: u64,
-    /// Triangles that were visited to locate points.
+    /// Triangles visited to locate points.
     pub walk_steps: u64,
     /// Triangles in all cavities that were collected.
     pub cavity_triangles: u64,
 }
 
-/// Counters that looking may add to: sums, hence the same whatever thread adds first.
+/// Counters that `&self` may add to: sums, so they do not depend on the order of threads.
 #[derive(Default)]
 struct Ledger {
     orient: AtomicU64,
@@ -105,7 +105,7 @@ impl Ledger {
     }
 }
 
-/// Signs at the vertices of a net, counted.
+/// A read-only walk over a net and its points, which counts its work.
 pub(super) struct Walk<'a> {
     net: &'a Net,
     points: &'a [Point],
@@ -122,6 +122,7 @@ impl<'a> Walk<'a> {
         self.points[v.index()]
     }
 
+    /// The orientation of a b c, counted.
     #[inline]
     pub(super) fn orient(&mut self, a: Point, b: Point, c: Point) -> Orientation {
         self.work.orient += 1;
@@ -131,6 +132,7 @@ impl<'a> Walk<'a> {
         })
     }
 
+    /// Where d lies to the circle of the counter-clockwise triangle a b c, counted.
     #[inline(always)]
     pub(super) fn in_circle(&mut self, a: Point, b: Point, c: Point, d: Point) -> CircleSide {
         self.work.in_circle += 1;
@@ -140,10 +142,11 @@ impl<'a> Walk<'a> {
         })
     }
 
-    /// Whether a triangle must make room for `p`.
+    /// Whether `p` lies inside the circle of a triangle, or, for a ghost, beyond its edge of the hull: then the
+    /// triangle belongs to the cavity of `p`.
     #[inline]
     fn conflicts(&mut self, corners: [VertexId; 3], p: Point) -> bool {
-        // The ghost's number is beyond all points.
+        // The number of GHOST is beyond all points.
         let [Some(&a), Some(&b), Some(&c)] = corners.map(|v| self.points.get(v.index())) else {
             return self.ghost_conflicts(corners, p);
         };
@@ -160,8 +163,17 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// The visibility walk (Devillers, Pion & Teillaud 2002), which never looks back across the side it came by. It
-    /// ends in any Delaunay triangulation; should another one lead it in a circle, every triangle is asked.
+    /// The visibility walk (Devillers, Pion & Teillaud 2002). It never tests the half-edge by which it entered a
+    /// triangle. It ends in any Delaunay triangulation. In another one it might run in a circle; then every triangle is
+    /// tested.
+    ///
+    /// ```text
+    ///           c               p lies strictly to the left of the entry a→b, whose triangle is t.
+    ///         ╱   ╲             If p lies to the right of b→c, the walk crosses it: c→b is the next entry.
+    ///       ╱   t   ╲      p    Else if p lies to the right of c→a, it crosses that: a→c is the next entry.
+    ///     ╱           ╲         Else t holds p.
+    ///   a ────entry───▶ b
+    /// ```
     fn locate(&mut self, p: Point, near: TriangleId) -> Location {
         let mut entry = match self.look_from(p, self.finite_near(near)) {
             Ok(location) => return location,
@@ -169,7 +181,7 @@ impl<'a> Walk<'a> {
         };
         let (t, i) = entry.split();
         let corners = self.net.record(t).corners;
-        // Of the entry a→b, `p` lies strictly left.
+        // p lies strictly to the left of the entry a→b.
         let (mut a, mut b) = (self.point(corners[i]), self.point(corners[after(i)]));
         for _ in 0..=self.net.len() {
             self.work.walk_steps += 1;
@@ -197,7 +209,7 @@ impl<'a> Walk<'a> {
         self.locate_by_scan(p)
     }
 
-    /// Where `p` lies in a finite triangle, or the far side of one that separates it from `p`.
+    /// Where `p` lies in a finite triangle; else the twin of a half-edge that has `p` on its right.
     fn look_from(&mut self, p: Point, t: TriangleId) -> Result<Location, HalfEdge> {
         self.work.walk_steps += 1;
         let record = *self.net.record(t);
@@ -210,14 +222,15 @@ impl<'a> Walk<'a> {
                 Orientation::CounterClockwise => {}
             }
         }
-        // On two sides: at the corner that the second of them starts from.
+        // On two half-edges: at the corner where the second of them starts.
         Ok(match (0..3).find(|&i| on[i] && on[before(i)]) {
             Some(i) => Location::Vertex(record.corners[i]),
             None => on.iter().position(|&on| on).map_or(Location::Triangle(t), |i| Location::HalfEdge(t.side_of(i))),
         })
     }
 
-    /// A finite triangle at `near`, or the first of all.
+    /// The finite triangle `near`, or its finite neighbour where it is a ghost, or where it is dead the first triangle
+    /// that is not.
     fn finite_near(&self, near: TriangleId) -> TriangleId {
         let t = if self.net.is_alive(near) {
             near
@@ -253,8 +266,8 @@ impl<'a> Walk<'a> {
         self.orient(a, b, p)
     }
 
-    /// Collects the triangles that make room for `p`, from one of them, depth first around the tree that they form,
-    /// never across a side that is `closed`.
+    /// Collects the cavity of `p` from `start`, one of its triangles: depth first around the tree that they form, and
+    /// never across a `closed` half-edge.
     pub(super) fn collect(
         &mut self,
         p: Point,
@@ -289,7 +302,7 @@ impl<'a> Walk<'a> {
     }
 }
 
-/// The finite corners of a ghost triangle, in its own order: infinity lies on their left, the hull on their right.
+/// The finite corners of a ghost triangle, in its own order: infinity lies to their left, the hull to their right.
 #[inline]
 pub(super) fn hull_side([a, b, c]: [VertexId; 3]) -> [VertexId; 2] {
     if a == GHOST {
@@ -301,20 +314,22 @@ pub(super) fn hull_side([a, b, c]: [VertexId; 3]) -> [VertexId; 2] {
     }
 }
 
-/// The Delaunay triangulation of a growing and shrinking set of points.
+/// The Delaunay triangulation of a set of points that can be added and removed.
 pub struct Kernel {
+    /// Coordinates, of dead vertices too.
     pub(super) points: IdVec<VertexId, Point>,
+    /// The triangles, with their labels.
     pub(super) topology: Triangulation,
     ledger: Ledger,
 }
 
 impl Kernel {
-    /// The Delaunay triangulation of some points, in any unit; vertex i is `points[i]`. Expected time O(n log n), most
+    /// The Delaunay triangulation of points, in any unit; vertex i is `points[i]`. Takes expected time O(n log n), most
     /// of it linear.
     ///
     /// # Errors
-    /// Where there are fewer than three points, all lie on one line, two have the same coordinates, or a
-    /// coordinate is not a number within 2^±180.
+    /// Where there are fewer than three points, all lie on one line, two have the same coordinates, or a coordinate is
+    /// not a number within 2^±180.
     pub fn new(points: Vec<Point>) -> Result<Self, Degenerate> {
         if points.len() < 3 {
             return Err(Degenerate::TooFew);
@@ -359,11 +374,13 @@ impl Kernel {
         &self.topology
     }
 
-    /// For labels, and for flips between cocircular points; other flips void what this type promises.
+    /// For labels, and for flips between cocircular points. After any other flip the triangulation is no longer
+    /// Delaunay.
     pub fn topology_mut(&mut self) -> &mut Triangulation {
         &mut self.topology
     }
 
+    /// Evaluates signs by a [`Walk`] and adds its work to the counters.
     pub(super) fn in_sight<T>(&self, look: impl FnOnce(&mut Walk) -> T) -> T {
         let mut sight = Walk::new(self.topology.net(), self.points.as_slice());
         let seen = look(&mut sight);
@@ -371,21 +388,32 @@ impl Kernel {
         seen
     }
 
-    /// Where a point lies. The walk starts at `near` (any id will do) and takes time in proportion to the triangles on
+    /// Where a point lies. The walk starts at `near` (any id is valid). It takes time in proportion to the triangles on
     /// the way.
     pub fn locate(&self, p: Point, near: TriangleId) -> Location {
         self.in_sight(|sight| sight.locate(p, near))
     }
 
-    /// Looks: all triangles whose open circumdisk holds `p`, given where `p` lies. A ghost triangle's disk is the open
-    /// half-plane beyond its hull side, with that side's inner points. Cocircular triangles stay outside. Empty where
-    /// `p` is a vertex.
-    /// The coordinates of `p` must be numbers within 2^±180, as those of all vertices.
+    /// Looks: finds all triangles whose open circumdisk holds `p`, given where `p` lies. The disk of a ghost triangle
+    /// is the open half-plane beyond its edge of the hull, together with the points between the ends of that edge.
+    /// Cocircular triangles stay outside. Empty where `p` is a vertex. The coordinates of `p` must be numbers within
+    /// 2^±180, as those of all vertices.
+    ///
+    /// ```text
+    ///         d                      d          cavity: the three triangles whose circles hold p
+    ///      .´╱ ╲`.                .´ │ `.       border: a→b, b→c, c→d, d→e, e→a: two more than triangles
+    ///   e   ╱ p ╲   c    ─▶    e─────p─────c    fill:   a triangle on each of them: (a, b, p), (b, c, p), …
+    ///    ╲ ╱     ╲ ╱            ╲  ╱   ╲  ╱
+    ///     a───────b              a───────b
+    /// ```
+    ///
+    /// # Panics
+    /// Where a coordinate of `p` is beyond that range.
     pub fn cavity(&self, p: Point, at: Location, cavity: &mut Cavity) {
         self.cavity_within(|_| false, p, at, cavity);
     }
 
-    /// [`Kernel::cavity`], which ends at walls.
+    /// [`Kernel::cavity`], but not across half-edges that are walls.
     pub(super) fn cavity_within(
         &self,
         is_wall: impl Fn(HalfEdge) -> bool,
@@ -407,11 +435,12 @@ impl Kernel {
         self.in_sight(|sight| sight.collect(p, start, is_wall, cavity));
     }
 
-    /// Acts: replaces the cavity of `p` by the triangles that join `p` to its border, and returns the new vertex.
+    /// Acts: replaces the cavity of `p` by the triangles that join `p` to its border. Returns the new vertex. The
+    /// figure is at [`Kernel::cavity`].
     ///
-    /// Border sides keep their pieces; each new triangle has the region of the cavity's triangle that its border side
-    /// belonged to. The triangle on `border[i]` is `(origin, target, p)` and takes the id of `triangles[i]`; the last
-    /// two have other ids. The cavity must be the one looked at for this very `p`, with nothing changed since.
+    /// Border half-edges keep their subcurves. Each new triangle takes the region of the removed triangle on its border
+    /// half-edge. The triangle on `border[i]` is `(origin, target, p)` and takes the id of `triangles[i]`; the last two
+    /// have other ids. The cavity must be that of this very `p`, with nothing changed since it was found.
     pub fn fill(&mut self, p: Point, cavity: &Cavity) -> VertexId {
         let v = self.points.push(p);
         self.topology.star(v, &cavity.triangles, &cavity.border);
@@ -419,14 +448,15 @@ impl Kernel {
         v
     }
 
-    /// With feature `slow-checks`: the first change that spoils something is the one reported.
+    /// With feature `slow-checks`: checks the whole triangulation after each change, so that the change at fault is the
+    /// one reported.
     pub(super) fn check_slowly(&self) {
         if cfg!(feature = "slow-checks") {
             assert_eq!(self.flaws(), Vec::<String>::new());
         }
     }
 
-    /// Work done so far.
+    /// The work done so far.
     pub fn counters(&self) -> Counters {
         let read = |sum: &AtomicU64| sum.load(Ordering::Relaxed);
         Counters {
@@ -438,8 +468,8 @@ impl Kernel {
         }
     }
 
-    /// What is wrong, with culprits: structure, orientation, convexity of the hull, and sides with a vertex inside the
-    /// circle of the triangle across them. All signs exact. Empty when all is well. Takes linear time.
+    /// The flaws, each with its place: of the structure, of orientations, of the convexity of the hull, and edges that
+    /// are not locally Delaunay. All signs are exact. Empty where there are none. Takes linear time.
     pub fn flaws(&self) -> Vec<String> {
         let mut flaws = self.topology.flaws();
         if !flaws.is_empty() {
@@ -466,7 +496,7 @@ impl Kernel {
             }
         }
         for s in topology.sides_from(GHOST) {
-            // Around infinity, s = GHOST→b, its triangle (GHOST, b, c): the hull runs a, b, c clockwise.
+            // s = GHOST→b, in the triangle (GHOST, b, c): the hull runs a, b, c clockwise.
             let a = topology.apex(topology.twin(s));
             let (b, c) = (topology.target(s), topology.apex(s));
             if exact::orient(at(a), at(b), at(c)) == Orientation::CounterClockwise {
@@ -477,7 +507,8 @@ impl Kernel {
     }
 }
 
-/// Whether exact signs can take a point: degree 4 in numbers whose bits lie within 2^±232 stays within 2^±1022.
+/// Whether exact signs are possible at a point: polynomials of degree 4 in numbers whose bits lie within 2^±232 stay
+/// within 2^±1022.
 pub fn in_range(p: Point) -> bool {
     const LEAST: f64 = f64::from_bits((1023 - 180) << 52); // 2^-180
     const MOST: f64 = f64::from_bits((1023 + 180) << 52); // 2^180
@@ -516,7 +547,8 @@ fn triangulate(points: &[Point]) -> Result<(Net, Counters), Degenerate> {
     Ok((net, work))
 }
 
-/// What to say of points that seem to lie on one line: two equal ones make any third collinear.
+/// The error for points that are all collinear with the first two: where two points are equal, any third is collinear
+/// with them.
 fn on_a_line(points: &[Point]) -> Degenerate {
     let mut order: Vec<usize> = (0..points.len()).collect();
     let key = |i: usize| points[i];

@@ -1,11 +1,21 @@
-//! Which region each triangle belongs to. labelling is topological: a triangle takes its region from the side of the
-//! curve that it lies on, or from a neighbour with no curve between. Nothing is cut away: D(P′) stays whole, and
-//! triangles outside have no region.
+//! The region of each triangle. Labelling is topological: a triangle takes its region from the side of the curve on
+//! which it lies, or from a neighbour with no curve between. Nothing is removed: D(P′) stays whole, and triangles
+//! outside have no region.
 //!
-//! Regions are right whenever every subcurve is an edge and no subcurve is encroached: then no vertex lies between a subcurve
-//! and its chord (the lens lies in the empty diametral disk), so chords bound what the curves bound. Between two such
-//! moments only triangles made since may need a new region; a triangle that was there before and still stands keeps its
-//! own (a subcurve that bulges over it would have destroyed it, since the split point lies in its circumdisk).
+//! Regions are right whenever every subcurve is an edge and no subcurve is encroached. Then no vertex lies between a
+//! subcurve and its chord, since the lens lies in the empty diametral disk; so chords separate the same vertices as the
+//! curves. Between two such moments only triangles made since need a region. An older triangle keeps its own: the split
+//! point of a subcurve that bulges over it would lie in its circumdisk, and so would have removed it.
+//!
+//! ```text
+//!      p─────q        The subcurve x y of the curve c has the region A on its left, B on its right.
+//!     ╱ ╲ t₂╱         t₁ lies on the half-edge x→y, along c: its region is A.
+//!    ╱ t₁╲ ╱     A    u lies on y→x, against c: its region is B.
+//!   x──c─▶y           t₂ lies on no subcurve. Its neighbour t₁, across no subcurve, has A: so has t₂.
+//!    ╲ u ╱       B
+//!     ╲ ╱
+//!      r
+//! ```
 
 use super::insert::Kernel;
 use super::subcurves::{Carrier, Subcurves};
@@ -16,13 +26,13 @@ use crate::ids::{CurveId, Id, IdVec, RegionId, TriangleId};
 /// Gives regions to triangles.
 #[derive(Default)]
 pub struct RegionLabeller {
-    /// Place of each triangle among the fresh ones, from 1; 0 of all others, between two labellings of all.
+    /// By triangle: its place in `fresh`, counted from 1; 0 for all others, and for all between two calls.
     places: Vec<u32>,
 }
 
 impl RegionLabeller {
-    /// Gives regions to triangles that were made since the last time; `fresh` is left with those that are alive, each
-    /// once.
+    /// Gives regions to the triangles in `fresh`, those made since the last call. Leaves those in `fresh` that are
+    /// alive, each once.
     pub fn label(
         &mut self,
         delaunay: &mut Kernel,
@@ -55,7 +65,7 @@ impl RegionLabeller {
         fresh.iter().for_each(|t| self.places[t.index()] = 0);
     }
 
-    /// Leaves each living triangle once, in the order of their ids, and notes its place.
+    /// Leaves each triangle of `fresh` that is alive once, in the order of ids, and notes its place.
     fn note(&mut self, delaunay: &Kernel, fresh: &mut Vec<TriangleId>) {
         fresh.sort_unstable();
         fresh.dedup();
@@ -70,7 +80,7 @@ impl RegionLabeller {
         (self.places[t.index()] as usize).checked_sub(1)
     }
 
-    /// The region that the sides of a triangle tell: from a curve on it, or from a neighbour whose region stands.
+    /// The region of a triangle by its half-edges: from a subcurve on one, or from a neighbour that is not fresh.
     fn region_by_sides(
         &self,
         delaunay: &Kernel,
@@ -92,7 +102,8 @@ impl RegionLabeller {
     }
 }
 
-/// The curve on a side and whether it runs along it (`true`) or against it; `None` of a side that bounds nothing.
+/// The curve on a half-edge, and whether the half-edge runs along it (`true`) or against it; `None` where there is no
+/// curve. A corner arc bounds no region.
 fn bounded_by(delaunay: &Kernel, subcurves: &Subcurves, s: HalfEdge) -> Option<(CurveId, bool)> {
     let subcurve = subcurves.get(delaunay.topology().subcurve(s)?);
     let Carrier::Curve(curve) = subcurve.carrier else { return None };

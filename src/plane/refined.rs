@@ -1,22 +1,22 @@
-//! What comes of a refinement, by either engine, and why there may be nothing to refine.
+//! The result of a refinement by either engine, and the errors that prevent one.
 
 use super::insert::Degenerate;
 use crate::geometry::{self, Point};
 use crate::mesh::{Insertion, Mesh};
 use crate::refine::{Counters, Stop};
 
-/// A refined mesh, and how it ended.
+/// A refined mesh, and how the refinement ended.
 #[derive(Clone, Debug)]
 pub struct Refined {
     /// `None` where the budget ended before the mesh was valid.
     pub mesh: Option<Mesh>,
-    /// Of the triangulation, inside of kept regions or not.
+    /// Number of vertices of the triangulation, inside kept regions or not.
     pub vertices: usize,
     /// Why refinement ended, and what is unresolved.
     pub stop: Stop,
-    /// How much work was done, by name.
+    /// Amounts of work, by name.
     pub counters: Counters,
-    /// What was inserted, in order, by an engine that was asked to record it.
+    /// The insertions in order, where the engine was asked to record them.
     pub insertions: Vec<Insertion>,
 }
 
@@ -33,6 +33,7 @@ pub struct RefineError {
 }
 
 impl RefineError {
+    /// The error that features are too near to each other at a place.
     pub(super) fn too_near(at: Point) -> Self {
         Self {
             what: "features lie nearer to each other than the coordinates can tell apart".to_owned(),
@@ -41,12 +42,13 @@ impl RefineError {
         }
     }
 
+    /// The error with its place multiplied by a power of two.
     pub(super) fn scaled(mut self, factor: f64) -> Self {
         self.at = geometry::scaled(self.at, factor);
         self
     }
 
-    /// Why there is no triangulation of some points.
+    /// The error for points that have no triangulation.
     pub(super) fn degenerate(why: &Degenerate, points: &[Point]) -> Self {
         match *why {
             Degenerate::Duplicate { first, .. } => Self::too_near(points[first]),

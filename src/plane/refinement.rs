@@ -1,5 +1,5 @@
-//! What both engines hold while they refine: the domain in the unit frame, its subcurves, the triangles that miss a
-//! bound, and how it ends.
+//! The state that both engines share: the domain in the unit frame, its subcurves, the triangles that miss a bound, and
+//! the reason to stop.
 
 use super::insert::{self, Cavity};
 use super::labelling::RegionLabeller;
@@ -14,38 +14,48 @@ use crate::mesh::RIM_ROUNDING;
 use crate::refine::{Counters, Patience, Stop, StopReason};
 use crate::size::{SizeField, Sizing};
 
+/// The state of a refinement, apart from the triangulation.
 pub(super) struct Refinement {
+    /// The domain in the unit frame.
     pub domain: Domain,
-    /// What the domain was multiplied by, so that its coordinates are of unit magnitude.
+    /// The factor of the unit frame, a power of two: the domain was multiplied by it, so that its coordinates are of
+    /// unit magnitude.
     pub scale: f64,
+    /// The size limits, in the unit frame.
     pub field: SizeField,
-    /// No edge shorter than this is made on purpose: as far as rounding moves a point of a curve, twice over.
+    /// No split makes an edge shorter than this, a bound on how far rounding moves a point of a curve. In the unit
+    /// frame.
     pub resolution: f64,
+    /// C′.
     pub subcurves: Subcurves,
-    /// Pieces to be looked at, the latest first: its place is still in the cache.
+    /// Subcurves to be tested. The last one is taken first, since its surroundings are still in the cache.
     pub queue: Vec<SubcurveId>,
-    /// Triangles with an angle below κ, and triangles too large.
+    /// The refinement queue: triangles with an angle below κ, and triangles too large.
     pub bad: RefinementQueue,
+    /// Gives regions to new triangles.
     pub labeller: RegionLabeller,
+    /// The cavity of the point under test; kept to reuse its memory.
     pub cavity: Cavity,
+    /// Amounts of work, by name.
     pub counters: Counters,
+    /// Why refinement stops; `Done` as long as it goes on.
     pub reason: StopReason,
-    /// Where something could not be done: below what the coordinates can tell apart.
+    /// Places where a step was not possible, because coordinates cannot separate its points.
     pub too_near: Vec<Point>,
     /// sin² κ.
     pub sin2_min: f64,
 }
 
-/// What is wrong with a triangle.
+/// The bound that a triangle misses.
 pub(super) enum Flaw {
     /// An angle below κ: sin² of its smallest.
     Skinny(f64),
-    /// So many times over its limits.
+    /// Its size over the largest size permitted, above 1.
     Oversized(f64),
 }
 
 impl Refinement {
-    /// The domain in the unit frame, none of its curves cut yet.
+    /// The domain in the unit frame, with no subcurves so far. `angle_min_rad` is κ.
     pub fn new(domain: &Domain, sizing: &Sizing, angle_min_rad: f64, patience: Patience) -> Self {
         let magnitude = geometry::magnitude(domain.bounds());
         let scale = geometry::unit_scale(magnitude);
@@ -68,7 +78,7 @@ impl Refinement {
         }
     }
 
-    /// Queues a subcurve, once.
+    /// Queues a subcurve that is not queued already.
     pub fn enqueue(&mut self, subcurve: SubcurveId) {
         let entry = self.subcurves.get_mut(subcurve);
         if !entry.queued {
@@ -77,7 +87,7 @@ impl Refinement {
         }
     }
 
-    /// Which bound a triangle of a region misses; its angles first.
+    /// The bound that a triangle of a region misses, the angle first; `None` where it meets all.
     pub fn flaw(&self, region: RegionId, corners: [Point; 3]) -> Option<Flaw> {
         let sin2 = sin2_smallest(corners);
         if sin2 < self.sin2_min {
@@ -87,23 +97,26 @@ impl Refinement {
         (excess > 1.0).then_some(Flaw::Oversized(excess))
     }
 
+    /// Stops the refinement of triangles, unless there is a reason already.
     pub fn cancel(&mut self) {
         if self.reason == StopReason::Done {
             self.reason = StopReason::Cancelled;
         }
     }
 
-    /// How it ended, with so much unresolved at `places`, and where coordinates could not tell points apart, in the domain's
-    /// own scale.
+    /// The end of the refinement for a reason, in the domain's own scale: what is `unresolved`, with some `places`, and
+    /// the places of [`too_near`](Self::too_near).
     pub fn stop(&self, reason: StopReason, unresolved: usize, places: Vec<Point>) -> Stop {
         let places = places.iter().chain(&self.too_near).map(|&p| geometry::scaled(p, 1.0 / self.scale)).collect();
         Stop { reason, unresolved: unresolved + self.too_near.len(), places, angle_deg: None }
     }
 
+    /// The error of a run that ended because coordinates cannot separate points, with the first such place.
     pub fn too_near_error(&self) -> RefineError {
         RefineError::too_near(self.too_near.first().copied().unwrap_or_default()).scaled(1.0 / self.scale)
     }
 
+    /// Adds the kernel's counters to those of the run.
     pub fn count_kernel(&mut self, kernel: insert::Counters) {
         self.counters.add("predicates", kernel.orient + kernel.in_circle);
         self.counters.add("exact_fallbacks", kernel.exact_fallbacks);

@@ -1,8 +1,8 @@
 //! Removal of a vertex.
 //!
-//! Sides at the vertex are flipped away, ear by ear, until three are left (or, on the hull, until what is left of its
-//! star lies outside the new hull); then the vertex goes, and flips (Lawson 1977) make the hole Delaunay. Every step is
-//! a plane triangulation, whatever points are cocircular.
+//! Edges at the vertex are flipped, ear by ear, until three are left; on the hull, until the rest of its star lies
+//! outside the new hull. Then the vertex is removed, and flips (Lawson 1977) make the hole Delaunay. Every step is a
+//! plane triangulation, whatever points are cocircular.
 
 use super::insert::Kernel;
 use super::triangulation::{GHOST, HalfEdge};
@@ -10,12 +10,12 @@ use crate::geometry::exact::{CircleSide, Orientation};
 use crate::ids::{TriangleId, VertexId};
 
 impl Kernel {
-    /// Deletes a vertex of any degree, inside or on the hull; the triangulation is that of the other points, and the id
-    /// is dead.
+    /// Deletes a vertex of any degree, inside or on the hull. The triangulation is then that of the other points, and
+    /// the id is dead.
     ///
-    /// Pieces on the vertex's own sides are lost. A new triangle has the region of a lost one next to it: where a lost
-    /// subcurve parted two regions, the caller mends them. Returns `false`, and changes nothing, where the vertex is dead
-    /// already or the other points lie on one line.
+    /// Subcurves on the edges of the vertex are lost. A new triangle has the region of a removed one next to it: where
+    /// a lost subcurve separated two regions, the caller must label anew. Returns `false`, and changes nothing, where
+    /// the vertex is dead already or the other points lie on one line.
     pub fn remove(&mut self, v: VertexId) -> bool {
         if v == GHOST || self.carries_the_plane(v) {
             return false;
@@ -31,7 +31,7 @@ impl Kernel {
         true
     }
 
-    /// Whether no triangle would be left without `v` (or none is there at all): every link side has a ghost across, and
+    /// Whether no triangle would be left without `v`, or `v` has none: every edge of the link has a ghost across, and
     /// the link is straight.
     fn carries_the_plane(&self, v: VertexId) -> bool {
         let topology = &self.topology;
@@ -44,11 +44,20 @@ impl Kernel {
         })
     }
 
-    /// Flips sides of `v` away as long as any may be, in time linear in the degree; returns the diagonals that came.
+    /// Flips edges of `v`, as long as any may be flipped, in time linear in the degree. Returns the new diagonals.
     ///
-    /// The link is star-shaped around `v`: a neighbour w between neighbours u and x is an ear where u w x turns left
-    /// and v is not strictly inside u w x. Inside the hull a link of four or more has one: of the two ears that any
-    /// triangulation of it has, v, which lies inside or on one side of it, spoils at most one.
+    /// The link is star-shaped around `v`. A neighbour w between the neighbours u and x is an ear where u w x turns
+    /// left and v is not strictly inside u w x. Inside the hull a link of four or more vertices has an ear: any
+    /// triangulation of the link has two, and v lies inside at most one of them.
+    ///
+    /// ```text
+    ///         w                  w                  w        w is an ear: v w is flipped to u x.
+    ///      .´ │ `.            .´   `.            .´   `.     y is the next ear: v y is flipped to x z.
+    ///   x     │     u  ─▶  x───────────u  ─▶  x───────────u  v has degree 3: merge_star makes x z u of
+    ///    ╲ `-.v.-´ ╱        ╲ `-.v.-´ ╱        ╲ `.      ╱   its three triangles.
+    ///     ╲ ╱   ╲ ╱          ╲ ╱   ╲ ╱          ╲   `.  ╱
+    ///      y─────z            y─────z            y─────z
+    /// ```
     pub(super) fn clip_ears(&mut self, v: VertexId) -> Vec<HalfEdge> {
         let mut diagonals = Vec::new();
         let mut left = self.topology.sides_from(v).count();
@@ -62,7 +71,7 @@ impl Kernel {
                 diagonals.push(t.side_of(2));
                 left -= 1;
                 refused = 0;
-                // Triangle u is (next, v, prev): the neighbour before is looked at again.
+                // The other triangle is (x, v, u) now. Its half-edge 1 ends at u, which is tested again.
                 s = u.side_of(1);
             } else {
                 refused += 1;
@@ -72,7 +81,7 @@ impl Kernel {
         diagonals
     }
 
-    /// Whether the neighbour that side `s` of `v` leads to may be cut off.
+    /// Whether the neighbour at which the half-edge `s` of `v` ends is an ear. `inside`: `v` lies inside the hull.
     fn is_ear(&self, v: VertexId, s: HalfEdge, inside: bool) -> bool {
         let topology = &self.topology;
         let (before, here, after) = (topology.apex(topology.twin(s)), topology.target(s), topology.apex(s));
@@ -86,8 +95,8 @@ impl Kernel {
         })
     }
 
-    /// Flips sides that are not locally Delaunay, from those on the stack on. With exact signs each flip lowers the
-    /// lifted surface, so that no side comes twice (Lawson 1977).
+    /// Flips edges that are not locally Delaunay, beginning with those on the stack. With exact signs each flip lowers
+    /// the lifted surface, so no edge is made twice (Lawson 1977).
     fn make_delaunay(&mut self, stack: &mut Vec<HalfEdge>) {
         while let Some(s) = stack.pop() {
             if !self.is_locally_delaunay(s) {
@@ -99,6 +108,7 @@ impl Kernel {
         }
     }
 
+    /// Whether the apex across a half-edge does not lie inside the circle of its triangle; true for ghosts.
     pub(super) fn is_locally_delaunay(&self, s: HalfEdge) -> bool {
         let topology = &self.topology;
         let (corners, across) = (topology.corners(s.triangle()), topology.apex(topology.twin(s)));

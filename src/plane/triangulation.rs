@@ -1,61 +1,62 @@
 //! Storage and topology of a triangulation of the whole plane: ids only, never a coordinate.
 //!
-//! Every triangle has three *sides*; side `3t + i` runs from corner i to corner i+1 of triangle t, counter-clockwise,
-//! and knows its twin in the neighbour. The outside of the hull is covered by *ghost* triangles, which share the one
-//! vertex [`GHOST`] at infinity, so that every side has a twin and the topology is that of a sphere.
+//! Every triangle has three half-edges. Half-edge `3t + i` runs from corner i to corner i+1 of triangle t,
+//! counter-clockwise. Its twin runs the other way in the neighbour. *Ghost* triangles cover the outside of the hull.
+//! They share the one vertex [`GHOST`] at infinity, so every half-edge has a twin and the topology is that of a sphere.
 //!
 //! ```text
-//!            c                 side s  = a→b in triangle t, its apex c
-//!           / \                twin(s) = b→a in the neighbour, apex d
-//!          / t \               next(s) = b→c, prev(s) = c→a
-//!         a --s→ b             around a, counter-clockwise: a→d, a→b, a→c: the one after s is twin(prev(s))
-//!          \   /
-//!            d
+//!         c          s = a→b, in triangle t, with the apex c                    2           half-edge i of t is
+//!       ╱   ╲        twin(s) = b→a, in the neighbour, with the apex d          ╱ ╲          number 3t + i, from
+//!     ╱   t   ╲      next(s) = b→c, prev(s) = c→a                         3t+2╱ t ╲3t+1     corner i to i+1
+//!   a ────s───▶ b                                                            ╱     ╲
+//!     ╲       ╱      counter-clockwise around a: a→d, a→b, a→c;             0───────1
+//!       ╲   ╱        the one after s is twin(prev(s))                          3t
+//!         d
 //! ```
 //!
-//! 24 bytes a triangle for corners and twins, 16 for pieces and region, 4 a vertex: 84 bytes a vertex. Room for 7·10⁸
-//! vertices.
+//! A triangle takes 24 bytes for corners and twins and 16 for subcurves and region, a vertex 4: together 84 bytes a
+//! vertex. There is room for 7·10⁸ vertices.
 
 use crate::ids::{Id, RegionId, SubcurveId, TriangleId, VertexId};
 
 /// The vertex at infinity.
 pub const GHOST: VertexId = VertexId(u32::MAX);
 
-/// What stands for "no side", "no subcurve", "no region".
+/// Stands for "no half-edge", "no subcurve", "no region".
 const NONE: u32 = u32::MAX;
 
-/// A directed side of a triangle: `3·triangle + i`.
+/// A half-edge: number `3·triangle + i`, directed from corner i to corner i+1 of the triangle.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub struct HalfEdge(pub u32);
 
 impl HalfEdge {
-    /// HalfEdge `i` of a triangle, from corner i to corner i+1; `i` in 0..3.
+    /// Half-edge `i` of a triangle, from corner i to corner i+1; `i` in 0..3.
     #[inline]
     pub fn of(t: TriangleId, i: usize) -> Self {
         Self(3 * t.0 + i as u32)
     }
 
-    /// The triangle that this side bounds; it lies on the left.
+    /// The triangle on the left, which this half-edge bounds.
     #[inline]
     pub fn triangle(self) -> TriangleId {
         TriangleId(self.0 / 3)
     }
 
-    /// The next side of the same triangle, counter-clockwise.
+    /// The next half-edge of the same triangle, counter-clockwise.
     #[inline]
     pub fn next(self) -> Self {
         let (t, i) = self.split();
         Self::of(t, after(i))
     }
 
-    /// The side before this one in the same triangle.
+    /// The half-edge before this one in the same triangle.
     #[inline]
     pub fn prev(self) -> Self {
         let (t, i) = self.split();
         Self::of(t, before(i))
     }
 
-    /// The triangle, and which of its sides this is, in 0..3.
+    /// The triangle, and which of its half-edges this is, in 0..3.
     #[inline]
     pub(super) fn split(self) -> (TriangleId, usize) {
         (TriangleId(self.0 / 3), (self.0 % 3) as usize)
@@ -75,31 +76,33 @@ pub(super) fn before(i: usize) -> usize {
 }
 
 impl TriangleId {
-    /// HalfEdge `i` of this triangle, from corner i to corner i+1; `i` in 0..3.
+    /// Half-edge `i` of this triangle, from corner i to corner i+1; `i` in 0..3.
     #[inline]
     pub fn side_of(self, i: usize) -> HalfEdge {
         HalfEdge::of(self, i)
     }
 }
 
-/// Corners of a triangle, counter-clockwise, and the twins of its three sides.
+/// A triangle: its corners and the twins of its half-edges.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Record {
+    /// Counter-clockwise; half-edge i starts at corner i.
     pub corners: [VertexId; 3],
+    /// The twin of each half-edge.
     pub twins: [HalfEdge; 3],
 }
 
 /// A record on the free list.
 const DEAD: Record = Record { corners: [GHOST; 3], twins: [HalfEdge(NONE); 3] };
 
-/// A side of a cavity as its filling needs it: its two ends and the side on the far side of it.
+/// A half-edge a→b on the border of a cavity, and its twin outside.
 struct Rim {
     a: VertexId,
     b: VertexId,
     outer: HalfEdge,
 }
 
-/// Triangles and their neighbours, bare of labels: all that bulk insertion touches.
+/// Triangles and their neighbours without labels: all that bulk insertion changes.
 #[derive(Default)]
 pub(super) struct Net {
     records: Vec<Record>,
@@ -124,20 +127,24 @@ impl Net {
         Self { records, ..Self::default() }
     }
 
+    /// Corners and twins of a triangle, dead or alive.
     #[inline]
     pub fn record(&self, t: TriangleId) -> &Record {
         &self.records[t.index()]
     }
 
+    /// Number of triangles, ghosts and dead ones included: every id is below it.
     pub fn len(&self) -> usize {
         self.records.len()
     }
 
+    /// The half-edge that runs the other way, in the neighbour.
     pub fn twin(&self, s: HalfEdge) -> HalfEdge {
         let (t, i) = s.split();
         self.record(t).twins[i]
     }
 
+    /// Whether the id belongs to a triangle now.
     pub fn is_alive(&self, t: TriangleId) -> bool {
         self.records.get(t.index()).is_some_and(|r| r.twins[0] != HalfEdge(NONE))
     }
@@ -163,9 +170,10 @@ impl Net {
         self.free.push(t);
     }
 
-    /// Replaces a cavity (a disk of triangles without inner vertices) by the star of `apex`. The triangle on
-    /// `border[i]` becomes `(origin, target, apex)`; it takes the id of `triangles[i]`, and the last two take the ids
-    /// returned.
+    /// Replaces a cavity (a disk of triangles without inner vertices) by the star of `apex`.
+    ///
+    /// The triangle on `border[k]` = a→b becomes `(a, b, apex)`. It takes the id of `triangles[k]`; the last two take
+    /// the ids returned. The figure is at [`Kernel::cavity`](super::insert::Kernel::cavity).
     pub fn star(&mut self, apex: VertexId, triangles: &[TriangleId], border: &[HalfEdge]) -> [TriangleId; 2] {
         assert_eq!(border.len(), triangles.len() + 2, "a cavity is a disk without inner vertices");
         let last = [self.take(), self.take()];
@@ -202,21 +210,21 @@ impl Net {
     }
 }
 
-/// A triangulation of the sphere that the plane becomes with a vertex at infinity, with labels: the subcurve of a curve
-/// that lies on a side, the region that a triangle belongs to.
+/// A triangulation of the plane and a vertex at infinity, which together are a sphere. Its labels: the subcurve that
+/// lies on a half-edge, the region of a triangle.
 pub struct Triangulation {
     net: Net,
-    /// The subcurve on each side of a triangle, the same on both twins; NONE for no subcurve.
-    pieces: Vec<[u32; 3]>,
-    /// NONE for no region.
+    /// The subcurve on each half-edge of a triangle, the same on both twins; NONE for no subcurve.
+    subcurves: Vec<[u32; 3]>,
+    /// The region of each triangle; NONE for no region.
     regions: Vec<u32>,
-    /// An outgoing side of each vertex, that of [`GHOST`] in front: see [`place_of`]. NONE for a dead vertex.
+    /// One half-edge that starts at each vertex, that of [`GHOST`] first: see [`place_of`]. NONE for a dead vertex.
     anchors: Vec<HalfEdge>,
-    /// Subcurve and region of each border side while a cavity is filled.
+    /// Subcurve and region at each border half-edge while a cavity is filled.
     labels: Vec<(u32, u32)>,
 }
 
-/// Place of a vertex among the anchors: the ghost's number, the largest, wraps around to 0.
+/// Place of a vertex among the anchors: the number of [`GHOST`], the largest of all, wraps around to 0.
 #[inline]
 fn place_of(v: VertexId) -> usize {
     v.0.wrapping_add(1) as usize
@@ -227,18 +235,19 @@ fn label<I: Id>(value: u32) -> Option<I> {
 }
 
 impl Triangulation {
-    /// A triangulation without pieces and regions, over vertices `0..vertices`.
+    /// The triangulation of a net over vertices `0..vertices`, without subcurves and regions.
     pub(super) fn unlabelled(net: Net, vertices: usize) -> Self {
-        let (pieces, regions) = (vec![[NONE; 3]; net.len()], vec![NONE; net.len()]);
+        let (subcurves, regions) = (vec![[NONE; 3]; net.len()], vec![NONE; net.len()]);
         let mut anchors = vec![HalfEdge(NONE); vertices + 1];
         for (t, record) in net.records.iter().enumerate() {
             for (i, &corner) in record.corners.iter().enumerate() {
                 anchors[place_of(corner)] = HalfEdge::of(TriangleId::from_index(t), i);
             }
         }
-        Self { net, pieces, regions, anchors, labels: Vec::new() }
+        Self { net, subcurves, regions, anchors, labels: Vec::new() }
     }
 
+    /// The triangles without their labels.
     pub(super) fn net(&self) -> &Net {
         &self.net
     }
@@ -249,32 +258,32 @@ impl Triangulation {
         self.net.record(t).corners
     }
 
-    /// The vertex at which a side starts; the triangle lies on the left of the side.
+    /// The vertex at which a half-edge starts; its triangle lies on its left.
     #[inline]
     pub fn origin(&self, s: HalfEdge) -> VertexId {
         let (t, i) = s.split();
         self.corners(t)[i]
     }
 
-    /// The vertex at which a side ends.
+    /// The vertex at which a half-edge ends.
     #[inline]
     pub fn target(&self, s: HalfEdge) -> VertexId {
         self.origin(s.next())
     }
 
-    /// The corner opposite a side of its triangle.
+    /// The corner opposite a half-edge in its triangle.
     #[inline]
     pub fn apex(&self, s: HalfEdge) -> VertexId {
         self.origin(s.prev())
     }
 
-    /// The same side, the other way round, in the neighbouring triangle.
+    /// The half-edge between the same vertices that runs the other way, in the neighbour.
     #[inline]
     pub fn twin(&self, s: HalfEdge) -> HalfEdge {
         self.net.twin(s)
     }
 
-    /// Whether an id belongs to a triangle now, finite or ghost; ids of lost triangles are used again.
+    /// Whether an id belongs to a triangle now, finite or ghost. The ids of removed triangles are used again.
     #[inline]
     pub fn is_alive(&self, t: TriangleId) -> bool {
         self.net.is_alive(t)
@@ -296,28 +305,28 @@ impl Triangulation {
         self.net.len()
     }
 
-    /// The outgoing sides of a vertex, counter-clockwise, those of ghost triangles included; none of a dead vertex.
-    /// Those of [`GHOST`] lead to the hull's vertices, clockwise as seen from within.
+    /// The half-edges that start at a vertex, counter-clockwise, those of ghost triangles included; none for a dead
+    /// vertex. Those of [`GHOST`] end at the vertices of the hull, in clockwise order around it.
     pub fn sides_from(&self, v: VertexId) -> impl Iterator<Item = HalfEdge> {
         let first = self.anchors.get(place_of(v)).copied().filter(|&s| s != HalfEdge(NONE));
         std::iter::successors(first, move |s| Some(self.twin(s.prev())).filter(|&s| Some(s) != first))
     }
 
-    /// The side from `a` to `b`, if they are joined. Takes time in proportion to the number of neighbours of `a`.
+    /// The half-edge from `a` to `b`, if there is one. Takes time in proportion to the number of neighbours of `a`.
     pub fn side_between(&self, a: VertexId, b: VertexId) -> Option<HalfEdge> {
         self.sides_from(a).find(|&s| self.target(s) == b)
     }
 
-    /// The subcurve of a curve that lies on a side.
+    /// The subcurve that lies on a half-edge.
     #[inline]
     pub fn subcurve(&self, s: HalfEdge) -> Option<SubcurveId> {
-        label(self.piece_label(s))
+        label(self.subcurve_label(s))
     }
 
-    /// Lays a subcurve on a side and its twin, or takes it away.
-    pub fn set_piece(&mut self, s: HalfEdge, subcurve: Option<SubcurveId>) {
+    /// Sets the subcurve on a half-edge and its twin, or removes it.
+    pub fn set_subcurve(&mut self, s: HalfEdge, subcurve: Option<SubcurveId>) {
         for s in [s, self.twin(s)] {
-            self.set_piece_label(s, subcurve.map_or(NONE, |p| p.0));
+            self.set_subcurve_label(s, subcurve.map_or(NONE, |p| p.0));
         }
     }
 
@@ -327,62 +336,71 @@ impl Triangulation {
         label(self.regions[t.index()])
     }
 
-    /// Gives a triangle a region, or takes it away.
+    /// Sets the region of a triangle, or removes it.
     pub fn set_region(&mut self, t: TriangleId, region: Option<RegionId>) {
         self.regions[t.index()] = region.map_or(NONE, |r| r.0);
     }
 
-    /// Replaces side a→b of the quadrilateral `a d b c` by the other diagonal.
+    /// Replaces the diagonal a→b of the quadrilateral `a d b c` by the other one.
     ///
-    /// The triangle of `s` becomes `(d, b, c)`, that of its twin `(c, a, d)`: the new diagonal is side 2 of both. The
-    /// four outer sides keep their pieces, a subcurve on the old diagonal is lost, and the two ids keep their regions.
-    /// That the quadrilateral is convex is the caller's to know.
+    /// The new diagonal is half-edge 2 of both triangles. The four outer half-edges keep their subcurves, both ids keep
+    /// their regions, and a subcurve on the old diagonal is lost. The caller ensures that the quadrilateral is convex.
+    ///
+    /// ```text
+    ///          c                        c
+    ///       .´   `.                  .´ │ `.
+    ///     .´   t   `.              .´   │   `.      t = (a, b, c)  becomes  (d, b, c)
+    ///   a ─────s────▶ b    ─▶    a   u  │  t   b    u = (b, a, d)  becomes  (c, a, d)
+    ///     `.   u   .´              `.   │   .´
+    ///       `.   .´                  `. │ .´
+    ///          d                        d
+    /// ```
     pub fn flip(&mut self, s: HalfEdge) {
         let n = self.twin(s);
         let (t, u) = (s.triangle(), n.triangle());
         let (a, b, c, d) = (self.origin(s), self.origin(n), self.apex(s), self.apex(n));
-        let outer = [n.prev(), s.next(), s.prev(), n.next()].map(|side| (self.twin(side), self.piece_label(side)));
+        let outer = [n.prev(), s.next(), s.prev(), n.next()].map(|side| (self.twin(side), self.subcurve_label(side)));
         let fresh = [HalfEdge::of(t, 0), HalfEdge::of(t, 1), HalfEdge::of(u, 0), HalfEdge::of(u, 1)];
         self.net.records[t.index()].corners = [d, b, c];
         self.net.records[u.index()].corners = [c, a, d];
         for (side, (twin, subcurve)) in fresh.into_iter().zip(outer) {
             self.net.join(side, twin);
-            self.set_piece_label(side, subcurve);
+            self.set_subcurve_label(side, subcurve);
         }
         self.net.join(HalfEdge::of(t, 2), HalfEdge::of(u, 2));
-        self.pieces[t.index()][2] = NONE;
-        self.pieces[u.index()][2] = NONE;
+        self.subcurves[t.index()][2] = NONE;
+        self.subcurves[u.index()][2] = NONE;
         fresh.into_iter().for_each(|s| self.anchor(s));
     }
 
-    /// Remembers a side for the vertex that it starts from.
+    /// Makes a half-edge the anchor of the vertex at which it starts.
     fn anchor(&mut self, s: HalfEdge) {
         let v = self.origin(s);
         self.anchors[place_of(v)] = s;
     }
 
-    fn piece_label(&self, s: HalfEdge) -> u32 {
+    fn subcurve_label(&self, s: HalfEdge) -> u32 {
         let (t, i) = s.split();
-        self.pieces[t.index()][i]
+        self.subcurves[t.index()][i]
     }
 
-    fn set_piece_label(&mut self, s: HalfEdge, subcurve: u32) {
+    fn set_subcurve_label(&mut self, s: HalfEdge, subcurve: u32) {
         let (t, i) = s.split();
-        self.pieces[t.index()][i] = subcurve;
+        self.subcurves[t.index()][i] = subcurve;
     }
 
-    /// Replaces a cavity by the star of a new vertex, the next after all there are. Border sides keep their pieces;
-    /// each new triangle has the region of the cavity's triangle on its border side. The new triangles are those of the
-    /// cavity, and the two returned.
+    /// Replaces a cavity by the star of `apex`, whose number follows those of all vertices so far. Border half-edges
+    /// keep their subcurves. Each new triangle takes the region of the removed triangle on its border half-edge. The
+    /// new triangles have the ids of the cavity's and the two returned.
     pub(super) fn star(&mut self, apex: VertexId, triangles: &[TriangleId], border: &[HalfEdge]) -> [TriangleId; 2] {
         let mut labels = std::mem::take(&mut self.labels);
         labels.clear();
-        labels.extend(border.iter().map(|&s| (self.piece_label(s), self.regions[s.triangle().index()])));
+        labels.extend(border.iter().map(|&s| (self.subcurve_label(s), self.regions[s.triangle().index()])));
         let last = self.net.star(apex, triangles, border);
-        self.pieces.resize(self.net.len(), [NONE; 3]);
+        self.subcurves.resize(self.net.len(), [NONE; 3]);
         self.regions.resize(self.net.len(), NONE);
         for (&t, &(subcurve, region)) in triangles.iter().chain(&last).zip(&labels) {
-            self.pieces[t.index()] = [subcurve, NONE, NONE];
+            self.subcurves[t.index()] = [subcurve, NONE, NONE];
             self.regions[t.index()] = region;
             self.anchor(HalfEdge::of(t, 0));
         }
@@ -391,17 +409,17 @@ impl Triangulation {
         last
     }
 
-    /// Replaces the three triangles around a vertex of degree 3 by one, which keeps the id and region of the first.
+    /// Removes a vertex of degree 3: one triangle replaces the three around it, with the id and region of the first.
     pub(super) fn merge_star(&mut self, v: VertexId) {
         let spokes: Vec<HalfEdge> = self.sides_from(v).collect();
         assert_eq!(spokes.len(), 3, "only a vertex of degree 3 leaves a triangle");
         let t = spokes[0].triangle();
         let rim: Vec<_> = spokes.iter().map(|s| s.next()).collect();
-        let outer = [0, 1, 2].map(|i| (self.origin(rim[i]), self.twin(rim[i]), self.piece_label(rim[i])));
+        let outer = [0, 1, 2].map(|i| (self.origin(rim[i]), self.twin(rim[i]), self.subcurve_label(rim[i])));
         for (i, (corner, twin, subcurve)) in outer.into_iter().enumerate() {
             self.net.records[t.index()].corners[i] = corner;
             self.net.join(HalfEdge::of(t, i), twin);
-            self.pieces[t.index()][i] = subcurve;
+            self.subcurves[t.index()][i] = subcurve;
             self.anchors[place_of(corner)] = HalfEdge::of(t, i);
         }
         self.release(spokes[1].triangle());
@@ -409,8 +427,16 @@ impl Triangulation {
         self.anchors[place_of(v)] = HalfEdge(NONE);
     }
 
-    /// Moves a vertex of the hull to infinity: the finite triangles around it become ghosts without region, its two
-    /// ghosts vanish.
+    /// Removes a vertex of the hull by moving it to infinity: the finite triangles around it become ghosts without
+    /// region, and its two ghosts are removed.
+    ///
+    /// ```text
+    ///              v                 v → ∞: the three triangles around v become the ghosts at the new edges of
+    ///           .´╱ ╲`.              the hull, r₁r₂, r₂r₃ and r₃rₘ; the two ghosts of v, at r₁v and v rₘ, are
+    ///        .´  ╱   ╲  `.           removed. The link is convex: clip_ears has cut off all ears.
+    ///     .´   r₂─────r₃   `.
+    ///   r₁───´             `───rₘ
+    /// ```
     pub(super) fn move_to_infinity(&mut self, v: VertexId) {
         let spokes: Vec<HalfEdge> = self.sides_from(v).collect();
         let ghost = spokes.iter().position(|&s| self.target(s) == GHOST).expect("a vertex of the hull has a ghost");
@@ -418,9 +444,9 @@ impl Triangulation {
         // collapse.
         let (before, after) = (spokes[(ghost + spokes.len() - 1) % spokes.len()], spokes[ghost]);
         for (inner, outer) in [(before, before.next()), (after.prev(), after.next())] {
-            let (inner, subcurve) = (self.twin(inner), self.piece_label(outer));
+            let (inner, subcurve) = (self.twin(inner), self.subcurve_label(outer));
             self.net.join(inner, self.twin(outer));
-            self.set_piece_label(inner, subcurve);
+            self.set_subcurve_label(inner, subcurve);
         }
         for &s in spokes.iter().filter(|&&s| s != before && s != after) {
             let (t, i) = s.split();
@@ -435,12 +461,13 @@ impl Triangulation {
 
     fn release(&mut self, t: TriangleId) {
         self.net.release(t);
-        self.pieces[t.index()] = [NONE; 3];
+        self.subcurves[t.index()] = [NONE; 3];
         self.regions[t.index()] = NONE;
     }
 
-    /// What is wrong with the structure, with culprits: sides and twins that do not match, pieces that differ on twins,
-    /// stars that do not close, an Euler number other than a sphere's. Empty when all is well. Takes linear time.
+    /// The flaws of the structure, each with its place: half-edges and twins that do not match, subcurves that differ
+    /// on twins, stars that do not close, an Euler number other than that of a sphere. Empty where there are none.
+    /// Takes linear time.
     pub fn flaws(&self) -> Vec<String> {
         let mut flaws = self.side_flaws();
         // A walk around a vertex ends only where twins are sound.
@@ -456,11 +483,11 @@ impl Triangulation {
         if dead != self.net.free.len() {
             flaws.push(format!("{dead} dead triangles, but {} on the free list", self.net.free.len()));
         }
-        if self.pieces.len() != self.net.len() || self.regions.len() != self.net.len() {
+        if self.subcurves.len() != self.net.len() || self.regions.len() != self.net.len() {
             flaws.push(format!(
                 "{} triangles, {} subcurve labels, {} regions",
                 self.net.len(),
-                self.pieces.len(),
+                self.subcurves.len(),
                 self.regions.len()
             ));
             return flaws;
@@ -550,7 +577,7 @@ mod tests {
         assert_flaw(|t| t.net.records[1].corners.swap(0, 1), "its twin ends at");
         assert_flaw(|t| t.net.records[3] = DEAD, "in a dead triangle");
         assert_flaw(|t| t.net.records[3] = DEAD, "1 dead triangles, but 0 on the free list");
-        assert_flaw(|t| t.pieces[0][0] = 5, "SubcurveId(5)");
+        assert_flaw(|t| t.subcurves[0][0] = 5, "SubcurveId(5)");
         assert_flaw(|t| t.regions.truncate(2), "2 regions");
         assert_flaw(|t| t.anchors[2] = HalfEdge(NONE), "vertex 1 is a corner of 4 triangles but has no side");
         assert_flaw(|t| t.anchors[2] = t.anchors[3], "vertex 1 has side");
@@ -559,14 +586,14 @@ mod tests {
 
     #[test]
     fn two_spheres_or_a_pinched_star_are_no_triangulation() {
-        // The same wheel once more, over the same vertices: every side is sound, no star is whole.
+        // The same wheel once more, over the same vertices: every half-edge is sound, no star is whole.
         let twice = |t: &mut Triangulation| {
             let shift = t.net.len() as u32;
             let copy: Vec<Record> = t.net.records.clone();
             t.net
                 .records
                 .extend(copy.into_iter().map(|r| Record { twins: r.twins.map(|s| HalfEdge(s.0 + 3 * shift)), ..r }));
-            t.pieces.resize(t.net.len(), [NONE; 3]);
+            t.subcurves.resize(t.net.len(), [NONE; 3]);
             t.regions.resize(t.net.len(), NONE);
         };
         assert_flaw(twice, "6 triangles, 3 of them in its star");
@@ -600,9 +627,9 @@ mod tests {
         let outer = [(0, 1), (1, 2), (2, 3), (3, 0)].map(|(a, b)| (VertexId(a), VertexId(b)));
         for (i, &(a, b)) in outer.iter().enumerate() {
             let side = t.side_between(a, b).unwrap();
-            t.set_piece(side, Some(SubcurveId(i as u32)));
+            t.set_subcurve(side, Some(SubcurveId(i as u32)));
         }
-        t.set_piece(s, Some(SubcurveId(77)));
+        t.set_subcurve(s, Some(SubcurveId(77)));
         t.flip(s);
         assert_eq!(t.flaws(), Vec::<String>::new());
         assert_eq!(t.side_between(VertexId(3), VertexId(1)), None);

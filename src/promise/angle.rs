@@ -1,17 +1,18 @@
-//! The smallest angles for which corner lopping is proven to end.
+//! The smallest angles for which corner lopping is proven to terminate.
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_3, SQRT_2};
 
 /// The guarantee of the angle rule on straight input, arcsin ¼ = 14.4775° in radians.
 ///
-/// Where z encroaches xy, the rule cuts at p with |xp| : |py| = a : b, a = |xz| ≤ b = |yz|. With |xy| = 2 Stewart's
-/// theorem gives |pz|²/|xp|² = (b/a)·((a+b)² − 4)/4, and a² + b² ≤ 4 (z is in the circle) bounds that by b²/2 ≤ 2: η =
-/// √2, approached as a → 0; with ζ = √2, arcsin(1/(2ζη)) = arcsin ¼. No η is known of the rule on curves, so there
-/// nothing is proven.
+/// Where z encroaches xy, the rule splits xy at p, with |xp| : |py| = a : b, a = |xz| ≤ b = |yz|. With |xy| = 2
+/// Stewart's theorem gives |pz|²/|xp|² = (b/a)·((a+b)² − 4)/4, and a² + b² ≤ 4 (z is in the circle) bounds that by b²/2
+/// ≤ 2: η = √2, approached as a → 0; with ζ = √2, arcsin(1/(2ζη)) = arcsin ¼. No η of the rule is known on curves, so
+/// nothing is proven there.
 pub const ANGLE_RULE_GUARANTEE_RAD: f64 = 0.252_680_255_142_078_65;
 
-/// The κ (radians) below which corner lopping with the bisector rule is proven to end where no curve has a lens angle
-/// above `lambda_rad` (Pav & Walkington 2005, Corollary 3, with λ for τ; 0 ≤ λ ≤ π/3). 20.705° for straight input.
+/// The κ (radians) below which corner lopping with the bisector rule is proven to terminate where no curve has a lens
+/// angle above `lambda_rad` (Pav & Walkington 2005, Corollary 3, with λ for τ; 0 ≤ λ ≤ π/3). 20.705° for straight
+/// input.
 ///
 /// κ < arcsin(1/(2√2μ)) ∧ arcsin(1/(2ζη)) with t = tan(λ/2), η = (1+t)/(1−t), μ = 1/(1−t). Lemma 2's ζ is *corrected*:
 /// the lens' arc has central angle 2λ (the proof has λ), so ζ = √2·sin λ/(sin λ + cos λ − 1), which is √2/(1−t) and so
@@ -28,12 +29,13 @@ pub fn guaranteed_angle(lambda_rad: f64) -> f64 {
     libm::asin(1.0 / (2.0 * SQRT_2 * mu)).min(libm::asin(1.0 / (2.0 * zeta * eta)))
 }
 
-/// The largest turning of corner arcs for which κ is proven, where that is the domain's to prove: `lambda_rad` is the
-/// largest lens angle of its curves. Elsewhere π/3, the largest that keeps the angles at the rim of a ball at 60° and
-/// more (section 6).
+/// The largest turning (radians) of corner arcs for which κ is proven, if κ is proven on the curves of the domain at
+/// all; `lambda_rad` is their largest lens angle. Else π/3, the largest for which the angles at the rim of a ball are
+/// 60° and more (section 6).
 ///
-/// Arcs are curves: of turning T they have λ = T/2, so arcs of π/3 prove κ only up to 8.594°. Finer ones than a tenth
-/// of a radian would crowd the ball with vertices for the sake of the proof; then the angle is reached, not proven.
+/// Arcs are curves: of turning T they have λ = T/2, so arcs of π/3 prove κ only up to 8.594°. Arcs of less than a tenth
+/// of a radian would insert many vertices around the ball only for the proof. Then π/3 is taken, and the angle is
+/// reached, not proven.
 pub fn arc_turning(kappa_rad: f64, lambda_rad: f64) -> f64 {
     const FINEST: f64 = 0.1;
     if kappa_rad >= guaranteed_angle(lambda_rad) || kappa_rad < guaranteed_angle(FRAC_PI_3 / 2.0) {

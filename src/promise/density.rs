@@ -1,6 +1,7 @@
 //! Bounds on the density of the vertices that constrained refinement inserts.
 
-/// Bounds on D(p) = lfs(p)/R(p) by the type of p; infinite where there is none.
+/// Bounds on D(p) = lfs(p)/R(p) by the type of p; infinite where there is none (Foteinos, Chernikov & Chrisochoides
+/// 2010, section 5).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Densities {
     /// Bound for type A: the vertex was inserted for a skinny triangle.
@@ -11,11 +12,11 @@ pub struct Densities {
     pub c: f64,
 }
 
-/// What densities are held to.
+/// The bounds that densities are checked for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DensityPromise {
     /// The largest density allowed, by type.
     pub bounds: Densities,
-    /// Whether theory stands behind the bounds.
+    /// Whether theory proves the bounds.
     pub proven: bool,
 }

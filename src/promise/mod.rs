@@ -1,4 +1,4 @@
-//! What engine and verifier both know: to what a mesh is held, and what theory covers.
+//! What engine and verifier share: the guarantees that a mesh is checked for, and the angles that theory covers.
 
 mod angle;
 mod density;
@@ -8,12 +8,12 @@ pub use density::{Densities, DensityPromise};
 
 use crate::size::Sizing;
 
-/// What a mesh is held to.
+/// The guarantees that a mesh is checked for.
 #[derive(Clone, Debug)]
 pub struct Promise {
     /// κ, the smallest angle asked for; `None`: not asked.
     pub angle_min_rad: Option<f64>,
-    /// Bounds on edge lengths, areas, chord errors and turnings.
+    /// Limits on edge lengths, areas, chord errors and turnings.
     pub sizing: Sizing,
     /// Which engine made the mesh, with the bounds of that engine alone.
     pub engine: EnginePromise,
@@ -21,7 +21,7 @@ pub struct Promise {
     pub foreign: bool,
 }
 
-/// What the engine promises of itself.
+/// The guarantees of the engine that made the mesh.
 #[derive(Clone, Copy, Debug)]
 pub enum EnginePromise {
     /// Corner lopping: the mesh is Delaunay.
@@ -30,26 +30,27 @@ pub enum EnginePromise {
     Constrained(ConstrainedPromise),
 }
 
-/// What corner lopping promises: empty diametral circles, and balls around sharp corners.
+/// The guarantees of corner lopping: empty diametral circles, and balls around sharp corners.
 #[derive(Clone, Copy, Debug)]
 pub struct LoppingPromise {
     /// β, the factor by which a protecting ball shrinks: from ½ to below 1.
     pub beta: f64,
-    /// The largest turning of a corner arc, where corner arcs were on: which excuse holds, and C₀.
+    /// The largest turning of a corner arc, in radians; `None`: no corner arcs. It decides which triangles are exempt,
+    /// and C₀.
     pub arc_turning_rad: Option<f64>,
-    /// The bisector rule (whose η, μ are known), or the angle rule (η ≥ √2).
+    /// `true`: the bisector rule, whose η and μ are known; `false`: the angle rule, η ≥ √2.
     pub midpoint_bisector: bool,
 }
 
-/// What generalized constrained Delaunay refinement promises instead.
+/// The guarantees of generalized constrained Delaunay refinement.
 #[derive(Clone, Copy, Debug)]
 pub struct ConstrainedPromise {
-    /// The angle is proven on segments that meet at more than this; `None`: nowhere.
+    /// The angle is proven on segments that meet at more than this, in radians; `None`: nowhere.
     pub proven_above_rad: Option<f64>,
 }
 
 impl Promise {
-    /// What corner lopping promises, where it made the mesh.
+    /// The guarantees of corner lopping, where it made the mesh.
     pub fn lopping(&self) -> Option<&LoppingPromise> {
         match &self.engine {
             EnginePromise::Lopping(lopping) => Some(lopping),
@@ -62,7 +63,7 @@ impl Promise {
         self.lopping().is_none()
     }
 
-    /// Whether corner arcs stand around sharp corners.
+    /// Whether there are corner arcs around sharp corners.
     pub fn has_corner_arcs(&self) -> bool {
         self.lopping().is_some_and(|lopping| lopping.arc_turning_rad.is_some())
     }

@@ -1,25 +1,32 @@
-//! What refinement in any dimension shares: the loop that drives an engine, the worst-first queue, whether it comes to
-//! an end, the counters, and the reason to stop.
+//! Refinement in any dimension: the loop that drives an engine, the worst-first queue, the test for progress, the
+//! counters, and the reason to stop.
+//!
+//! ```text
+//!   drive:  ┌─▶ is `until` reached? ──────────────────── yes ──▶ cancel, finish
+//!           │   every 64 steps: does the watch say stop? yes ──▶ cancel; steps for a valid mesh go on
+//!           │   step() ───────────────────────────────── false ─▶ finish
+//!           └─────┘ true
+//! ```
 
 use crate::geometry::Point;
 use crate::watch::{Progress, Watch};
 use std::collections::{BTreeMap, VecDeque};
 
-/// A refinement, held at a step.
+/// A refinement that can be stopped between any two steps.
 pub trait Engine {
-    /// What comes of it.
+    /// The result.
     type Outcome;
 
-    /// Takes the next step. `false`: there is none, or the run is over.
+    /// Takes the next step. `false`: there is none left, or the run is over.
     fn step(&mut self) -> bool;
 
-    /// Refines no more; what a valid mesh needs is still done.
+    /// Ends the refinement. What is needed for a valid mesh is still done.
     fn cancel(&mut self);
 
-    /// Phase, vertices so far and steps that wait.
+    /// Phase, number of vertices, and number of queued steps.
     fn progress(&self) -> Progress;
 
-    /// Ends the run and returns what it has come to. It may be called after any step.
+    /// Ends the run and returns its result. It may be called after any step.
     fn finish(self) -> Self::Outcome;
 }
 
@@ -31,15 +38,15 @@ pub const CONFORMING: &str = "conforming";
 pub enum Until {
     /// Until no step is left, or the watch says stop.
     End,
-    /// Until there is a valid mesh: that from which it refines.
+    /// Until there is a valid mesh, the one from which refinement starts.
     Conforming,
-    /// So many steps.
+    /// This number of steps.
     Steps(u64),
 }
 
-/// Drives an engine as long as `watch` says to go on.
+/// Takes steps of an engine until `until` is reached, or `watch` says to stop.
 pub fn drive<E: Engine>(mut engine: E, until: Until, watch: &mut Watch) -> E::Outcome {
-    /// Steps between two questions: of microseconds on lines, of milliseconds on curves of high degree.
+    /// Steps between two calls of the watch. A step takes microseconds on lines, milliseconds on curves of high degree.
     const STEPS: u64 = 64;
     let mut steps = 0u64;
     loop {
@@ -65,16 +72,16 @@ pub fn drive<E: Engine>(mut engine: E, until: Until, watch: &mut Watch) -> E::Ou
 /// Buckets of a [`WorstFirst`] queue: fine enough that "worst" means within a few percent.
 const BUCKETS: usize = 256;
 
-/// Items that a bucket keeps room for while it is empty: few are filled only once.
+/// An empty bucket keeps its memory up to this number of items: most such buckets are filled again.
 const SMALL: usize = 64;
 
-/// A queue that hands out the worst first, first come first served within about 1/256 of badness.
+/// A queue that returns the worst item first, and of items within about 1/256 of badness the oldest.
 ///
-/// Flat buckets instead of a heap: 10⁷ entries cost a push and a pop each, and the order does not depend on the sizes
-/// of others.
+/// Buckets instead of a heap: a push and a pop take constant time at 10⁷ entries, and the order of items does not
+/// depend on other items.
 pub struct WorstFirst<T> {
     buckets: Vec<VecDeque<T>>,
-    /// No bucket above this one holds anything.
+    /// Buckets above this one are empty.
     top: usize,
     len: usize,
 }
@@ -101,7 +108,7 @@ impl<T> WorstFirst<T> {
                 self.len -= 1;
                 return Some(item);
             }
-            // An emptied bucket gives its memory back, so that a queue that was once long does not stay large.
+            // An emptied bucket frees its memory, so that a queue that was once long does not stay large.
             if self.buckets[self.top].capacity() > SMALL {
                 self.buckets[self.top] = VecDeque::new();
             }
@@ -109,63 +116,63 @@ impl<T> WorstFirst<T> {
         }
     }
 
-    /// Badness of what was handed out last, to within 1/256.
+    /// Badness of the item returned last, to within 1/256.
     pub fn badness(&self) -> f64 {
         self.top as f64 / (BUCKETS - 1) as f64
     }
 
-    /// Number of items that wait.
+    /// Number of items in the queue.
     pub fn len(&self) -> usize {
         self.len
     }
 
-    /// Whether no item waits.
+    /// Whether the queue has no items.
     pub fn is_empty(&self) -> bool {
         self.len == 0
     }
 }
 
-/// Whether a worst-first refinement still gets anywhere, told by the badness of what it works on.
+/// Whether a worst-first refinement still makes progress, measured by the badness of its cells.
 ///
-/// A refinement that ends works through the worst of its cells, then through those that are less bad, with relapses,
-/// until none is left. One that does not end comes as far as the angle that the drawing allows, and from there on makes
-/// as many bad cells as it removes. So its *mildest* badness, the least at which there was nothing worse left, stays
-/// where it is while the mesh grows.
+/// A refinement that ends removes its worst cells first, then milder ones, with relapses, until none is left. One that
+/// does not end reaches the angle that the drawing allows, and from there on makes as many bad cells as it removes. So
+/// its *mildest* badness, the least at which no worse cell was left, stays the same while the mesh grows.
 pub struct Headway {
     patience: Patience,
     /// The mildest badness since the queue was empty last.
     mildest: f64,
-    /// Cells or vertices when it was met.
+    /// Size of the mesh (cells or vertices) when the mildest badness was met.
     since: usize,
 }
 
-/// What must come together for a refinement to be given up.
+/// The conditions that must all hold for a refinement to be given up.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Patience {
     /// The mesh has grown by this factor since the mildest badness was met.
     pub growth: f64,
-    /// That badness was no larger than this: what is worse is the drawing's own detail, however long it takes.
+    /// The mildest badness is no larger than this: worse cells resolve the detail of the drawing, which may take as
+    /// long as it takes.
     pub mild: f64,
-    /// What is worked on is worse than it by this.
+    /// The badness of the current cell exceeds the mildest one by at least this.
     pub relapse: f64,
 }
 
 impl Headway {
-    /// Small meshes grow by large factors and end all the same.
+    /// Small meshes may grow by large factors and still end: growth counts beyond this size.
     const SMALL: f64 = 1000.0;
 
-    /// Headway of a refinement that has not begun, with no badness met yet.
+    /// The state before refinement begins.
     pub fn new(patience: Patience) -> Self {
         Self { patience, mildest: 1.0, since: 0 }
     }
 
-    /// Notes that there is nothing bad at `size`.
+    /// Notes that no bad cell is left when the mesh has a size.
     pub fn rest(&mut self, size: usize) {
         (self.mildest, self.since) = (1.0, size);
     }
 
-    /// Notes what is worked on when the mesh has a size; `false`: to no end. A badness of 1 says only that it comes
-    /// first.
+    /// Notes the badness of the current cell when the mesh has a size. `false`: refinement makes no progress any more.
+    /// A badness of 1 only says that the cell comes first, and does not count.
     pub fn goes_on(&mut self, badness: f64, size: usize) -> bool {
         if badness >= 1.0 {
             return true;
@@ -185,16 +192,16 @@ pub enum StopReason {
     /// Nothing is left to refine.
     #[serde(rename = "done")]
     Done,
-    /// The mesh may have no more vertices.
+    /// The vertex budget is used up.
     #[serde(rename = "vertex budget")]
     VertexBudget,
-    /// The watch said stop.
+    /// The watch stopped the run.
     #[serde(rename = "cancelled")]
     Cancelled,
-    /// It did when the time that was asked for had passed.
+    /// The watch stopped the run when the permitted time had passed.
     #[serde(rename = "timeout")]
     TimedOut,
-    /// Features nearer to each other than the coordinates can tell apart.
+    /// Features are nearer to each other than the coordinates can tell apart.
     #[serde(rename = "arithmetic")]
     Arithmetic,
     /// Angles do not get larger any more, however many vertices are inserted.
@@ -209,9 +216,9 @@ pub struct Stop {
     pub reason: StopReason,
     /// Cells that still miss a bound.
     pub unresolved: usize,
-    /// Some of the places where refinement is unresolved.
+    /// The places of some of them.
     pub places: Vec<Point>,
-    /// The smallest angle that the mesh was refined to, in degrees, where it is another than was asked for.
+    /// The smallest angle to which the mesh was refined, in degrees, where it is not the one asked for.
     pub angle_deg: Option<f64>,
 }
 

@@ -1,7 +1,7 @@
-//! A case: one run in one text file, to be repeated on any machine: the input's bytes, the request, and the version
-//! that made it.
+//! A case: one run in one text file, which repeats it on any machine. It holds the bytes of the input, the request, and
+//! the version of squinch.
 //!
-//! Written when we panic, when a promise breaks that no request can excuse, and by `mesh --case`.
+//! A case is written on a panic, on a broken guarantee that holds whatever the request, and by `mesh --case`.
 
 use super::Source;
 use super::request::Request;
@@ -19,7 +19,7 @@ use std::sync::Once;
 pub struct Case {
     /// Version of squinch that wrote it.
     pub squinch: String,
-    /// What came of the run, for people: "panic: …", "broken: manifold", "done".
+    /// The end of the run, for people: "panic: …", "broken: manifold", "done".
     pub outcome: String,
     /// The input, bytes included.
     pub input: CaseInput,
@@ -30,9 +30,9 @@ pub struct Case {
 /// The bytes that were read, and how.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CaseInput {
-    /// File name without folders: its suffix and stem tell format and title.
+    /// File name without folders. Its suffix and stem give format and title.
     pub name: String,
-    /// Format, where it was given and not told from name and content.
+    /// The format, if it was given by an option.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub format: Option<String>,
     /// The bytes themselves, under `text` or `base64`.
@@ -54,10 +54,10 @@ enum Content {
 #[derive(Debug, thiserror::Error)]
 pub enum CaseError {
     /// The text is no TOML, or not the TOML of a case.
-    #[error("no case file: {0}")]
+    #[error("not a case file: {0}")]
     Shape(#[from] toml::de::Error),
     /// The recorded bytes are not valid base64.
-    #[error("the input recorded in the case is no base64: {0}")]
+    #[error("the input recorded in the case is not base64: {0}")]
     Bytes(#[from] base64::DecodeError),
 }
 
@@ -101,7 +101,7 @@ impl Case {
         toml::to_string(self).expect("a case holds only strings, numbers and tables of them")
     }
 
-    /// Sixteen hexadecimal digits that stand for input and request, for file names.
+    /// Sixteen hexadecimal digits that identify input and request, for file names.
     pub fn fingerprint(&self) -> String {
         format!("{:016x}", fnv1a(self.to_toml().as_bytes()))
     }
@@ -115,7 +115,7 @@ impl Content {
         }
     }
 
-    /// As text where it is readable text whose line ends survive a text file, else in base64.
+    /// As text, if it is text whose line ends survive a text file, else in base64.
     fn of(bytes: &[u8]) -> Self {
         match std::str::from_utf8(bytes) {
             Ok(text) if !text.chars().any(|c| c.is_control() && c != '\n' && c != '\t') => Self::Text(text.into()),
@@ -129,7 +129,7 @@ fn fnv1a(bytes: &[u8]) -> u64 {
     bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, &byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
 }
 
-/// A panic that was caught: what it said and where.
+/// A caught panic: its message and place.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Panic {
     /// The panic's message.
@@ -145,13 +145,13 @@ impl std::fmt::Display for Panic {
 }
 
 thread_local! {
-    /// How many [`caught`] are open on this thread.
+    /// Number of calls of [`caught`] that are open on this thread.
     static CATCHING: Cell<usize> = const { Cell::new(0) };
-    /// Where this thread last panicked inside one: the payload that reaches the catcher tells only the message.
+    /// Where this thread last panicked inside of [`caught`]. The payload of a panic has the message only.
     static PLACE: RefCell<String> = const { RefCell::new(String::new()) };
 }
 
-/// Runs `work`; a panic in it comes back as a value, and nothing is printed.
+/// Runs `work`. A panic in it is returned as a value, and nothing is printed.
 ///
 /// # Errors
 /// [`Panic`] with message and place, where `work` panicked.
@@ -175,7 +175,7 @@ pub fn caught<T>(work: impl FnOnce() -> T) -> Result<T, Panic> {
 
 fn message(payload: &dyn Any) -> String {
     let text = payload.downcast_ref::<&str>().copied().or_else(|| payload.downcast_ref::<String>().map(String::as_str));
-    text.unwrap_or("a panic without words").to_owned()
+    text.unwrap_or("a panic without a message").to_owned()
 }
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! How a run ends: its exit code, and why it has no mesh.
+//! The end of a run: its exit code, and why it has no mesh.
 
 use super::Outcome;
 use super::report::{FailureKind, FailureReport, StopReport};
@@ -12,9 +12,9 @@ use crate::watch::Stopped;
 /// How a run ended, as an exit code (contract of the command line).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Exit {
-    /// Every promise kept.
+    /// Every guarantee holds.
     Done = 0,
-    /// Of a batch: any input ended otherwise.
+    /// Of a batch: some input ended with another code.
     SomeFailed = 1,
     /// Wrong options, or a request that does not fit the drawing.
     Usage = 2,
@@ -22,18 +22,18 @@ pub enum Exit {
     Unreadable = 3,
     /// The drawing has no valid arrangement, or features that coordinates cannot tell apart.
     Geometry = 4,
-    /// A requested bound is missed outside the excused places, or a budget ran out.
+    /// A requested bound is missed outside of the exempt places, or a budget ran out.
     Missed = 5,
     /// An output cannot be written.
     Unwritable = 6,
-    /// Our own fault.
+    /// A bug of squinch.
     Bug = 70,
     /// The user interrupted the run.
     Cancelled = 130,
 }
 
 impl FailureKind {
-    /// The exit code of a run that failed so.
+    /// The exit code of such a failure.
     pub fn exit(self) -> Exit {
         match self {
             Self::Request => Exit::Usage,
@@ -50,7 +50,7 @@ pub fn broken(verdict: &Verdict) -> Vec<&'static str> {
     verdict.checks.iter().filter(|c| c.status == Status::Broken).map(|c| c.name).collect()
 }
 
-/// Checks of bounds that were asked for; the rest holds of every mesh that we make.
+/// Checks of bounds that were asked for. All other checks hold for any mesh that squinch makes.
 const REQUESTED: &[&str] = &[
     "min_angle",
     "max_angle",
@@ -62,9 +62,10 @@ const REQUESTED: &[&str] = &[
     "density_b",
     "density_c",
 ];
-/// What refinement brings about last: unresolved where a budget ended it.
+/// Checks that hold only at the end of refinement: unresolved where a budget stopped it.
 const REFINED: &[&str] = &["empty_diametral", "ball_radius", "lfs_ratio"];
 
+/// The exit code of a verified mesh.
 pub(super) fn exit_of(verdict: &Verdict, reason: StopReason) -> Exit {
     let done = reason == StopReason::Done;
     let exemptible = |name: &str| REQUESTED.contains(&name) || !done && REFINED.contains(&name);
@@ -78,7 +79,7 @@ pub(super) fn exit_of(verdict: &Verdict, reason: StopReason) -> Exit {
     }
 }
 
-/// How a run ended, in words that do not depend on coordinates: what a reduced case must keep.
+/// The end of a run in words without coordinates. A reduced case must have the same.
 pub fn ending(outcome: &Outcome) -> String {
     if let Some(failure) = &outcome.report.failure {
         let kind = match failure.kind {
@@ -102,7 +103,7 @@ pub fn ending(outcome: &Outcome) -> String {
     }
 }
 
-/// `#` for every number of a text.
+/// A text with `#` in place of each number.
 fn without_numbers(text: &str) -> String {
     let of_number = |c: char| c.is_ascii_digit() || matches!(c, '.' | '+' | '-' | 'e' | 'E');
     let mut plain = String::with_capacity(text.len());
@@ -154,14 +155,14 @@ impl From<RefineError> for FailureReport {
     }
 }
 
-/// Why a refinement that stopped has no mesh to show; `more` is the option that lets it run longer.
+/// Why a stopped refinement has no mesh. `more` is the option that lets it run longer.
 pub fn no_mesh(stop: &Stop, more: &str) -> FailureReport {
     let (what, help) = match stop.reason {
         StopReason::VertexBudget => {
-            ("the vertex budget ended before there was a valid mesh", "give more by --max-vertices".into())
+            ("the vertex budget ended before there was a valid mesh", "allow more by --max-vertices".into())
         }
         StopReason::Cancelled | StopReason::TimedOut => {
-            ("the run was stopped before there was a valid mesh", format!("give more by {more}"))
+            ("the run was stopped before there was a valid mesh", format!("allow more by {more}"))
         }
         StopReason::Done | StopReason::Arithmetic | StopReason::NoProgress => (
             "features are nearer to each other than the coordinates can tell apart",

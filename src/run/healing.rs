@@ -1,21 +1,29 @@
-//! How coarsely a drawing is welded where nobody said: the tolerances that are tried, and the one that is taken.
+//! Healing: the choice of the tolerance, if the request gives none.
 //!
-//! **The rule.** A drawing is welded within 1e-9 of its diagonal. Drawn hastily, traced twice or rounded, it has hair
-//! gaps then, and a mesh with good angles takes as many triangles along a gap as it is longer than wide. So, unless a
-//! tolerance was given:
+//! **The rule.** A drawing is welded within 1e-9 of its diagonal. If it was drawn hastily, traced twice or rounded, it
+//! then has hair gaps. A mesh with good angles needs about l/w triangles along a gap of length l and width w. So,
+//! without a given tolerance:
 //!
-//! - A *sketch* ([`Drawing::sketch`]: an SVG picture whose numbers have the digits of a picture) is welded within the
-//!   least of 1e-6, 1e-5 and 1e-4 of its diagonal that leaves slivers of few vertices, where those of the finer weld
-//!   would take many; its area may change by a thousandth.
-//! - Any other drawing is welded within 1e-6 where the slivers narrower than that would take tens of thousands of
-//!   vertices, and its area changes by no more than 1e-8 of it: exact work stays exact, or is refused by the estimate.
-//! - `--min-edge H` says that nothing finer than H needs to be meshed: any drawing is a sketch of a third of it (a loop
-//!   is safe from three tolerances on).
-//! - What cannot be meshed because its features lie nearer to each other than the coordinates can tell apart is tried
-//!   again within the next coarser one of these tolerances, under the same limit to its area; a sketch that cannot be
-//!   arranged is, too. Exact work is refused instead: of what was never arranged nobody knows what welding changes.
+//! - A *sketch* ([`Drawing::sketch`]: SVG artwork, by the digits of its numbers) is welded within the least of 1e-6,
+//!   1e-5 and 1e-4 of its diagonal at which slivers take few vertices, if they would take many at 1e-9. Its areas may
+//!   change by a thousandth.
+//! - Any other drawing is welded within 1e-6 if the slivers narrower than that would take tens of thousands of vertices
+//!   and areas change by at most 1e-8. So exact drawings stay exact, or the estimate refuses them.
+//! - With `--min-edge H` nothing finer than H needs to be meshed. Then any drawing is a sketch, up to a tolerance of
+//!   H/3. (A loop survives if it is longer than three tolerances.)
+//! - If features are nearer to each other than coordinates can distinguish, the run is repeated with the next coarser
+//!   one of these tolerances, under the same bound on areas. A sketch that cannot be arranged is repeated likewise. Any
+//!   other drawing is refused then: without an arrangement there are no areas to compare with.
 //!
-//! That it was done is the first repair of the list ([`RepairKind::ToleranceRaised`]), with the tolerance taken.
+//! ```text
+//!     tolerance, in parts of the diagonal:      1e-9        1e-6      1e-5      1e-4      H/3
+//!     a sketch                                   ●──────────▶●────────▶●────────▶●┄┄┄┄┄┄┄▶●   areas change ≤ 1e-3
+//!     any other drawing                          ●──────────▶●                                areas change ≤ 1e-8
+//!
+//!     ▶ taken if slivers take too many vertices, or if an engine cannot distinguish features    ┄ with --min-edge H
+//! ```
+//!
+//! A raised tolerance is the first repair of the list ([`RepairKind::ToleranceRaised`]).
 
 use super::report::{FailureKind, FailureReport};
 use super::request::{Keep, Overlap, Request};
@@ -31,54 +39,57 @@ const SKETCH: [f64; 3] = [1e-6, 1e-5, 1e-4];
 /// The tolerance of other drawings.
 const EXACT: f64 = 1e-6;
 
-/// Estimated vertices of slivers that a sketch may have, and more for each of its curves. Runs take some fifty times as
-/// many.
+/// Largest estimated number of vertices at slivers of a sketch, and an addition for each curve. Runs take about fifty
+/// times as many.
 const SKETCH_VERTICES: [f64; 2] = [500.0, 0.125];
 
-/// The same of other drawings.
+/// The same for other drawings.
 const EXACT_VERTICES: [f64; 2] = [50_000.0, 0.0];
 
-/// Part of the whole area by which welding may change the regions of a sketch in sum: what loses more consists of
-/// slivers.
+/// Largest change of the areas of a sketch by welding, in sum, as a part of its area. A sketch that would lose more
+/// consists of slivers.
 const SKETCH_AREA: f64 = 1e-3;
 
-/// The same of other drawings: cells whose common walls were computed twice miss each other by some 1e-9 of it.
+/// The same for other drawings. Common walls of cells that were computed twice differ by about 1e-9 of the area.
 const EXACT_AREA: f64 = 1e-8;
 
-/// A coarser tolerance must lessen the vertices of slivers to this part to be worth it.
+/// A coarser tolerance is taken only if it reduces the vertices at slivers to this part.
 const WORTH: f64 = 0.5;
 
-/// Slivers are counted up to so many times what will do.
+/// Slivers are counted up to this multiple of the number that is enough.
 const COUNTED: f64 = 64.0;
 
-/// A drawing on its way to a domain within the right tolerance.
+/// Finds the tolerance at which a drawing becomes a domain.
 pub struct Healing<'a> {
+    /// The drawing.
     pub drawing: &'a Drawing,
+    /// The request.
     pub request: &'a Request,
-    /// Coarser tolerances that may be taken, in the order in which they are tried.
+    /// Coarser tolerances that may be tried, in order.
     left: Vec<f64>,
-    /// The one that was taken last; 0 before.
+    /// The last one taken; 0 before.
     taken: f64,
-    /// Areas of the kept regions, by name, within the finest tolerance that was arranged.
+    /// Areas of the kept regions, by name, at the finest tolerance that gave a domain.
     areas: Option<Areas>,
 }
 
-/// By the name itself: those of fragments are numbered as each domain comes upon them.
+/// Areas by name. Numbers of fragments differ between domains, so names are used instead of ids.
 type Areas = BTreeMap<String, f64>;
 
-/// What asks for a coarser tolerance.
+/// The reason for a coarser tolerance.
 struct Why {
     at: Point,
     what: String,
 }
 
-/// A domain, and the vertices that its slivers take at least; infinite where they are too many to be counted.
+/// A domain, and the least number of vertices at its slivers; infinite if they are too many to count.
 struct Candidate {
     domain: Domain,
     vertices: f64,
 }
 
 impl<'a> Healing<'a> {
+    /// All tolerances that may be tried for a drawing.
     pub fn new(drawing: &'a Drawing, request: &'a Request) -> Self {
         let diagonal = drawing.bounds().map_or(0.0, |b| libm::hypot(b.width(), b.height()));
         let simplified = request.limits.min_edge.map(|edge| edge / 3.0);
@@ -93,10 +104,11 @@ impl<'a> Healing<'a> {
         self.drawing.sketch || self.request.limits.min_edge.is_some()
     }
 
-    /// The drawing within the request's tolerance, or the finest that will do.
+    /// The drawing at the tolerance of the request, or at the finest one that is good enough.
     ///
     /// # Errors
-    /// Where no tolerance gives a domain: of the finest. Where there is nothing to mesh, or the watch says stop.
+    /// Where no tolerance gives a domain: the error of the finest one. Where there is nothing to mesh, or the watch
+    /// says stop.
     pub fn arrange(&mut self, watch: &mut Watch) -> Result<Domain, FailureReport> {
         let domain = match self.arrange_within(self.request.tolerance, watch) {
             Ok(domain) if domain.regions().is_empty() => return Err(no_region()),
@@ -117,8 +129,8 @@ impl<'a> Healing<'a> {
         else {
             return Ok(finest.domain);
         };
-        // Slivers wider than a tolerance stay. First comes the finest one that leaves few, or that no coarser one is
-        // worth it; then those.
+        // Slivers wider than a tolerance stay. The first tolerance to try is the finest one at which few vertices stay,
+        // or so many that no coarser one is worth it. The rest follows.
         let stay = |within: f64| slivers.iter().filter(|(_, s)| s.width >= within).map(|(n, _)| n).sum::<f64>();
         let few = self.left.last().map_or(0.0, |&coarsest| stay(coarsest) / WORTH).max(self.enough(&finest.domain));
         let (mut first, mut last): (Vec<f64>, Vec<f64>) = self.left.iter().partition(|&&within| stay(within) <= few);
@@ -130,8 +142,8 @@ impl<'a> Healing<'a> {
         Ok(self.coarser(Some(finest), &why, watch)?.expect("there was one to begin with"))
     }
 
-    /// The drawing within another tolerance, the next coarser one first, after `failure` of the engine; `None` where
-    /// there is none left.
+    /// The drawing at the next coarser tolerance, after an engine failed with `failure`; `None` where there is none
+    /// left.
     ///
     /// # Errors
     /// Where the watch says stop.
@@ -141,7 +153,7 @@ impl<'a> Healing<'a> {
         self.coarser(None, &Why { at: Point::new(x, y), what: failure.what.clone() }, watch)
     }
 
-    /// The drawing within a tolerance that nobody asked for yet; `None` where that leaves nothing to mesh.
+    /// The drawing at a tolerance that the request does not ask for; `None` where that leaves nothing to mesh.
     ///
     /// # Errors
     /// Where the watch says stop.
@@ -153,8 +165,8 @@ impl<'a> Healing<'a> {
         }
     }
 
-    /// The first domain, within coarser and coarser tolerances, of which the slivers will do; or else the one with the
-    /// least of them.
+    /// The first domain, at increasing tolerances, whose slivers take few enough vertices; else the one with the
+    /// fewest.
     fn coarser(
         &mut self,
         mut best: Option<Candidate>,
@@ -163,7 +175,7 @@ impl<'a> Healing<'a> {
     ) -> Result<Option<Domain>, FailureReport> {
         for tolerance in self.left.clone() {
             if best.is_some() && tolerance < self.taken {
-                // What is finer than the best so far leaves more.
+                // A finer tolerance leaves more slivers than the best one so far.
                 break;
             }
             let mut domain = match self.arrange_within(Some(tolerance), watch) {
@@ -201,13 +213,13 @@ impl<'a> Healing<'a> {
         few + per_curve * domain.curves().len() as f64
     }
 
-    /// All of them, or more than can be counted; of those that welding within `above` leaves also so many that it is
-    /// known what welding does.
+    /// The slivers of a domain: all of them, or more than are counted. Those that stay when welding within `above` are
+    /// also counted up to that number, so that the effect of welding is known.
     fn slivers(&self, domain: &Domain, above: f64, watch: &mut Watch) -> Result<Vec<(f64, Sliver)>, Stopped> {
         costly_slivers(domain, self.request.angle_min_rad(), COUNTED * self.enough(domain), above, watch)
     }
 
-    /// Whether the regions of a domain are what they are within the finest tolerance.
+    /// Whether the areas of the regions are those at the finest tolerance, within the bound.
     fn is_alike(&self, domain: &Domain) -> bool {
         let Some(finest) = &self.areas else { return !domain.regions().is_empty() };
         let part = if self.is_sketch() { SKETCH_AREA } else { EXACT_AREA };
@@ -238,7 +250,7 @@ fn areas(domain: &Domain) -> Areas {
     let mut areas = Areas::new();
     let mut unnamed = 0;
     for region in domain.regions().iter() {
-        // Regions without a name are told from each other by their size only: the largest is the first.
+        // Regions without a name are matched by size: the largest is the first.
         let name = if region.is_named {
             domain.name(region.name).to_owned()
         } else {

@@ -1,4 +1,5 @@
-//! From bytes to a judged mesh: read → arrange → split to turning → refine → verify. Each stage can be had alone.
+//! From bytes to a verified mesh: read → arrange → split to turning → refine → verify. Each stage is a function of its
+//! own.
 
 pub mod case;
 mod exit;
@@ -27,16 +28,16 @@ use healing::Healing;
 use report::{FailureKind, FailureReport, MeshReport, PromiseReport, Report, StopReport};
 use request::{Order, Request};
 
-/// What came of a run: as much of it as there is.
+/// The result of a run, as far as it came.
 #[derive(Debug)]
 pub struct Outcome {
     /// How the run ended, as an exit code.
     pub exit: Exit,
     /// The report, complete but for the time of writing and the memory.
     pub report: Report,
-    /// The domain, its curves cut to τ.
+    /// The domain, with its curves cut to τ.
     pub domain: Option<Domain>,
-    /// The mesh, valid if not complete; `None` where the run ended before there was one.
+    /// The mesh. It is valid, but may be unfinished. `None` where the run ended before there was one.
     pub mesh: Option<Mesh>,
     /// The verifier's checks of the mesh; `None` where there is no mesh.
     pub verdict: Option<Verdict>,
@@ -44,13 +45,13 @@ pub struct Outcome {
 
 /// How far a run goes.
 pub enum Extent<'a> {
-    /// To its end, as long as the watch says to go on and the time asked for lasts.
+    /// To its end, as long as the watch allows and the time lasts.
     Whole(&'a mut Watch<'a>),
-    /// So many steps of the engine, whatever the time.
+    /// This number of steps of the engine, without a time limit.
     Steps(u64),
 }
 
-/// Reads, arranges, refines and judges. `clock` tells the seconds of the report, and when the time asked for is over.
+/// Reads, arranges, refines and verifies. `clock` gives the seconds of the report, and the end of the time asked for.
 pub fn run(source: &Source, request: &Request, extent: Extent, clock: &Clock) -> Outcome {
     let mut outcome = Outcome::begun(source.path, request);
     let begun = clock();
@@ -64,7 +65,7 @@ pub fn run(source: &Source, request: &Request, extent: Extent, clock: &Clock) ->
     outcome
 }
 
-/// The run from a drawing on.
+/// The same, from a drawing on.
 pub fn run_drawing(drawing: &Drawing, request: &Request, extent: Extent, clock: &Clock) -> Outcome {
     let mut outcome = Outcome::begun(&drawing.title, request);
     outcome.go_on(drawing, request, extent, Timer { clock, begun: clock(), request });
@@ -130,8 +131,9 @@ impl Outcome {
         };
         self.report.seconds.mesh += laps.lap();
 
-        // Whatever the time: a mesh that nobody judged is worth nothing, and the judge's work is bounded by its size.
-        let mut verdict = plan.judge(Some(&domain), &mesh);
+        // The mesh is verified even after the time limit. An unverified mesh is useless, and the time for it is bounded
+        // by its size.
+        let mut verdict = plan.verify(Some(&domain), &mesh);
         verdict.checks.extend(plan.densities(&domain, &mesh, &insertions));
         if stop.angle_deg.is_some() {
             self.report.stop = Some(StopReport::new(&stop).with_unresolved_angles(&verdict));
@@ -142,16 +144,16 @@ impl Outcome {
         self.report.seconds.verify = laps.lap();
         self.exit = exit_of(&verdict, stop.reason);
         if self.exit == Exit::Bug {
-            let what = format!("the mesh breaks what no request can excuse: {}", broken(&verdict).join(", "));
+            let what =
+                format!("the mesh breaks guarantees that hold whatever the request: {}", broken(&verdict).join(", "));
             self.report.failure = Some(FailureReport::new(FailureKind::Bug, what, "please send us the case file"));
         }
         (self.domain, self.mesh, self.verdict) = (Some(domain), Some(mesh), Some(verdict));
         Ok(())
     }
 
-    /// Refines what was arranged; where coordinates cannot tell its features apart, what a coarser tolerance makes of
-    /// the drawing, as often as healing has one left. The domain, its curves cut to τ, and what was asked of the
-    /// engine.
+    /// Refines a domain. Where coordinates cannot distinguish its features, healing gives the domain at a coarser
+    /// tolerance, as long as it has one left. Returns the domain with its curves cut to τ, and the plan.
     fn mesh_healed(
         &mut self,
         mut arranged: Domain,
@@ -195,7 +197,7 @@ fn more_of(steps: Option<u64>) -> &'static str {
     if steps.is_none() { "--timeout" } else { "--until" }
 }
 
-/// Gives a mesh the unit and the plane of its drawing, and its named nodes.
+/// Sets the unit, the plane and the named nodes of a mesh from its drawing.
 fn dress(mesh: &mut Mesh, drawing: &Drawing, domain: &Domain) {
     mesh.unit = drawing.unit.as_ref().map(|(unit, _)| unit.clone());
     mesh.frame = drawing.frame;
@@ -218,7 +220,7 @@ impl Laps<'_> {
     }
 }
 
-/// The time that a request gives.
+/// The time limit of a request.
 struct Timer<'a> {
     clock: &'a Clock<'a>,
     begun: f64,
@@ -231,22 +233,21 @@ impl Timer<'_> {
     }
 }
 
-/// A watch that says stop when the request's time, which begins now, is over.
+/// A watch that says stop when the time limit of the request is over. It begins now.
 pub fn timer<'a>(request: &'a Request, clock: &'a Clock) -> impl FnMut(&Progress) -> bool + 'a {
     let timer = Timer { clock, begun: clock(), request };
     move |_| !timer.is_over()
 }
 
-/// Drawing → domain, as long as `watch` says to go on, within the request's tolerance or the one that `Healing` takes.
+/// Drawing → domain, at the request's tolerance or at the one that `Healing` takes, as long as `watch` allows.
 ///
 /// # Errors
-/// Where the drawing has no valid arrangement: the place and the way out. Where the watch says stop before the end.
+/// Where the drawing has no valid arrangement: with the place and the way out. Where the watch says stop.
 pub fn arrange(drawing: &Drawing, request: &Request, watch: &mut Watch) -> Result<Domain, FailureReport> {
     Healing::new(drawing, request).arrange(watch)
 }
 
-/// Where the request says to heal nothing: what the default tolerance would have mended. A note where that cannot be
-/// told.
+/// With `--tolerance 0`: the repairs that the default tolerance would have made. A note where these cannot be computed.
 pub fn unhealed(drawing: &Drawing, request: &Request, notes: &mut Vec<String>, watch: &mut Watch) -> Vec<Repair> {
     if request.tolerance != Some(0.0) {
         return Vec::new();
@@ -257,7 +258,7 @@ pub fn unhealed(drawing: &Drawing, request: &Request, notes: &mut Vec<String>, w
     })
 }
 
-/// Refuses the name of a region at a place that is in none.
+/// Refuses a name for a region at a place outside of all regions.
 fn check_named_regions(domain: &Domain, request: &Request) -> Result<(), FailureReport> {
     let is_there = |name: &str| domain.regions().iter().any(|region| domain.name(region.name) == name);
     for name in &request.name {

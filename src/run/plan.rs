@@ -1,5 +1,4 @@
-//! A request made ready for one domain: sizes, turning, the engine and its options, and what the verifier holds the
-//! mesh to.
+//! A request prepared for one domain: sizes, turning, the engine with its options, and the bounds for the verifier.
 
 mod angles;
 mod budget;
@@ -22,17 +21,17 @@ use crate::verify::{self, Check, Verdict, verify};
 use crate::watch::{Progress, Stopped, Watch};
 use std::collections::BTreeSet;
 
-/// A request made ready for one domain: what the engine is asked, and what the judge holds it to.
+/// A request prepared for one domain: the options of the engine, and the bounds for the verifier.
 #[derive(Clone, Debug)]
 pub struct Plan {
-    /// Largest turning of a curve before it is refined.
+    /// Largest turning of a curve when refinement starts.
     pub tau_rad: f64,
     options: lopping::Options,
-    /// Where that engine refines.
+    /// The options of constrained refinement, if that is the engine.
     gcdr: Option<Gcdr>,
 }
 
-/// What is asked of the engine for generalized constrained Delaunay refinement.
+/// The options of generalized constrained Delaunay refinement.
 #[derive(Clone, Debug)]
 struct Gcdr {
     options: gcdr::Options,
@@ -54,11 +53,11 @@ impl Gcdr {
         })
     }
 
-    /// Holds δ₂, δ₁ and μ to (3.1)–(3.3). Corners below 60° have no interval: their segments are split on shells.
+    /// Checks δ₂, δ₁ and μ against (3.1)–(3.3). Segments at corners below 60° are split on shells and have no interval.
     fn check(&self, domain: &Domain) -> Result<(), FailureReport> {
         let rho = radius_edge_of(self.options.angle_min_rad);
         self.options.regions.check(rho, gcdr::least_angle(domain)).map_err(|violation| {
-            let help = "give more by --delta2, --delta1 or --mu, or a smaller --min-angle";
+            let help = "use larger --delta2, --delta1 or --mu, or a smaller --min-angle";
             FailureReport::new(FailureKind::Request, violation.to_string(), help)
         })
     }
@@ -74,11 +73,11 @@ impl Gcdr {
 }
 
 impl Plan {
-    /// The domain, its curves cut to τ, and what is asked of it: corner arcs as fine as its guarantee needs.
+    /// The domain with its curves cut to τ, and the plan for it. Corner arcs are as fine as the guarantee needs.
     ///
     /// # Errors
-    /// A `--size-of` whose name the domain does not know, more pieces than the vertex budget, or a watch that says
-    /// stop.
+    /// A `--size-of` with a name that the domain does not have, more pieces than the vertex budget, or a watch that
+    /// says stop.
     pub fn new(
         drawing: &Drawing,
         domain: &Domain,
@@ -101,8 +100,8 @@ impl Plan {
         Ok((domain, Self { tau_rad, options, gcdr }))
     }
 
-    /// Of a mesh whose drawing is not known: a share of its diagonal cannot be told, and any name may be of a boundary
-    /// or a region.
+    /// The plan for a mesh without a drawing. Sizes in percent of the diagonal are unknown, and a name may be of a
+    /// boundary or of a region.
     pub fn without_domain(request: &Request) -> Self {
         let mut sizing = request.limits.sizing(None);
         for SizeOf { name, edge } in &request.limits.size_of {
@@ -149,7 +148,7 @@ impl Plan {
         }
     }
 
-    /// Holds the densities that a run recorded to their bounds; none where it did not.
+    /// Checks the recorded densities of a run against their bounds; empty where none were recorded.
     pub fn densities(&self, domain: &Domain, mesh: &Mesh, insertions: &[Insertion]) -> Vec<Check> {
         let Some(gcdr) = self.gcdr.as_ref().filter(|gcdr| gcdr.options.record) else { return Vec::new() };
         let disks = gcdr.choices.strategy(gcdr.options.angle_min_rad).disks();
@@ -157,16 +156,16 @@ impl Plan {
         verify::densities(domain, mesh, insertions, promise).into()
     }
 
-    /// Holds a mesh of ours to what was asked, by its links to the domain's curves.
-    pub fn judge(&self, domain: Option<&Domain>, mesh: &Mesh) -> Verdict {
+    /// Verifies a mesh of ours, by its links to the curves of the domain.
+    pub fn verify(&self, domain: Option<&Domain>, mesh: &Mesh) -> Verdict {
         verify(domain, mesh, &self.promise(false))
     }
 
-    /// Holds a mesh from a file to what was asked. Other programs drop or renumber what ties a mesh to its curves:
-    /// where that does not hold, the mesh is judged by where its nodes lie, if it stands better so. Returns that mesh,
-    /// without its ties, beside the verdict.
-    pub fn judge_file(&self, domain: Option<&Domain>, mesh: &Mesh) -> (Verdict, Option<Mesh>) {
-        let by_links = self.judge(domain, mesh);
+    /// Verifies a mesh from a file. Other programs drop or renumber the links of a mesh to its curves. If the checks
+    /// fail by links, the mesh is verified by the places of its nodes, and that verdict is taken if it is better. Then
+    /// the mesh without links is returned beside the verdict.
+    pub fn verify_file(&self, domain: Option<&Domain>, mesh: &Mesh) -> (Verdict, Option<Mesh>) {
+        let by_links = self.verify(domain, mesh);
         if domain.is_none() || by_links.kept() {
             return (by_links, None);
         }
@@ -176,7 +175,7 @@ impl Plan {
     }
 }
 
-/// A domain with its curves cut to τ, where that takes no more vertices than the mesh may have.
+/// A domain with its curves cut to τ, if that takes no more vertices than the budget.
 fn split_to_turning(
     domain: &Domain,
     tau_rad: f64,
@@ -200,7 +199,7 @@ fn split_to_turning(
         let failure = no_mesh(&stop, "--max-vertices");
         FailureReport {
             what: format!("pieces that turn at most {tau_rad:e} take {needed} vertices or more"),
-            help: "let them turn more by --max-turning, or give more by --max-vertices".into(),
+            help: "let them turn more by --max-turning, or allow more by --max-vertices".into(),
             ..failure
         }
     })
@@ -216,7 +215,7 @@ fn engine_options(request: &Request, sizing: Sizing) -> lopping::Options {
     }
 }
 
-/// Sizes of the request and of the drawing.
+/// The sizes of the request and of the drawing.
 fn sizing(drawing: &Drawing, domain: &Domain, request: &Request) -> Result<Sizing, FailureReport> {
     let diagonal = drawing.bounds().map(|b| libm::hypot(b.width(), b.height()));
     let plain = request.limits.sizing(diagonal);
@@ -225,14 +224,15 @@ fn sizing(drawing: &Drawing, domain: &Domain, request: &Request) -> Result<Sizin
     let undefined = request.limits.size.as_ref().and_then(|size| size.undefined_at(domain.points().iter().copied()));
     if let Some(at) = undefined {
         let what = format!(
-            "--size {} is no positive length",
+            "--size {} is not a positive length",
             request.limits.size.as_ref().map_or(String::new(), ToString::to_string)
         );
         let help = "an expression must be positive all over the drawing: max(h, …) keeps it so";
         return Err(FailureReport::new(FailureKind::Request, what, help).at(at));
     }
     let boundaries: BTreeSet<&str> = domain.curves().iter().map(|c| domain.name(c.name)).collect();
-    // A region that is called so after the layer of its outline only has the size of that outline, not one of its own.
+    // A region that has its name only from the layer of its outline has no size of its own. The size is that of the
+    // outline.
     let is_own = |region: &&Region| region.is_named || !boundaries.contains(domain.name(region.name));
     let regions: BTreeSet<&str> = domain.regions().iter().filter(is_own).map(|r| domain.name(r.name)).collect();
     for SizeOf { name, edge } in &request.limits.size_of {

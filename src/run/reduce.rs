@@ -1,4 +1,14 @@
-//! Shrinks a drawing while a run of it ends the same way: what is left shows the fault and little else.
+//! Reduces a drawing while its run ends the same way. The result shows the fault and little else.
+//!
+//! ```text
+//!    1. drop whole chains        2. a line for a stretch of a chain      3. drop single curves, points, seeds, sizes
+//!
+//!       ┌──┐  ┌──┐     ┌──┐          ╭─╮ ╭─╮        ┌─────┐                 ┌──┐      ┌──┐
+//!       │  │  │  │  ▶  │  │          │ ╰─╯ │   ▶    │     │                 │  │  ▶   │
+//!       └──┘  └──┘     └──┘          └─────┘        └─────┘                 └──┘      └──┘
+//!
+//!    Each trial is a run. It is kept if it ends as the first run did. The steps repeat until nothing changes.
+//! ```
 
 use super::case::{Panic, caught};
 use super::request::Request;
@@ -7,20 +17,19 @@ use crate::curve::Curve;
 use crate::domain::{Drawing, DrawnCurve};
 use crate::watch::no_clock;
 
-/// A drawing from which nothing more could be taken, or not within the budget.
+/// A drawing from which nothing more can be removed, or the best one within the budget.
 #[derive(Clone, Debug)]
 pub struct Reduced {
     /// What is left of the drawing.
     pub drawing: Drawing,
-    /// How its run ends, as the first did.
+    /// How its run ends. The first run ended the same way.
     pub ending: String,
-    /// Number of runs made, the first included.
+    /// Number of runs, with the first.
     pub runs: usize,
 }
 
-/// Takes whole chains, stretches of chains, then single curves, points, seeds and size requests away while the run ends
-/// the same way, in at most `runs_max` runs. `tell` hears how many runs there were and how many curves were left in the
-/// last.
+/// Removes whole chains, stretches of chains, then single curves, points, seeds and sizes, while the run ends the same
+/// way, in at most `runs_max` runs. `tell` is called with the number of runs and the number of curves in the last one.
 pub fn reduce(drawing: &Drawing, request: &Request, runs_max: usize, tell: &mut dyn FnMut(usize, usize)) -> Reduced {
     let ending = ending_of(drawing, request);
     let mut runs = 1;
@@ -44,12 +53,12 @@ pub fn reduce(drawing: &Drawing, request: &Request, runs_max: usize, tell: &mut 
     }
 }
 
-/// How the run of a drawing ends, panics included.
+/// How the run of a drawing ends, also with a panic.
 pub fn ending_of(drawing: &Drawing, request: &Request) -> String {
     ending_or_panic(&caught(|| run_drawing(drawing, request, Extent::Whole(&mut |_| true), &no_clock)))
 }
 
-/// How a run ended that may have broken down.
+/// How a run ended, also with a panic.
 pub fn ending_or_panic(run: &Result<Outcome, Panic>) -> String {
     match run {
         Ok(outcome) => ending(outcome),
@@ -61,10 +70,10 @@ fn weight(drawing: &Drawing) -> usize {
     drawing.curves.len() + drawing.points.len() + drawing.seeds.len() + drawing.sizes.len()
 }
 
-/// What can be dropped from a drawing at once.
+/// A part of a drawing that can be dropped.
 #[derive(Clone, Debug, PartialEq, Eq)]
 enum Part {
-    /// Curves from the first to before the last.
+    /// Curves from the first index up to, not including, the last.
     Curves(usize, usize),
     Point(usize),
     Seed(usize),
@@ -99,14 +108,14 @@ fn follows(drawing: &Drawing, i: usize) -> bool {
     i > 0 && drawing.curves[i - 1].curve.end() == drawing.curves[i].curve.start()
 }
 
-/// Drops what can be dropped of the parts that `parts_of` names.
+/// Drops parts of a drawing, where `parts_of` lists the parts.
 fn drop_parts(drawing: &mut Drawing, parts_of: fn(&Drawing) -> Vec<Part>, same: &mut dyn FnMut(&Drawing) -> bool) {
     let whole = &*drawing;
     let kept = shrink(parts_of(whole), &mut |parts| same(&only(whole, parts)));
     *drawing = only(whole, &kept);
 }
 
-/// The drawing with these parts (ascending) and no other.
+/// The drawing with only these parts, which are ascending.
 fn only(drawing: &Drawing, parts: &[Part]) -> Drawing {
     let mut rest =
         Drawing { curves: Vec::new(), points: Vec::new(), seeds: Vec::new(), sizes: Vec::new(), ..drawing.clone() };
@@ -121,7 +130,7 @@ fn only(drawing: &Drawing, parts: &[Part]) -> Drawing {
     rest
 }
 
-/// Replaces stretches of chains by straight lines, from long stretches to pairs of curves: an outline stays closed.
+/// Replaces stretches of chains by straight lines, from long stretches to pairs of curves. So an outline stays closed.
 fn shorten_chains(drawing: &mut Drawing, same: &mut dyn FnMut(&Drawing) -> bool) {
     let mut length = drawing.curves.len() / 2;
     while length >= 2 {
@@ -136,8 +145,8 @@ fn shorten_chains(drawing: &mut Drawing, same: &mut dyn FnMut(&Drawing) -> bool)
     }
 }
 
-/// The drawing with a line for the curves from `from` to before `to`; `None` where they are no chain, or the line had
-/// no length.
+/// The drawing with a line in place of the curves from `from` up to, not including, `to`; `None` where they are not a
+/// chain, or where the line would have length zero.
 fn shortened(drawing: &Drawing, from: usize, to: usize) -> Option<Drawing> {
     let (first, last) = (&drawing.curves[from], &drawing.curves[to - 1]);
     if (from + 1..to).any(|i| !follows(drawing, i)) || first.curve.start() == last.curve.end() {
@@ -149,8 +158,8 @@ fn shortened(drawing: &Drawing, from: usize, to: usize) -> Option<Drawing> {
     Some(trial)
 }
 
-/// What is left of `items` that still `fails` and from which no single item can be dropped
-/// (delta debugging, Zeller & Hildebrandt 2002, by complements only).
+/// The rest of `items` that still `fails` and from which no single item can be dropped (delta debugging, Zeller &
+/// Hildebrandt 2002, by complements only).
 fn shrink<T: Clone>(mut items: Vec<T>, fails: &mut dyn FnMut(&[T]) -> bool) -> Vec<T> {
     let mut chunk = items.len().div_ceil(2).max(1);
     loop {
@@ -242,7 +251,7 @@ mod tests {
 
     #[test]
     fn a_run_is_reduced_to_the_part_that_ends_it() {
-        // Two rings that hold a mesh, and a size for a name that nothing bears: any one triangle is enough to say so.
+        // Two rings with a mesh, and a size for a name that does not exist. Any one triangle is enough for this error.
         let request = sized_of_nothing();
         let reduced = reduce(&rings(2, 12), &request, 500, &mut |_, _| {});
         assert!(reduced.ending.starts_with("request: "), "{}", reduced.ending);

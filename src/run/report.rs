@@ -1,6 +1,6 @@
 //! The report: one JSON object a run, schema 1. Fields come in this order and change only by addition.
 //!
-//! All but `seconds` and `peak_memory_bytes` is the same, byte for byte, for the same input.
+//! All fields except `seconds` and `peak_memory_bytes` are the same, byte for byte, for the same input.
 
 mod asked;
 
@@ -19,8 +19,8 @@ use schemars::{JsonSchema, Schema};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-/// The JSON schema (draft 2020-12) of something that is written as JSON. Numbers that are not finite are written as
-/// `null`, so every number may be that.
+/// The JSON schema (draft 2020-12) of a type that is written as JSON. Numbers that are not finite are written as
+/// `null`, so each number may be `null`.
 pub fn schema_of<T: JsonSchema>() -> serde_json::Value {
     let unbounded = |schema: &mut Schema| {
         if schema.get("type").is_some_and(|kind| kind == "number") {
@@ -34,7 +34,7 @@ pub fn schema_of<T: JsonSchema>() -> serde_json::Value {
 /// Version of the report's schema.
 pub const SCHEMA: u32 = 1;
 
-/// The report of one run. What the run did not come to is `null`.
+/// The report of one run. Parts that the run did not reach are `null`.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Report {
     /// Version of the schema: 1.
@@ -53,7 +53,7 @@ pub struct Report {
     pub promise: Option<PromiseReport>,
     /// Why refinement ended, and what is unresolved.
     pub stop: Option<StopReport>,
-    /// Why there is no mesh, or why it must not be used; absent of a run that came to its end.
+    /// Why there is no mesh, or why it must not be used; absent where the run came to its end.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub failure: Option<FailureReport>,
     /// Counts of the engine's steps, by name.
@@ -225,8 +225,8 @@ impl StopReport {
         Self { reason: stop.reason, unresolved: stop.unresolved, places, angle_deg: stop.angle_deg }
     }
 
-    /// Of a mesh that was refined to a smaller angle than asked for: its unresolved cells are those that the verifier finds below the
-    /// angle.
+    /// Of a mesh that was refined to a smaller angle than requested: its unresolved cells are those that the verifier
+    /// finds below the requested angle.
     pub fn with_unresolved_angles(mut self, verdict: &Verdict) -> Self {
         if let Some(check) = verdict.checks.iter().find(|check| check.name == "min_angle") {
             self.unresolved = check.broken;
@@ -236,7 +236,7 @@ impl StopReport {
     }
 }
 
-/// What stood in the way, where, and the way out.
+/// What prevented the mesh, where, and the way out.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct FailureReport {
     /// The kind of failure, from which the exit code follows.
@@ -271,7 +271,7 @@ pub enum FailureKind {
     Geometry,
     /// The budget or the time ended before there was a valid mesh.
     NoMesh,
-    /// Our own fault.
+    /// A bug of squinch.
     Bug,
 }
 
@@ -307,9 +307,9 @@ pub struct Seconds {
     pub mesh: f64,
     /// Verifying and measuring the mesh.
     pub verify: f64,
-    /// Writing the outputs; 0 where none was written.
+    /// Writing the outputs; 0 where there were none.
     pub write: f64,
-    /// The whole run, writing included; 0 of a run that did not read a file.
+    /// The whole run with writing; 0 where no file was read.
     pub total: f64,
 }
 

@@ -1,8 +1,8 @@
-//! What is asked of one run: the options of the rooms, gathered, and those of the run as a whole.
+//! The request of one run: the options of the rooms, and those of the whole run.
 //!
-//! Keys are the long options of the command line, in a `--config` file and in a case file alike ([`crate::options`]).
-//! Angles are degrees, τ is in radians, lengths are in the units of the mesh: the file's own, unless `unit` or `scale`
-//! asks for another.
+//! Keys are the long options of the command line, the same in a `--config` file and in a case file
+//! ([`crate::options`]). Angles are in degrees, τ is in radians, and lengths are in the units of the mesh: those of the
+//! file, unless `unit` or `scale` gives others.
 
 use crate::curve::Curve;
 use crate::domain::{FillRule, Loose, NameBy, Naming};
@@ -20,15 +20,15 @@ use std::fmt;
 use std::str::FromStr;
 use std::sync::LazyLock;
 
-/// κ that ends in practice: arcsin(1/(2√2)) = 20.7048…°, rounded down (Pav & Walkington 2005, section 5).
+/// The κ that ends in practice: arcsin(1/(2√2)) = 20.7048…°, rounded down (Pav & Walkington 2005, section 5).
 const ANGLE_MIN_DEG: f64 = 20.7;
-/// τ of the paper's examples, which with κ above ends in practice.
+/// The τ of the paper's examples, which ends in practice with the κ above.
 const TAU_RAD: f64 = 0.5;
-/// Smallest τ that `auto` takes: below it pieces multiply and the guarantee gains little.
+/// Smallest τ of `auto`. Below it the number of pieces grows and the guarantee gains little.
 const TAU_AUTO_LEAST_RAD: f64 = 0.1;
 
 /// The options of one run. [`Request::validate`] says what is out of bounds.
-// serde does not promise that unknown fields are denied beside flattened structs; a test holds it to that.
+// serde does not guarantee that unknown fields are denied beside flattened structs. A test checks it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case", default, deny_unknown_fields)]
 pub struct Request {
@@ -228,7 +228,7 @@ impl Request {
     }
 }
 
-/// The largest τ in 0.1..π/3 with κ(λ = share·τ) ≥ `angle_rad`, else 0.5. κ falls as λ grows, so halving finds it.
+/// The largest τ in 0.1..π/3 with κ(λ = share·τ) ≥ `angle_rad`, else 0.5. κ falls as λ grows, so bisection finds it.
 fn largest_tau(angle_rad: f64, lens_share: f64) -> f64 {
     let covers = |tau: f64| guaranteed_angle(lens_share * tau) >= angle_rad;
     let (mut covered, mut missed) = (TAU_AUTO_LEAST_RAD, FRAC_PI_3);
@@ -238,7 +238,7 @@ fn largest_tau(angle_rad: f64, lens_share: f64) -> f64 {
     if !covers(covered) {
         return TAU_RAD;
     }
-    // 50 halvings of an interval below 1 reach the spacing of f64 at 0.1.
+    // 50 bisections of an interval below 1 reach the spacing of f64 at 0.1.
     for _ in 0..50 {
         let middle = 0.5 * (covered + missed);
         if covers(middle) {
@@ -300,13 +300,13 @@ pub enum Keep {
     All,
 }
 
-/// What becomes of overlapping shapes of a picture.
+/// What becomes of overlapping shapes of artwork.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Overlap {
-    /// By paint order: the topmost shape has it all, under its name.
+    /// By paint order: an overlap belongs to the topmost shape, under its name.
     Paint,
-    /// Every set of shapes has a region of its own, named by all of them, the topmost first: leaf+stem.
+    /// Each set of overlapping shapes has a region, named by all of them, the topmost first: leaf+stem.
     Fragment,
 }
 

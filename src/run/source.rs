@@ -1,4 +1,4 @@
-//! Bytes → drawing, as the request wants it read, scaled and named.
+//! Bytes → drawing, with the format, scale and names of the request.
 
 use super::report::{FailureKind, FailureReport};
 use super::request::{Engine, Request};
@@ -10,26 +10,26 @@ use crate::section;
 use kurbo::Affine;
 use std::path::Path;
 
-/// What is read: the bytes of a file, and how to read them.
+/// The input: the bytes of a file, and how to read them.
 #[derive(Clone, Debug)]
 pub struct Source<'a> {
-    /// As given; its suffix tells the format where none is given, its stem is the title where the file has none.
+    /// The path as given. Its suffix gives the format if none is given; its stem is the title if the file has none.
     pub path: &'a str,
     /// The whole content of the file.
     pub bytes: &'a [u8],
-    /// Format of the file; `None`: told from its name, else its content.
+    /// Format of the file; `None`: by its name, else by its content.
     pub format: Option<Format>,
     /// The `.node` file beside a `.poly` file, where there is one.
     pub nodes: Option<&'a [u8]>,
-    /// Whether it is one of many inputs that share a request: names of the request that it does not have are noted
-    /// then, and no error.
+    /// Whether this is one of many inputs with the same request. Then names of the request that the input does not have
+    /// are noted, and are not errors.
     pub of_many: bool,
 }
 
 /// Bytes → drawing, in the unit asked for.
 ///
 /// # Errors
-/// Where the format cannot be told, the file breaks it, or the request names a unit, layer or place that is not there.
+/// Where the format is unknown, the file breaks it, or the request names a unit, layer or place that does not exist.
 pub fn read(source: &Source, request: &Request) -> Result<Drawing, FailureReport> {
     let path = Path::new(source.path);
     let format = source.format.map_or_else(|| import::tell_format(path, source.bytes), Ok)?;
@@ -50,7 +50,7 @@ pub fn read(source: &Source, request: &Request) -> Result<Drawing, FailureReport
     Ok(drawing)
 }
 
-/// Names that the request gives. What is not there is an error, or a note where the request is that of many inputs.
+/// Gives the names of the request. A name without a place is an error, or a note if the request is for many inputs.
 fn give_names(drawing: &mut Drawing, request: &Request, of_many: bool) -> Result<(), FailureReport> {
     drawing.name_each(request.names);
     for name in &request.name {
@@ -66,8 +66,7 @@ fn give_names(drawing: &mut Drawing, request: &Request, of_many: bool) -> Result
     Ok(())
 }
 
-/// Says which options were given that the run has no use for: those of other formats, and of the engine that is not
-/// asked.
+/// Lists the given options that the run does not use: those of other formats, and of the other engine.
 fn unused_options(format: Format, request: &Request) -> Vec<String> {
     let usual = Request::default();
     let written = |request: &Request| toml::Table::try_from(request).expect("options are words, numbers and lists");
@@ -86,7 +85,7 @@ fn unused_options(format: Format, request: &Request) -> Vec<String> {
     unused.map(|(group, _, why)| format!("{}: {why}, and not used here", given(group))).collect()
 }
 
-/// Names of layers that the file does not have: an error, or a note where the request is that of many inputs.
+/// Reports names of layers that the file does not have, as an error, or as a note if the request is for many inputs.
 fn tell_unmatched(drawing: &mut Drawing, of_many: bool) -> Result<(), FailureReport> {
     let Some(Unmatched { asked, near }) = drawing.unmatched.first() else { return Ok(()) };
     let what = |asked: &str| format!("{asked}: no layer has this name");
@@ -102,13 +101,13 @@ fn tell_unmatched(drawing: &mut Drawing, of_many: bool) -> Result<(), FailureRep
     Ok(())
 }
 
-/// The drawing in the unit and scale of the request. A drawing whose unit has no fixed length takes the name of the
-/// unit asked for.
+/// The drawing in the unit and scale of the request. If the unit of the drawing has no fixed length, only the name of
+/// the unit changes.
 fn in_units(mut drawing: Drawing, request: &Request) -> Result<Drawing, FailureReport> {
     let mut factor = request.scale.unwrap_or(1.0);
     if let Some(unit) = &request.unit {
         let wanted = metres(unit).ok_or_else(|| {
-            let what = format!("--unit {unit}: no unit of length that is known here");
+            let what = format!("--unit {unit}: not a unit of length that is known");
             FailureReport::new(
                 FailureKind::Request,
                 what,

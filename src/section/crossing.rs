@@ -1,10 +1,10 @@
-//! Where polygons cross themselves, by exact signs.
+//! Places where polygons cross themselves, by exact signs.
 
 use crate::geometry::boxes::BoxHierarchy;
 use crate::geometry::exact::{Orientation, orient};
 use crate::geometry::{Point, Rect, bounds_of, magnitude, scaled, unit_scale};
 
-/// A place where a ring crosses itself, and the two edges there: edge `i` leads from point `i` to the next.
+/// The first place where a ring crosses itself, and the two edges there; edge `i` leads from point `i` to the next.
 pub fn first_crossing(ring: &[Point]) -> Option<(Point, [usize; 2])> {
     let unit = unit_scale(magnitude(bounds_of(ring.iter().copied())?));
     let points: Vec<Point> = ring.iter().map(|&p| scaled(p, unit)).collect();
@@ -26,22 +26,24 @@ pub fn first_crossing(ring: &[Point]) -> Option<(Point, [usize; 2])> {
     })
 }
 
-/// Where the surfaces of a contour meet before its trailing edge.
+/// A place where the surfaces of a contour meet before its trailing edge.
 pub struct Meeting {
+    /// The place.
     pub at: Point,
-    /// The edges that meet, each by the point that it starts from.
+    /// The edge of the upper surface that meets, by its first point.
     pub upper: usize,
+    /// The edge of the lower surface that meets, by its first point.
     pub lower: usize,
-    /// How far what lies behind goes from there.
+    /// The largest distance from `at` of the points behind it.
     pub reach: f64,
 }
 
-/// The foremost meeting of the edges near the two ends of a contour; `closed`: its ends are one point, and the edges
-/// there do not count.
+/// The foremost meeting of the edges near the two ends of a contour of the width `wide`. `closed`: its ends are one
+/// point, at which edges may meet.
 pub fn meeting_at_tail(points: &[Point], closed: bool, wide: f64) -> Option<Meeting> {
-    // Surfaces may touch by the rounding of three decimals for two hundredths of the chord.
+    // With coordinates of three decimals, surfaces may touch over two hundredths of the chord.
     let near = 0.02 * wide;
-    // As many edges as are looked at on either side.
+    // The largest number of edges that are examined on either surface.
     const EDGES: usize = 400;
     let n = points.len();
     if n < 6 {
@@ -72,7 +74,7 @@ fn sides(p: Point, q: Point, r: Point, s: Point) -> [Orientation; 2] {
     [orient(p, q, r), orient(p, q, s)]
 }
 
-/// Whether two segments cross in their insides.
+/// Whether two segments cross inside both.
 fn cross(a: Point, b: Point, c: Point, d: Point) -> bool {
     let opposite = |sides: [Orientation; 2]| {
         matches!(
@@ -92,7 +94,7 @@ fn touch(a: Point, b: Point, c: Point, d: Point) -> bool {
     boxes && !apart(sides(a, b, c, d)) && !apart(sides(c, d, a, b))
 }
 
-/// The place that two segments have in common; of parallel ones an end that lies on the other.
+/// A common place of two segments; for parallel segments an end that lies on the other.
 fn place(a: Point, b: Point, c: Point, d: Point) -> Point {
     let (u, v) = (b - a, d - c);
     let across = u.cross(v);

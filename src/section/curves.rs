@@ -11,17 +11,28 @@ use crate::import::airfoil::HELP;
 
 /// The curves of one element.
 pub struct Section {
+    /// The upper surface, from the trailing edge to the nose.
     pub upper: Curve,
+    /// The lower surface, from the nose to the trailing edge.
     pub lower: Curve,
+    /// The trailing edge, from the lower surface to the upper one; empty where it is sharp.
     pub te: Vec<Curve>,
+    /// The nose.
     pub nose: Point,
-    /// Middle of the trailing edge.
+    /// The middle of the trailing edge.
     pub tail: Point,
+    /// The chord of the contour, before its trailing edge is cut off.
     pub chord: f64,
+    /// The first and the last line in the file.
     pub lines: [usize; 2],
 }
 
 impl Section {
+    /// The curves of a contour, with the trailing edge asked for; adds to `notes` what was done.
+    ///
+    /// # Errors
+    ///
+    /// Where curves would cross, or where the trailing edge cannot be cut off.
     pub fn build(contour: &Contour, edge: TrailingEdge, notes: &mut Vec<String>) -> Result<Self, ImportError> {
         let failed = |e: CurveError| ImportError::at(contour.lines[0], e.to_string(), HELP);
         let whole = interpolate(contour, notes)?;
@@ -39,13 +50,13 @@ impl Section {
     }
 }
 
-/// The parameter of data point `i` of `n`: the splines have a knot at every point.
+/// The parameter of data point `i` of `n`; the splines have a knot at every point.
 fn parameter_of_point(whole: &Curve, i: usize, n: usize) -> f64 {
     let knots = whole.knots();
     if knots.len() == n { knots[i] } else { i as f64 / (n - 1) as f64 }
 }
 
-/// One curve through all points: the smoothest that does not cross itself.
+/// One curve through all points: the smoothest of three kinds that does not cross itself.
 fn interpolate(contour: &Contour, notes: &mut Vec<String>) -> Result<Curve, ImportError> {
     let crossing = |curve: &Curve| first_crossing(&outline(curve, &contour.base)).map(|(at, _)| at);
     let spline =
@@ -61,7 +72,7 @@ fn interpolate(contour: &Contour, notes: &mut Vec<String>) -> Result<Curve, Impo
     }
     let straight = piecewise_linear(&contour.points);
     if let Some(at) = crossing(&straight) {
-        // As read the contour crosses itself nowhere: it does by what was asked for.
+        // The contour as read does not cross itself, so the shearing caused this.
         let what = format!("the surfaces cross at ({}, {}) where the trailing edge is sheared to a point", at.x, at.y);
         return Err(ImportError::at(contour.lines[0], what, "keep it: --trailing-edge keep"));
     }
@@ -69,7 +80,7 @@ fn interpolate(contour: &Contour, notes: &mut Vec<String>) -> Result<Curve, Impo
     Ok(straight)
 }
 
-/// Centripetal knots over 0..1: steps in proportion to the square root of the distance.
+/// Centripetal knots over 0..1: steps proportional to the square root of the distance.
 fn centripetal_knots(points: &[Point]) -> Vec<f64> {
     let mut knots = vec![0.0];
     let mut sum = 0.0;
@@ -86,8 +97,8 @@ fn piecewise_linear(points: &[Point]) -> Curve {
     Curve::Spline(Box::new(Spline { knots: centripetal_knots(points), spans }))
 }
 
-/// The C¹ cubic through the points whose coordinates are monotone wherever the points' are (Fritsch & Butland 1984,
-/// weights by Brodlie).
+/// The C¹ cubic through the points whose coordinates are monotone wherever those of the points are (Fritsch & Butland
+/// 1984, weights by Brodlie).
 fn monotone_cubic(points: &[Point]) -> Curve {
     let knots = centripetal_knots(points);
     let step = |i: usize| knots[i + 1] - knots[i];
@@ -114,8 +125,8 @@ fn monotone_cubic(points: &[Point]) -> Curve {
     Curve::Spline(Box::new(Spline { knots, spans }))
 }
 
-/// The contour as a ring of points, eight a span (enough to see a crossing of cubics through points that themselves do
-/// not cross).
+/// The contour as a ring of points, eight a span. That is enough to detect crossings of cubics through points that do
+/// not cross themselves.
 fn outline(spline: &Curve, base: &[Point]) -> Vec<Point> {
     const CHORDS: usize = 8;
     let mut ring = Vec::new();
@@ -132,8 +143,13 @@ fn outline(spline: &Curve, base: &[Point]) -> Vec<Point> {
     ring
 }
 
-/// A point inside the section: midway between its surfaces, where a line across the chord meets them, tried from
-/// mid-chord on.
+/// A point inside the section: midway between the surfaces on a line across the chord, first tried at mid-chord.
+///
+/// ```text
+///          ╭────●─── above ──╮
+///     nose ●    ·  inside     ╲── tail
+///          ╰────●─── below ──╯
+/// ```
 pub fn inside(section: &Section) -> Option<Point> {
     let chord = section.tail - section.nose;
     let across = Vec2::new(-chord.y, chord.x);

@@ -1,10 +1,10 @@
-//! The right end of a section: a corner, a base or round.
+//! The shape of a section's right end: a corner, a base or round.
 
 use super::SHARP;
 use crate::geometry::{Point, bounds_of};
 use std::f64::consts::PI;
 
-/// Turning at point `i` of a ring, in radians; 0 at repeated points.
+/// The turning at point `i` of a ring, in radians; 0 at repeated points.
 fn turning(ring: &[Point], i: usize) -> f64 {
     let n = ring.len();
     let (a, b, c) = (ring[(i + n - 1) % n], ring[i % n], ring[(i + 1) % n]);
@@ -12,15 +12,16 @@ fn turning(ring: &[Point], i: usize) -> f64 {
     libm::atan2(before.cross(after), before.dot(after))
 }
 
+/// The index of the point with the largest x, the first of several.
 pub fn aftmost(ring: &[Point]) -> usize {
     (0..ring.len()).reduce(|a, b| if ring[b].x > ring[a].x { b } else { a }).unwrap_or(0)
 }
 
 /// The blunt trailing edge of a counter-clockwise ring, as the indices of its lower and its upper end.
 ///
-/// It is the straight run of upright edges at the aftmost point between two corners. Surfaces that meet at an angle ω
-/// leave 180° − ω of turning to its ends; a round end spends that on its points one after the other, and no two of
-/// them, an edge apart, have most of it.
+/// It is the straight run of upright edges at the aftmost point between two corners. If the surfaces meet at an angle
+/// ω, the turning at both ends together is 180° − ω. A round end distributes this turning over its points, and no two
+/// neighbours have most of it.
 ///
 /// ```text
 ///   ────────┐ upper
@@ -28,7 +29,7 @@ pub fn aftmost(ring: &[Point]) -> usize {
 ///   ────────┘ lower
 /// ```
 pub fn base_of(ring: &[Point], wide: f64) -> Option<[usize; 2]> {
-    // Half circles by three edges turn 60° and 60°, squared ends 90° and 90°: the bound lies between.
+    // Half circles of three edges turn by 60° and 60°, squared ends by 90° and 90°: the bound lies between.
     const BOTH: f64 = 130.0 / 180.0 * PI;
     const EACH: f64 = 40.0 / 180.0 * PI;
     const STRAIGHT: f64 = 10.0 / 180.0 * PI;
@@ -53,7 +54,7 @@ pub fn base_of(ring: &[Point], wide: f64) -> Option<[usize; 2]> {
     }
     let (from, to) = (ring[lower % n], ring[upper % n]);
     let along = to - from;
-    // A base that is no straight line is a round end.
+    // If the run is not straight, the end is round.
     let is_straight = (lower..upper).all(|i| along.cross(ring[i % n] - from).abs() <= 0.02 * along.hypot2());
     let turned = [turning(ring, lower % n), turning(ring, upper % n)];
     let is_base = is_straight
@@ -63,9 +64,9 @@ pub fn base_of(ring: &[Point], wide: f64) -> Option<[usize; 2]> {
     is_base.then_some([lower % n, upper % n])
 }
 
-/// Whether a counter-clockwise ring ends at its right in a corner or in a base.
+/// Whether a counter-clockwise ring has a corner or a base at its right end.
 pub fn is_edged(ring: &[Point]) -> bool {
-    // Of a nose with few points the foremost turns by up to some 110°.
+    // At a nose with few points the turning is up to some 110°.
     const CORNER: f64 = 120.0 / 180.0 * PI;
     let mut ring = ring.to_vec();
     ring.dedup();

@@ -1,4 +1,4 @@
-//! The circle around a section, and the sizes of a mesh for the flow within.
+//! The far field: a circle around a section, and the sizes of a mesh for the flow within.
 
 use super::curves::Section;
 use crate::curve::Curve;
@@ -7,7 +7,22 @@ use crate::geometry::{Point, Rect, Vec2};
 use crate::import::ImportError;
 use crate::import::airfoil::HELP;
 
-/// Adds the circle `farfield` and the region `fluid`, with sizes along the chord, in the wake and far away.
+/// Adds the circle `farfield` and the region `fluid`, with sizes along the chord, in the wake and far away. `center`,
+/// `radius` and `chord` are in units of the drawing.
+///
+/// ```text
+///         ╭───────────────────────╮
+///       ╭─╯       × fluid         ╰─╮          `center` is mid-chord, × the seed of the region. Edges are 0.015 chords
+///      │                             │         along nose–tail and 0.05 along wake–end, growing with the distance from
+///      │     nose ◁═══════ wake····end         either, and at most 2.5 chords on the circle. The wake starts at the
+///      │                             │         aftmost tail.
+///       ╰─╮                       ╭─╯
+///         ╰───────────────────────╯ farfield
+/// ```
+///
+/// # Errors
+///
+/// Where the circle does not go around the section.
 pub fn add_far_field(
     sections: &[Section],
     center: Point,
@@ -24,7 +39,7 @@ pub fn add_far_field(
     }
     let circle = Curve::circle(center, radius).map_err(|e| ImportError::new(e.to_string(), HELP))?;
     drawing.add(circle, "farfield", "far field");
-    // Between the top of the section's box and the top of the circle.
+    // Halfway between the top of the section's box and the top of the circle.
     let at = Point::new(center.x, 0.5 * (bounds.y1 + center.y + radius));
     let name = drawing.names.intern("fluid");
     drawing.seeds.push(Seed { at, kind: SeedKind::Region { name, max_area: None }, entity: "fluid".into() });

@@ -1,20 +1,20 @@
-//! Sections of airfoils: coordinates as a file holds them → the drawing that is asked for.
+//! Sections of airfoils: from the coordinates in a file to the drawing that was asked for.
 //!
-//! `order.rs` puts the points of an element in order, `near.rs` makes one of those too near, `weld.rs` closes gaps and
-//! loops, `ends.rs` tells how the section ends; that is a `contour.rs`. `curves.rs` lays curves through it, with the
-//! trailing edge of `trailing_edge.rs`; `crossing.rs` finds where they cross, and `far_field.rs` is what lies around.
-//! What was done is told in [`Drawing::notes`].
+//! `order.rs` puts the points of an element in order, `near.rs` merges points that are too near, `weld.rs` closes gaps
+//! and removes loops, `ends.rs` classifies the right end; the result is a contour (`contour.rs`). `curves.rs` makes
+//! curves through it, with the trailing edge of `trailing_edge.rs`. `crossing.rs` finds where they cross, and
+//! `far_field.rs` adds the circle around. [`Drawing::notes`] lists what was done.
 //!
-//! Understood are either surface first, a start at the nose, a nose on the right, repeated points, points nearer than
-//! their decimals tell apart, and a closing point repeated or missing. Refused are text in the place of a point, a
-//! contour of which a part is missing, and one that crosses itself. x points downstream.
+//! Accepted are either surface first, a start at the nose, a nose on the right, repeated points, points nearer than
+//! their decimals resolve, and a closing point repeated or missing. Refused are text in the place of a point, a contour
+//! with a missing part, and one that crosses itself. In the result x points downstream.
 //!
 //! **Curves.** One cubic spline (natural, centripetal) runs through the whole contour from the trailing edge over the
 //! nose and back, so the nose is smooth and only the trailing edge is a corner. It is cut at the nose, the point
-//! farthest from the trailing edge, into `upper` and `lower`; a blunt trailing edge is `te`. Where the spline would
-//! cross itself, as it may through few or uneven points, a tamer interpolant takes its place: a C¹ cubic that stays
-//! monotone wherever the points are (Fritsch & Butland 1984), then straight lines. Of several elements the names carry
-//! the number of the element: `upper1`, `lower1`, `te1`, `upper2`, ….
+//! farthest from the trailing edge, into `upper` and `lower`; a blunt trailing edge is `te`. Through few or uneven
+//! points the spline may cross itself. Then another interpolant replaces it: a C¹ cubic that is monotone wherever the
+//! points are (Fritsch & Butland 1984), or straight lines. With several elements the names end in the number of the
+//! element: `upper1`, `lower1`, `te1`, `upper2`, ….
 //!
 //! **Far field.** A circle `farfield` around mid-chord, the region `fluid` between, and sizes for an Euler mesh: fine
 //! at nose and trailing edge, along the chord and in the wake, coarse far away. Without one (0 chords) the region is
@@ -42,7 +42,7 @@ use far_field::add_far_field;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Part of the chord below which a trailing edge is sharp: ten units in the sixth decimal.
+/// The part of the chord below which a trailing edge is sharp: ten units in the sixth decimal.
 const SHARP: f64 = 1e-5;
 
 /// What becomes of the trailing edge.
@@ -99,12 +99,12 @@ impl Options {
 
 impl Default for Options {
     fn default() -> Self {
-        // 20 chords is the text-book floor for the far field of a section.
+        // 20 chords is the textbook minimum for the far field of a section.
         Self { trailing_edge: TrailingEdge::Keep, far_field: 20.0, incidence_deg: 0.0, chord: None }
     }
 }
 
-/// What was found in a file as a drawing: a drawing as it is, sections as asked for.
+/// The drawing of what was found in a file: a drawing unchanged, sections drawn with the options.
 ///
 /// # Errors
 /// As [`draw`].
@@ -115,10 +115,10 @@ pub fn drawn(found: Found, options: &Options) -> Result<Drawing, ImportError> {
     }
 }
 
-/// Draws the sections that a file has the coordinates of.
+/// Draws the sections whose coordinates a file holds.
 ///
 /// # Errors
-/// With the line where the contour stops or crosses itself; without one where an option is no size.
+/// With the line where the contour stops or crosses itself; without a line where an option is out of bounds.
 pub fn draw(mut coordinates: Coordinates, options: &Options) -> Result<Drawing, ImportError> {
     options.check().map_err(|e| ImportError::new(e.to_string(), "give what is within the bounds"))?;
     let mut notes = std::mem::take(&mut coordinates.notes);
@@ -197,19 +197,19 @@ fn draw_contours(mut contours: Vec<Contour>, options: &Options, drawing: &mut Dr
     }
 }
 
-/// What tells the names of an element from another's: nothing where there is one.
+/// The suffix of the names of an element: its number, or nothing where there is only one.
 fn suffix(i: usize, n: usize) -> String {
     if n > 1 { (i + 1).to_string() } else { String::new() }
 }
 
-/// The foremost nose and the aftmost trailing edge.
+/// The foremost nose and the aftmost tail of all elements.
 fn reference_chord(contours: &[Contour]) -> (Point, Point) {
     let noses = contours.iter().map(Contour::nose_point).reduce(|a, b| if b.x < a.x { b } else { a });
     let tails = contours.iter().map(Contour::tail).reduce(|a, b| if b.x > a.x { b } else { a });
     (noses.unwrap_or_default(), tails.unwrap_or_default())
 }
 
-/// Scales to a chord about the origin.
+/// Scales all contours about the origin to a given chord.
 fn scale(contours: &mut [Contour], chord: f64, notes: &mut Vec<String>) {
     let (nose, tail) = reference_chord(contours);
     let own = (tail - nose).hypot();
@@ -244,13 +244,13 @@ fn add_section(section: &Section, suffix: &str, drawing: &mut Drawing) {
         let name = drawing.names.intern(&format!("{surface_name}{suffix}"));
         drawing.sizes.push(SizeRequest::Boundary { name, edge: surface });
     }
-    // A flow turns around a blunt end: three edges are the least that show it.
+    // The flow turns around a blunt end: at least three edges are needed to resolve it.
     let blunt: f64 = section.te.iter().map(Curve::length).sum();
     if blunt > 0.0 {
         let name = drawing.names.intern(&format!("te{suffix}"));
         drawing.sizes.push(SizeRequest::Boundary { name, edge: blunt / 3.0 });
     }
-    // Grades were chosen for some ten thousand triangles around one section within 20 chords.
+    // The grades give some ten thousand triangles around one section within 20 chords.
     for end in [section.nose, section.tail] {
         drawing.sizes.push(SizeRequest::Near { from: end, to: end, edge: 0.005 * section.chord, grade: 0.2 });
     }

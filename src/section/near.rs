@@ -1,7 +1,8 @@
-//! Points too near to each other, and those that lie on the line between their neighbours.
+//! Points that are too near to each other, and points that lie on the line between their neighbours.
 
 use crate::geometry::{Point, Vec2};
 
+/// Merges neighbours at most `tolerance` apart. The first of each group is kept, at the end of the list the last.
 pub fn merge_repeated(points: &mut Vec<Point>, tolerance: f64, notes: &mut Vec<String>) {
     let before = points.len();
     let last = points[before - 1];
@@ -15,9 +16,9 @@ pub fn merge_repeated(points: &mut Vec<Point>, tolerance: f64, notes: &mut Vec<S
     }
 }
 
-/// Leaves out points between neighbours nearer than 2e-4 of the chord that lie on the line between them to half a unit
-/// of the last decimal, or to 1e-8 of the chord: they carry no direction. A contour keeps some ten thousand points
-/// then.
+/// Leaves out points between neighbours nearer than 2e-4 of the chord if they lie on the line between them, to within
+/// half a unit of the last decimal or 1e-8 of the chord: they define no direction. A contour then keeps at most some
+/// ten thousand points.
 pub fn thin(points: &mut Vec<Point>, decimal: f64, wide: f64, notes: &mut Vec<String>) {
     let (reach, slack) = (2e-4 * wide, (0.5 * decimal).max(1e-8 * wide));
     let before = points.len();
@@ -28,7 +29,7 @@ pub fn thin(points: &mut Vec<Point>, decimal: f64, wide: f64, notes: &mut Vec<St
         let [candidate, next] = [w[0], w[1]];
         let from = kept[kept.len() - 1];
         sector.narrow(candidate - from);
-        // The candidate is left out if the next point can be reached past it.
+        // The candidate is left out if a line to the next point passes it and all earlier ones within the slack.
         if (next - from).hypot() > reach || !sector.allows(next - from) {
             kept.push(candidate);
             sector = Sector::new(slack);
@@ -44,10 +45,18 @@ pub fn thin(points: &mut Vec<Point>, decimal: f64, wide: f64, notes: &mut Vec<St
     }
 }
 
-/// The directions in which a line from a point passes within a distance of all the points left out.
+/// The directions in which a line from a point passes all points left out within a distance `slack`.
+///
+/// ```text
+///                      ╱ high
+///               ·   ╱
+///   from ●━━━━━━━━━━━━━━━● next       Every point · left out narrows the sector between low and high: by it the line
+///               ·   ╲                 passes within `slack`. `next` is allowed if its direction lies in the sector.
+///                      ╲ low
+/// ```
 struct Sector {
     slack: f64,
-    /// The first direction, and how far others may turn from it, in radians.
+    /// The first direction, and the angles low and high from it between which others may lie, in radians.
     about: Option<(Vec2, f64, f64)>,
 }
 
@@ -58,7 +67,7 @@ impl Sector {
 
     fn narrow(&mut self, to: Vec2) {
         let distance = to.hypot();
-        // From within the slack every direction will do.
+        // A point within the slack allows every direction.
         if distance <= self.slack {
             return;
         }

@@ -1,5 +1,4 @@
-//! Points as a file gives them, in the order around the section: from the trailing edge over the upper surface to the
-//! nose and back below.
+//! The order of points around the section: from the trailing edge over the upper surface to the nose and back below.
 
 use super::SHARP;
 use super::ends::aftmost;
@@ -7,8 +6,8 @@ use crate::geometry::{Point, bounds_of};
 use crate::import::ImportError;
 use crate::import::airfoil::{SAME, Sample};
 
-/// Where the second surface starts in a file that gives one after the other: by its counts, by a blank line between, or
-/// by the jump from one to the next.
+/// The index at which the second surface starts in a file that gives one after the other: by the counts in the file, by
+/// a blank line between, or by the jump from one to the next. `None` for a contour in one go.
 pub fn cut_surfaces(samples: &[Sample], counts: Option<[usize; 2]>, wide: f64) -> Option<usize> {
     let spans = |part: &[Sample]| match part {
         [first, .., last] => (first.at.x - last.at.x).abs() > 0.5 * wide,
@@ -21,22 +20,20 @@ pub fn cut_surfaces(samples: &[Sample], counts: Option<[usize; 2]>, wide: f64) -
     let mut jumps = (1..samples.len()).filter(|&i| (samples[i].at.x - samples[i - 1].at.x).abs() > 0.5 * wide);
     let by_jump = || jumps.next().filter(|_| jumps.next().is_none()).filter(both);
     let found = by_count.or_else(by_gap).or_else(by_jump)?;
-    // A contour from the trailing edge and back that merely has a gap at the nose runs forth and back: no two surfaces
-    // from the nose.
+    // A contour in one go with a gap at the nose runs forth and back. Two surfaces run in the same direction.
     let (a, b) = samples.split_at(found);
     let downstream = |part: &[Sample]| part[part.len() - 1].at.x > part[0].at.x;
     (downstream(a) == downstream(b)).then_some(found)
 }
 
-/// Refuses a line of text that stands amid a surface: it holds the place of a point. Between two surfaces it is a
-/// heading.
+/// Refuses a line of text within a surface: it stands in the place of a point. Between two surfaces it is a heading.
 pub fn refuse_text(samples: &[Sample], cut: Option<usize>, wide: f64) -> Result<(), ImportError> {
     let is_heading = |i: usize| {
         let turns = |k: usize| {
             let (before, after) = (samples[k].at.x - samples[k - 1].at.x, samples[k + 1].at.x - samples[k].at.x);
             before * after <= 0.0
         };
-        // At the nose the abscissa turns around, at a point beside the heading.
+        // At the nose x changes its direction, at a point beside the heading.
         let at_nose = (i.max(3) - 2..(i + 2).min(samples.len() - 1)).any(turns);
         cut == Some(i) || at_nose || (samples[i].at.x - samples[i - 1].at.x).abs() > 0.5 * wide
     };
@@ -49,14 +46,20 @@ pub fn refuse_text(samples: &[Sample], cut: Option<usize>, wide: f64) -> Result<
     Ok(())
 }
 
-/// Two surfaces that run the same way as one contour from the trailing edge to the nose and back.
+/// Joins two surfaces that run in the same direction to one contour from the trailing edge to the nose and back.
+///
+/// ```text
+///   nose ●── a ──▶          ╭── a ◀──      The contour runs against a to the nose, and then along b. If both surfaces
+///        ●── b ──▶    ▶     ●              have the nose, it is kept once.
+///                           ╰── b ──▶
+/// ```
 pub fn join(mut a: Vec<Point>, mut b: Vec<Point>) -> Vec<Point> {
     if a[a.len() - 1].x > a[0].x {
         a.reverse();
     } else {
         b.reverse();
     }
-    // The nose ends the one and starts the other.
+    // Both surfaces may contain the nose.
     if a.last() == b.first() {
         a.pop();
     }
@@ -64,12 +67,12 @@ pub fn join(mut a: Vec<Point>, mut b: Vec<Point>) -> Vec<Point> {
     a
 }
 
-/// Longest edge along the chord, in chords, that closes a contour without being told.
+/// The longest edge along the chord, in chords, that closes a contour silently.
 const CLOSING: f64 = 0.05;
 
-/// Refuses a contour of which a part is missing, as of a file that was cut short: the edge from its last point to its
-/// first lies along the chord (an upright one is a blunt trailing edge, however thick) and is longer than a twentieth
-/// of it and than twice either edge beside it.
+/// Refuses a contour with a missing part, as in a truncated file. The edge from its last point to its first then lies
+/// along the chord (an upright edge is a blunt trailing edge, however thick). It is longer than a twentieth of the
+/// chord and than twice either neighbouring edge.
 pub fn refuse_open(points: &[Point], wide: f64, lines: [usize; 2]) -> Result<(), ImportError> {
     let [first, second, .., before, last] = points else { return Ok(()) };
     let gap = *first - *last;
@@ -88,7 +91,7 @@ pub fn refuse_open(points: &[Point], wide: f64, lines: [usize; 2]) -> Result<(),
     Err(ImportError::at(lines[1], what, help))
 }
 
-/// A contour in one go, made to start at the trailing edge.
+/// Rotates a contour in one go so that it starts at the trailing edge.
 pub fn from_trailing_edge(mut points: Vec<Point>, wide: f64, notes: &mut Vec<String>) -> Vec<Point> {
     let Some(bounds) = bounds_of(points.iter().copied()) else { return points };
     let aft = bounds.x1 - 0.25 * wide;
@@ -102,7 +105,7 @@ pub fn from_trailing_edge(mut points: Vec<Point>, wide: f64, notes: &mut Vec<Str
     }
     let n = points.len();
     let tail = aftmost(&points);
-    // A blunt end is an upright edge at the aftmost point; its ends become the ends of the contour.
+    // A blunt end is an upright edge at the aftmost point. Its ends become the ends of the contour.
     let upright = |i: usize, j: usize| {
         let edge = points[j % n] - points[i % n];
         edge.y.abs() > 2.0 * edge.x.abs() && (SHARP * wide..0.2 * wide).contains(&edge.hypot())

@@ -1,4 +1,11 @@
-//! What becomes of the trailing edge: sharpened as points, cut off or closed as curves.
+//! The trailing edge: sharpened as points, cut off or closed as curves.
+//!
+//! ```text
+//!    keep               sharp              blunt              round
+//!   ────── first       ──────╲            ──────┐            ──────╮
+//!         │ te                ● tail            │ te               │ te
+//!   ────── last        ──────╱            ──────┘            ──────╯
+//! ```
 
 use super::TrailingEdge;
 use super::contour::Contour;
@@ -7,14 +14,15 @@ use crate::curve::{Curve, CurveError};
 use crate::geometry::{Point, Vec2};
 use crate::import::ImportError;
 
-/// Where a sharp trailing edge is cut off for `blunt` and `round`, in chords.
+/// The place where a sharp trailing edge is cut off for `blunt` and `round`, in chords from the nose.
 const TRUNCATION: f64 = 0.99;
 
 impl Contour {
-    /// Closes a blunt end by shearing either surface to its middle, in proportion to the way from the nose.
+    /// Closes a blunt end by shearing both surfaces to its middle, in proportion to the distance from the nose along
+    /// the chord.
     ///
-    /// Where the surfaces run nearer to each other than the end is high, they would cross: the points from there on are
-    /// left out.
+    /// Where the surfaces are nearer to each other than the end is high, they would cross. The points behind that place
+    /// are left out.
     pub fn sharpen(&mut self, notes: &mut Vec<String>) {
         let (tail, nose, n) = (self.tail(), self.nose_point(), self.points.len());
         let chord = tail - nose;
@@ -35,7 +43,7 @@ impl Contour {
     }
 }
 
-/// The curves that close the contour from its last point to its first.
+/// The curves that close the contour from its last point to its first; none where they are equal.
 pub fn trailing_edge(
     first: Point,
     last: Point,
@@ -53,7 +61,11 @@ pub fn trailing_edge(
     corners.windows(2).map(|w| Curve::line(w[0], w[1])).collect()
 }
 
-/// Parameters at which the upper and the lower surface pass 99 % chord.
+/// The parameters at which the upper and the lower surface pass 99 % chord.
+///
+/// # Errors
+///
+/// Where a surface does not pass it.
 pub fn truncation(contour: &Contour, whole: &Curve, at_nose: f64) -> Result<(f64, f64), ImportError> {
     let chord = contour.tail() - contour.nose_point();
     let at = contour.nose_point() + TRUNCATION * chord;

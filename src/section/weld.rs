@@ -1,4 +1,4 @@
-//! Points too near to each other, gaps that are rounding, and loops behind the place where the surfaces meet.
+//! Gaps that are rounding, and loops behind the place where the surfaces meet.
 
 use super::SHARP;
 use super::contour::Contour;
@@ -7,14 +7,14 @@ use crate::geometry::{Point, Vec2};
 use std::f64::consts::FRAC_1_SQRT_2;
 
 impl Contour {
-    /// Leaves out the loop behind the place where the surfaces meet before the trailing edge, if it is smaller than a
-    /// thousandth of the chord; of surfaces that touch there only the points, to the last decimal, so that the trailing
-    /// edge stays where it is.
+    /// Leaves out the loop behind a crossing of the surfaces before the trailing edge, if it is smaller than a
+    /// thousandth of the chord. Where the surfaces only touch, to the last decimal, leaves out the points there, and
+    /// the trailing edge stays in place.
     ///
     /// ```text
     ///  upper ────╲  ╱╲            ────╲
-    ///             ╳   ╲    ─▶          ╳  tail
-    ///  lower ────╱  ╲ ╱           ────╱
+    ///             ╳   │     ▶          ● at, the new tail
+    ///  lower ────╱  ╲╱            ────╱
     /// ```
     pub fn untie_tail(&mut self, decimal: f64, wide: f64, notes: &mut Vec<String>) {
         const LOOP: f64 = 1e-3;
@@ -41,13 +41,13 @@ impl Contour {
         }
     }
 
-    /// Leaves out the points behind the edges `upper` and `lower`, but for the two ends, and says how many those are.
+    /// Leaves out the points behind the edges `upper` and `lower`, except for the two ends. Returns how many.
     pub fn leave_out_behind(&mut self, upper: usize, lower: usize) -> usize {
         let n = self.points.len();
         let mut kept = vec![self.points[0]];
         kept.extend(&self.points[upper + 1..=lower]);
         kept.push(self.points[n - 1]);
-        // Fewer are no section.
+        // Fewer points are no section.
         if kept.len() < 4 {
             return 0;
         }
@@ -56,7 +56,7 @@ impl Contour {
         n - self.points.len()
     }
 
-    /// How far the surfaces lie apart behind points `upper` and `lower`, at most: upright, at their points.
+    /// The largest vertical distance of the surfaces behind points `upper` and `lower`, measured at their points.
     fn thickness_behind(&self, upper: usize, lower: usize) -> f64 {
         let (above, below) = (&self.points[..=upper], &self.points[lower..]);
         let height = |side: &[Point], x: f64| {
@@ -68,7 +68,7 @@ impl Contour {
         below.iter().map(|p| apart(above, p)).fold(over, f64::max)
     }
 
-    /// Closes a gap that is rounding, and one that a missing last point leaves.
+    /// Closes a gap that is rounding, and a gap where the last point is missing.
     pub fn close(&mut self, wide: f64, notes: &mut Vec<String>) {
         if !self.base.is_empty() || self.first() == self.last() {
             return;
@@ -82,8 +82,8 @@ impl Contour {
             notes.push(format!("The trailing edge had a gap of {:.1e} and was closed.", gap.hypot()));
             return;
         }
-        // The closing edge lies along the chord and goes on as a surface does (turning less than 45°): the point there
-        // is missing, the end is not blunt.
+        // If the closing edge lies along the chord and continues a surface (turning by less than 45°), a point is
+        // missing there, and the end is not blunt.
         let goes_on = |along: Vec2, next: Vec2| {
             gap.x.abs() > gap.y.abs() && along.dot(next) > FRAC_1_SQRT_2 * along.hypot() * next.hypot()
         };

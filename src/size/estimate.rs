@@ -1,25 +1,33 @@
-//! What a mesh takes at least, told before it is made.
+//! A lower estimate of the number of vertices of a mesh, before it is made.
 //!
-//! *Slivers.* Beside a place where the face is w wide, an edge of the border is no longer than w·(cot κ + tan κ): the
+//! *Slivers.* Where the face beside an edge of the border is w wide, the edge is no longer than w·(cot κ + tan κ): the
 //! apex of its triangle is no farther away than w, both angles at the edge are κ or more, and the apex is not in the
-//! edge's diametral circle; where it may be there ([`Circles::Any`]), no longer than 2w·cot κ. So a sliver of length L
-//! takes L/(w·(cot κ + tan κ)) vertices on either side. What shape it has does not matter: a strip with free ends, a
-//! thin region in another, a ring; a needle, of angle θ, takes about 1/θ for every doubling of the distance from the
-//! ball of its tip. Within the ball at birth triangles are excused, without corner arcs within two radii; with
-//! constrained refinement, all between two curves that meet at a sharp corner. So are triangles with a circumradius
-//! below `min_edge` (edges up to twice that). Widths are seen along normals at samples, and a stretch counts by its
-//! widest.
+//! edge's diametral circle. Where it may be there ([`Circles::Any`]), the edge is no longer than 2w·cot κ. So a sliver
+//! of length L takes L/(w·(cot κ + tan κ)) vertices on either side.
 //!
-//! *How sure that is.* Where the same curve lies across from end to end of a stretch, there is no other width between
-//! the samples. Straight lines and arcs of circles are only ever halved by corner lopping, so that pieces no longer
-//! than ℓ are a power of two of them. Other stretches count half, and a curve with slivers on either side counts by the
-//! side that takes more.
+//! ```text
+//!   ─────────────── apex ●───────────      The angle at the apex is at most 90°. So if one angle at the edge e is
+//!                  ╱      ╲     w          κ, the other is at least 90° − κ, and e ≤ w·(cot κ + tan κ).
+//!             κ ╱          ╲ 90° − κ
+//!   ───────●─────── e ──────●────────
+//! ```
 //!
-//! *Sizes.* A region takes its area over that of the largest triangle, a curve its length over the longest edge, its
-//! turning over that of an edge, and √(κ/8E) a unit of length for a chord error E. There are at most two triangles a
-//! vertex. That is halved: curvatures are known by samples only. Sizes that vary with the place are left out.
+//! The shape of the sliver does not matter: a strip with free ends, a thin region in another, a ring. A needle of angle
+//! θ takes about 1/θ vertices for every doubling of the distance from the ball of its tip. Exempt are triangles within
+//! the initial ball of a corner (without corner arcs within two radii) and, with constrained refinement, all triangles
+//! between two curves that meet at a sharp corner. Triangles with a circumradius below `min_edge` are exempt, too
+//! (edges up to twice that). Widths are measured along normals at samples, and a stretch counts with its largest width.
 //!
-//! Where no stretch is sure, runs take some ten times as many.
+//! *Certainty.* If the same curve lies opposite a whole stretch, the width between the samples is known. Corner lopping
+//! only ever halves straight lines and arcs of circles, so their parts no longer than ℓ are a power of two in number.
+//! Other stretches count half. A curve with slivers on both sides counts with the side that takes more.
+//!
+//! *Sizes.* The number of triangles in a region is at least its area over that of the largest triangle. The number of
+//! edges on a curve is at least its length over the longest edge, its turning over the largest turning of an edge, and
+//! √(κ/8E) a unit of length for the curvature κ and the chord error E. There are at most two triangles a vertex. The
+//! result is halved, because curvatures are known only at samples. Sizes that vary with the place are left out.
+//!
+//! Where no stretch is certain, runs take some ten times as many.
 
 use super::{SizeField, Sizing};
 use crate::curve::{Curve, End};
@@ -30,45 +38,45 @@ use crate::ids::{CurveId, Id, IdVec, PointId};
 use crate::watch::{Progress, Stopped, Watch};
 use std::f64::consts::SQRT_2;
 
-/// A sliver is this many times as long as it is wide: what is wider costs a handful of vertices.
+/// A sliver is at least this many times as long as it is wide: a wider one takes only a few vertices.
 const SLENDER: f64 = 16.0;
 
-/// Samples on one side of a curve at most. Between curves that part from a tangent, down to what
-/// coordinates can hold, it takes some 1500.
+/// The largest number of samples on one side of a curve. Between curves that part from a common tangent, some 1500
+/// reach the resolution of coordinates.
 const SAMPLES_MAX: usize = 4096;
 
-/// Slivers that tell of what width the others are.
+/// After this many slivers the widths of the others are taken to be similar.
 const SAMPLE: usize = 8192;
 
-/// Within so many radii of a ball at birth triangles are excused where there are no corner arcs.
+/// Without corner arcs, triangles within this many radii of an initial ball are exempt.
 const EXCUSED_RADII: f64 = 2.0;
 
-/// Slivers of fewer vertices are not looked at more closely.
+/// A sliver that takes fewer vertices is not examined more closely.
 const CHEAP: f64 = 1000.0;
 
 /// Stretches are halved until the widths on them differ by no more than this factor.
 const ALIKE: f64 = 1.25;
 
-/// For what samples do not see.
+/// A factor for what samples miss.
 const CAUTION: f64 = 0.5;
 
-/// A stretch of a curve with another curve near beside it.
+/// A stretch of a curve with another curve close beside it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sliver {
     /// The point of the curve in the middle of the stretch, by parameter.
     pub at: Point,
-    /// Its largest width.
+    /// The largest width between the two curves, in units of the drawing.
     pub width: f64,
     /// The arc length of the stretch, in units of the drawing.
     pub length: f64,
-    /// Whether it belongs to a region.
+    /// Whether a region lies between them.
     pub kept: bool,
     curve: CurveId,
     side: usize,
     t: [f64; 2],
 }
 
-/// Whether the engine keeps the diametral circles of edges on curves empty, as corner lopping does.
+/// Whether the engine keeps the diametral circles of edges on curves empty.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Circles {
     /// The diametral circles of curve edges have no vertex inside (corner lopping).
@@ -77,37 +85,37 @@ pub enum Circles {
     Any,
 }
 
-/// What is asked of a mesh, as far as it tells how many vertices that takes.
+/// The requirements on a mesh that decide how many vertices it takes.
 #[derive(Clone, Copy, Debug)]
 pub struct Asked<'a> {
     /// κ.
     pub angle_min_rad: f64,
     /// The limits on cells.
     pub sizing: &'a Sizing,
-    /// What the engine guarantees of the diametral circles of curve edges.
+    /// What the engine guarantees about the diametral circles of curve edges.
     pub circles: Circles,
-    /// Whether arcs stand around sharp corners.
+    /// Whether sharp corners get corner arcs.
     pub corner_arcs: bool,
     /// Whether curves are split at the bisectors of their chords.
     pub bisected: bool,
 }
 
-/// How many vertices a mesh takes at least, and where.
+/// The number of vertices that a mesh takes at least, and where.
 #[derive(Clone, Debug, Default)]
 pub struct Demand {
-    /// Because of sizes.
+    /// The number because of sizes.
     pub by_size: f64,
-    /// Of the region or the curve that takes the most by its size.
+    /// The number and the place of the region or the curve that takes the most because of sizes.
     pub largest: Option<(f64, Point)>,
-    /// Slivers of regions, and the vertices that each takes; the dearest first.
+    /// The slivers of regions with the number of vertices that each takes, the most expensive first.
     pub slivers: Vec<(f64, Sliver)>,
 }
 
 impl Demand {
-    /// What a domain of curves that turn at most π/3 takes.
+    /// The demand of a domain whose curves turn by at most π/3.
     ///
     /// # Errors
-    /// [`Stopped`] where the watch says so.
+    /// [`Stopped`] where the watch ends the work.
     pub fn of(domain: &Domain, asked: Asked, watch: &mut Watch) -> Result<Self, Stopped> {
         let mut demand = Self::default();
         demand.add_sizes(domain, &SizeField::new(asked.sizing, domain));
@@ -129,12 +137,12 @@ impl Demand {
         self.slivers.iter().map(|(n, _)| n).sum()
     }
 
-    /// At least so many vertices.
+    /// The number of vertices that the mesh takes at least.
     pub fn vertices(&self) -> f64 {
         self.by_size.max(self.by_slivers())
     }
 
-    /// The dearest places.
+    /// The most expensive places, at most 16.
     pub fn places(&self) -> Vec<Point> {
         const PLACES: usize = 16;
         match self.largest {
@@ -143,7 +151,7 @@ impl Demand {
         }
     }
 
-    /// The width up to which slivers must go for the others to take no more than `budget` vertices.
+    /// The width up to which slivers must be welded so that the others take no more than `budget` vertices.
     pub fn width_over(&self, budget: f64) -> f64 {
         let mut by_width = self.slivers.clone();
         by_width.sort_by(|a, b| b.1.width.total_cmp(&a.1.width));
@@ -178,7 +186,7 @@ impl Demand {
     }
 }
 
-/// Edges that a curve takes by its length, its turning and the chord error.
+/// The number of edges that a curve takes because of its length, its turning and the chord error.
 fn edges_on(curve: &Curve, longest: f64, field: &SizeField) -> f64 {
     let length = curve.length();
     let mut edges = length / longest;
@@ -198,7 +206,7 @@ fn edges_on(curve: &Curve, longest: f64, field: &SizeField) -> f64 {
 }
 
 impl Sliver {
-    /// Vertices that one side of it is likely to take, of a mesh with angles of κ and more.
+    /// The number of vertices that one side of it probably takes, in a mesh with angles of κ and more.
     fn vertices(&self, kappa_rad: f64) -> f64 {
         let slope = libm::tan(kappa_rad);
         let longest = self.width * (1.0 / slope + slope);
@@ -206,14 +214,14 @@ impl Sliver {
     }
 }
 
-/// What slivers take at least.
+/// The number of vertices that slivers take at least.
 struct Price<'a> {
     survey: &'a Survey<'a>,
     asked: Asked<'a>,
 }
 
 impl Price<'_> {
-    /// Vertices on one side of a sliver.
+    /// The number of vertices on one side of a sliver.
     fn vertices(&self, sliver: &Sliver) -> f64 {
         let rough = CAUTION * (sliver.length / self.longest(sliver.width) - 1.0).max(0.0);
         if rough > 0.0 && self.asked.circles == Circles::Any && self.survey.lies_in_corner(sliver) {
@@ -222,7 +230,7 @@ impl Price<'_> {
         if rough < CHEAP { rough } else { self.on_stretch(sliver, 0) }
     }
 
-    /// The longest edge beside a place of some width.
+    /// The longest edge beside a place of this width.
     fn longest(&self, width: f64) -> f64 {
         let slope = libm::tan(self.asked.angle_min_rad);
         let factor = match self.asked.circles {
@@ -232,7 +240,7 @@ impl Price<'_> {
         (factor * width).max(2.0 * self.asked.sizing.min_edge.unwrap_or(0.0))
     }
 
-    /// Vertices on a stretch, in parts where it is not sure what lies beside the whole.
+    /// The number of vertices on a stretch; where its width is not certain, the sum over its halves.
     fn on_stretch(&self, stretch: &Sliver, depth: u32) -> f64 {
         const DEPTH: u32 = 6;
         match self.survey.sure_width(stretch) {
@@ -242,8 +250,7 @@ impl Price<'_> {
         }
     }
 
-    /// The longest piece of a curve that is no longer than `longest`, where the curve is halved, and its halves are,
-    /// and so on.
+    /// The longest part of a curve that repeated halving makes and that is no longer than `longest`.
     fn piece(&self, id: CurveId, longest: f64) -> f64 {
         let DomainCurve { curve, ends, .. } = &self.survey.domain.curves()[id];
         let bisected = self.asked.circles == Circles::Empty
@@ -254,18 +261,18 @@ impl Price<'_> {
         if !bisected {
             return longest;
         }
-        // A piece that is longer by no more than rounding passes.
+        // A part that is longer by only rounding is accepted.
         let length = curve.length();
         length / libm::exp2(libm::ceil(libm::log2(length / longest) - 1e-6).max(0.0))
     }
 }
 
-/// The slivers of a domain with the vertices that each is likely to take, kept or not, until these are more than
-/// `most`; where those narrower than `above` are, until the others are as well, or so many were seen that the rest is
-/// likely to be alike. What is excused outside a ball counts too: it need not be cut, but it is.
+/// The slivers of a domain, kept or not, with the number of vertices that each probably takes. The search ends when
+/// slivers of width `above` or more take over `most` vertices, or when all slivers so far do and there are so many that
+/// the rest are probably similar. Exempt slivers outside of balls count, too: they need not be refined, but they are.
 ///
 /// # Errors
-/// [`Stopped`] where the watch says so.
+/// [`Stopped`] where the watch ends the work.
 pub fn costly_slivers(
     domain: &Domain,
     kappa_rad: f64,
@@ -289,14 +296,14 @@ struct Survey<'a> {
     domain: &'a Domain,
     boxes: BoxHierarchy,
     lfs0: IdVec<PointId, f64>,
-    /// So many radii of the balls of its ends a curve is left out at either end.
+    /// At either end a curve is left out within this many radii of the initial ball.
     radii: f64,
     found: Vec<Sliver>,
 }
 
 impl<'a> Survey<'a> {
-    /// The slivers of a domain so many radii from sharp corners, in the order of its curves, as long as those found so
-    /// far are not enough; each is found from both sides.
+    /// The slivers of a domain beyond `radii` radii around sharp corners, in the order of its curves, until `enough` of
+    /// those so far is true. Each sliver is found from both of its sides.
     fn until(
         domain: &'a Domain,
         radii: f64,
@@ -318,9 +325,9 @@ impl<'a> Survey<'a> {
         Ok(survey)
     }
 
-    /// The width of a stretch, where one and the same curve lies across from end to end: of two straight lines that in
-    /// the middle, for as many edges as the mean width allows are no more than there are; of others the largest seen,
-    /// and a twentieth for what is between.
+    /// The width of a stretch if a single curve lies opposite all of it; else `None`. For two straight lines it is the
+    /// width in the middle: the number of edges that the mean width allows is a lower bound. For others it is the
+    /// largest sampled width and a twentieth more, for the places between samples.
     fn sure_width(&self, stretch: &Sliver) -> Option<f64> {
         const INSIDE: u32 = 16;
         let Sliver { curve, side, t: [t0, t1], length, .. } = *stretch;
@@ -329,7 +336,7 @@ impl<'a> Survey<'a> {
         let beside = |share: f64| across(share).filter(|&(other, _)| other == opposite).map(|(_, width)| width);
         let (first, last) = (beside(1e-3)?, beside(1.0 - 1e-3)?);
         if [curve, opposite].iter().all(|&id| self.domain.curves()[id].curve.is_straight()) {
-            // An edge is a few widths long: along it, the width is another by that much of the slope.
+            // An edge is a few widths long. Along it the width changes by that length times the slope.
             return Some(middle * (1.0 + 4.0 * (first - last).abs() / length));
         }
         let inside = (1..INSIDE).map(|k| beside(f64::from(k) / f64::from(INSIDE)));
@@ -343,7 +350,7 @@ impl<'a> Survey<'a> {
         [[t0, middle], [middle, t1]].map(|t| Sliver { t, length: shape.length_of(t[0], t[1]), ..*stretch })
     }
 
-    /// Whether a sliver lies between two curves that meet at a corner.
+    /// Whether a sliver lies between two curves with a common end.
     fn lies_in_corner(&self, sliver: &Sliver) -> bool {
         let [t0, t1] = sliver.t;
         let across = self.across(sliver.curve, sliver.side, 0.5 * (t0 + t1), sliver.length);
@@ -353,7 +360,7 @@ impl<'a> Survey<'a> {
 }
 
 impl Survey<'_> {
-    /// Halves one side of a curve until the widths on each stretch are alike.
+    /// Finds the slivers on one side of a curve, by halving it until the widths on each stretch are similar.
     fn look_along(&mut self, id: CurveId, side: usize) {
         let Some(whole) = self.outside_balls(id) else { return };
         let tips = self.domain.curves()[id].ends.map(|end| self.tip(end));
@@ -381,19 +388,19 @@ impl Survey<'_> {
         }
     }
 
-    /// How near to the ball of a sharp corner slivers are looked for, where there is none to be seen at first. Infinite
-    /// of others.
+    /// How near to the ball of a sharp corner a stretch is halved although no sliver is visible yet; infinite for other
+    /// points.
     fn tip(&self, end: PointId) -> f64 {
         let sharp = self.domain.corner(end).is_some_and(|corner| corner.angle_rad < 1.0 / SLENDER);
         if sharp { EXCUSED_RADII * self.ball(end) } else { f64::INFINITY }
     }
 
-    /// The radius of the ball of a point at birth, 0 of one that has none.
+    /// The initial radius of the ball of a point; 0 for a point without a ball.
     fn ball(&self, end: PointId) -> f64 {
         if self.domain.is_acute(end) { (SQRT_2 - 1.0) * self.lfs0[end] } else { 0.0 }
     }
 
-    /// The part of a curve farther from its ends than their balls reach, as they are at birth.
+    /// The part of a curve outside of `radii` radii of the initial balls at its ends.
     fn outside_balls(&self, id: CurveId) -> Option<[f64; 2]> {
         let DomainCurve { curve, ends, .. } = &self.domain.curves()[id];
         let leaves = |end: End, radius: f64, whole: f64| match radius > 0.0 {
@@ -405,13 +412,20 @@ impl Survey<'_> {
         (part[0] < part[1]).then_some(part)
     }
 
-    /// The distance to the first other curve along the normal; infinite where none is within the sixteenth part of
+    /// The distance to the first other curve along the normal; infinite if there is none within a sixteenth of
     /// `length`.
     fn width_at(&self, id: CurveId, side: usize, t: f64, length: f64) -> f64 {
         self.across(id, side, t, length).map_or(f64::INFINITY, |(_, width)| width)
     }
 
-    /// The first other curve along the normal within the sixteenth part of `length`, and its distance.
+    /// The first other curve along the normal within a sixteenth of `length`, and its distance.
+    ///
+    /// ```text
+    ///   ──────────────┬──────── other
+    ///                 │ width        The normal at t, on the left for `side` 0, on the right for 1.
+    ///   ─────────────from────── id
+    ///                 t
+    /// ```
     fn across(&self, id: CurveId, side: usize, t: f64, length: f64) -> Option<(CurveId, f64)> {
         let shape = &self.domain.curves()[id].curve;
         let from = shape.point(t);

@@ -1,8 +1,8 @@
 //! A size as an expression in x and y: `0.1 + 0.05 * hypot(x - 2, y)`.
 //!
-//! Numbers, `x`, `y`, `pi`; `+ - * / ^` (a power binds tightest and from the right), parentheses;
-//! `abs sqrt exp log sin cos tan atan` of one and `min max hypot` of two arguments; angles in radians. Read once into
-//! steps of a stack machine (Dijkstra's shunting yard), so that neither reading nor evaluating recurses.
+//! Numbers, `x`, `y`, `pi`; `+ - * / ^` (a power binds tightest, and from the right); parentheses; `abs sqrt exp log
+//! sin cos tan atan` of one and `min max hypot` of two arguments; angles in radians. Read once into steps of a stack
+//! machine (Dijkstra's shunting yard), so that neither reading nor evaluating recurses.
 
 use crate::geometry::Point;
 
@@ -68,7 +68,7 @@ impl Function {
         }
     }
 
-    /// How tightly an operator binds.
+    /// The precedence of an operator; a higher one binds tighter.
     fn precedence(self) -> u8 {
         match self {
             Self::Add | Self::Subtract => 1,
@@ -101,10 +101,10 @@ impl Function {
     }
 }
 
-/// What waits on the shunting yard's siding.
+/// An entry of the operator stack.
 enum Waiting {
     Operator(Function),
-    /// An opening parenthesis; of a call: the function and how many arguments it has so far.
+    /// An opening parenthesis; for a call with the function and the number of its arguments so far.
     Open(Option<(Function, usize)>),
 }
 
@@ -158,12 +158,12 @@ impl Expression {
 struct Reader {
     steps: Vec<Step>,
     waiting: Vec<Waiting>,
-    /// Whether a value is to come next, not an operator.
+    /// Whether a value must come next, not an operator.
     wants_value: bool,
 }
 
 impl Reader {
-    /// Takes one token; its length in bytes.
+    /// Reads one token, and returns its length in bytes.
     fn token(&mut self, rest: &str) -> Result<usize, String> {
         let first = rest.chars().next().unwrap_or(' ');
         match (self.wants_value, first) {
@@ -245,7 +245,7 @@ impl Reader {
         Ok(1)
     }
 
-    /// Moves operators over, down to the opening parenthesis, which is taken away.
+    /// Moves operators to the steps, down to the opening parenthesis, which is removed.
     fn unwind(&mut self) -> Option<Option<(Function, usize)>> {
         while let Some(waiting) = self.waiting.pop() {
             match waiting {

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
 
-/// Growth of the size away from a sample, where no other is asked for: neighbouring cells differ by a third.
+/// The default growth of the size away from a sample, a unit of distance: neighbouring cells differ by a third.
 pub const SAMPLE_GRADE: f64 = 0.3;
 
 /// How large cells are to be, by place.
@@ -20,7 +20,7 @@ pub enum Given {
     Samples(Vec<[f64; 3]>),
 }
 
-/// How it stands in a file of options.
+/// Its form in a file of options.
 #[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 enum Form {
@@ -67,12 +67,12 @@ impl Given {
     /// Reads a file of sizes: `x y size` on every line, between blanks, commas or semicolons; `#` begins a comment.
     ///
     /// # Errors
-    /// A sentence with the line that is not so.
+    /// A sentence with the first line that has another form.
     pub fn read_samples(text: &str) -> Result<Self, String> {
         rows_of(text, "x y size").map(Self::Samples)
     }
 
-    /// What is out of bounds.
+    /// What is out of bounds, as a phrase; `None` if nothing is.
     pub fn flaw(&self) -> Option<&'static str> {
         match self {
             Self::Expression(_) => None,
@@ -84,7 +84,7 @@ impl Given {
         }
     }
 
-    /// The first of some places at which an expression gives no positive size.
+    /// The first of some places at which an expression has no positive finite value.
     pub fn undefined_at(&self, places: impl IntoIterator<Item = Point>) -> Option<Point> {
         match self {
             Self::Expression(expression) => {
@@ -95,10 +95,10 @@ impl Given {
     }
 }
 
-/// Rows of N finite numbers, between blanks, commas or semicolons; `#` begins a comment.
+/// Rows of N finite numbers, separated by blanks, commas or semicolons; `#` begins a comment.
 ///
 /// # Errors
-/// A sentence with the line that is not `form`.
+/// A sentence with the first line that is not of the form `form`.
 pub fn rows_of<const N: usize>(text: &str, form: &str) -> Result<Vec<[f64; N]>, String> {
     let mut rows = Vec::new();
     for (i, line) in text.lines().enumerate() {

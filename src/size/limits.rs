@@ -1,4 +1,4 @@
-//! The limits on cells that a user can give, and what they come to in a drawing.
+//! The limits on cells that a user can give, and their values for a drawing.
 
 use super::{ByPlace, Given, SAMPLE_GRADE, Sizing, Source};
 use crate::geometry::Point;
@@ -97,8 +97,8 @@ impl Limits {
         }
     }
 
-    /// What is asked for everywhere and by place, in a drawing of this diagonal; names are left to those who know the
-    /// domain. A share of a diagonal that is not known asks for nothing.
+    /// The limits that hold everywhere and by place, for a drawing of this diagonal. Limits by name are resolved later,
+    /// with the domain. A share of an unknown diagonal sets no limit.
     pub fn sizing(&self, diagonal: Option<f64>) -> Sizing {
         Sizing {
             max_area: self.max_area,
@@ -115,7 +115,7 @@ impl Limits {
         }
     }
 
-    /// The places of a file of sizes, which grow by `grade`.
+    /// The places of a file of sizes, as sources from which the size grows by `grade`.
     pub fn samples(&self) -> Vec<Source> {
         let Some(Given::Samples(samples)) = &self.size else { return Vec::new() };
         let grade = self.grade.unwrap_or(SAMPLE_GRADE);
@@ -144,7 +144,7 @@ impl ChordError {
         }
     }
 
-    /// As a length, in a drawing of this diagonal; `None` of a share of a diagonal that is not known.
+    /// As a length, for a drawing of this diagonal; `None` for a share of an unknown diagonal.
     pub fn length(self, diagonal: Option<f64>) -> Option<f64> {
         match self {
             Self::Length(length) => Some(length),

@@ -1,7 +1,17 @@
-//! How large a cell may be, and where: limits on edges, areas, chord error and turning; per name; near sources; graded.
+//! The largest size of a cell at each place: limits on edges, areas, chord error and turning, by name, near sources,
+//! graded.
 //!
-//! A [`Sizing`] is what is asked; [`SizeField`] is the same, resolved against a domain, and answers at a place. Engine
-//! and judge ask the same field, so that what was asked is what is checked.
+//! A [`Sizing`] holds the limits. A [`SizeField`] is the same, resolved for a domain, and gives the limit at a place.
+//! Engine and verifier use the same field, so the verifier checks exactly what was asked for.
+//!
+//! ```text
+//!   limit ▲
+//!         │ ╲          ╱               Each source sets the limit `edge` where it lies. The limit grows by `grade` a
+//!         │  ╲  ╱╲    ╱                unit of distance away from it. At every place the smallest of these limits
+//!         │   ╲╱  ╲  ╱                 holds.
+//!         │        ╲╱ edge
+//!         └────────────────▶ place
+//! ```
 
 pub mod estimate;
 mod expression;
@@ -17,7 +27,7 @@ use crate::domain::{Domain, Incident, SizeRequest};
 use crate::geometry::{self, Point, boxes::BoxHierarchy};
 use crate::ids::{CurveId, IdVec, PointId, RegionId};
 
-/// What is asked of cell sizes, in the drawing's units. `None` and empty: no limit.
+/// The limits on cells, in the drawing's units. `None` and empty: no limit.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Sizing {
     /// Largest area of a triangle.
@@ -28,18 +38,18 @@ pub struct Sizing {
     pub min_edge: Option<f64>,
     /// Largest distance from a mesh edge to its curve.
     pub chord_error: Option<f64>,
-    /// Largest turning of the curve along a mesh edge.
+    /// Largest turning of the curve along a mesh edge, in radians.
     pub edge_turning_rad: Option<f64>,
-    /// Growth of the limit of a named boundary or region, a unit of distance away from it; `None`: the limit acts there
-    /// alone.
+    /// Growth of the limit of a named boundary or region, a unit of distance away from it; `None`: the limit holds only
+    /// there.
     pub grade: Option<f64>,
     /// Limits of named boundaries, of named regions and around places.
     pub sources: Vec<Source>,
-    /// Edges no longer than the value of an expression at their place.
+    /// An expression for the longest edge at a place.
     pub by_place: Option<ByPlace>,
 }
 
-/// An expression in coordinates that are those of the field over `scale`.
+/// An expression whose coordinates are those of the field divided by `scale`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ByPlace {
     /// The longest edge as a function of the place; a value that is not positive sets no limit there.
@@ -49,14 +59,14 @@ pub struct ByPlace {
 }
 
 impl ByPlace {
-    /// The limit at a place; none where the expression gives no positive number.
+    /// The limit at a place; infinite where the expression has no positive value.
     fn at(&self, p: Point) -> f64 {
         let value = self.scale * self.expression.at(geometry::scaled(p, 1.0 / self.scale));
         if value > 0.0 { value } else { f64::INFINITY }
     }
 }
 
-/// Where a size is asked for.
+/// A limit with the place where it holds.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Source {
     /// Edges on the boundary of this name.
@@ -87,7 +97,7 @@ pub enum Source {
 }
 
 impl Sizing {
-    /// Adds the wishes that came with a drawing.
+    /// Adds the size requests that came with a drawing.
     pub fn with_requests(mut self, requests: &[SizeRequest], name_of: impl Fn(crate::ids::NameId) -> String) -> Self {
         for request in requests {
             match *request {
@@ -106,7 +116,7 @@ impl Sizing {
         self
     }
 
-    /// All lengths times a power of two (areas by its square): exact.
+    /// All lengths times a power of two (areas times its square): exact.
     pub fn scaled(&self, factor: f64) -> Self {
         let length = |v: Option<f64>| v.map(|v| v * factor);
         let source = |s: &Source| match s.clone() {
@@ -132,18 +142,18 @@ impl Sizing {
     }
 }
 
-/// Sizes resolved against a domain: the limits at a place.
+/// Sizes resolved for a domain: the limits at a place.
 pub struct SizeField {
     sizing: Sizing,
     curve_edges: IdVec<CurveId, f64>,
     region_edges: IdVec<RegionId, f64>,
     region_areas: IdVec<RegionId, f64>,
-    /// Limits that grow with the distance, and their boxes.
+    /// The limits that grow with the distance; `boxes` are those of their carriers.
     growing: Vec<Growing>,
     boxes: BoxHierarchy,
-    /// The least of the limits that do not grow.
+    /// The smallest of the limits that hold everywhere, because they do not grow.
     flat: f64,
-    /// Smallest and largest growth of a limit, a unit of distance.
+    /// The smallest and the largest growth of a limit, a unit of distance.
     grades: (f64, f64),
 }
 
@@ -183,7 +193,7 @@ fn distance_to_segment(p: Point, a: Point, b: Point) -> f64 {
 }
 
 impl SizeField {
-    /// Resolves limits against a domain: names become curves and regions.
+    /// Resolves limits for a domain: names become curves and regions.
     pub fn new(sizing: &Sizing, domain: &Domain) -> Self {
         let everywhere = sizing.max_edge.unwrap_or(f64::INFINITY);
         let named_curve = |name: &str| {
@@ -209,7 +219,8 @@ impl SizeField {
         });
         let region_edges: IdVec<RegionId, f64> =
             domain.regions().iter().map(|r| named_region(domain.name(r.name))).collect();
-        // As far from a region as from its border, outside of it; inside, what grows is above the region's own limit.
+        // Outside a region, the distance from it is that from its border. Inside, the growing limit is larger than the
+        // region's own.
         let graded = domain.curves().enumerate().filter_map(|(id, c)| {
             let beside = c.sides.iter().flatten().map(|&region| region_edges[region]);
             let edge = beside.fold(curve_edges[id], f64::min);
@@ -244,14 +255,14 @@ impl SizeField {
         !self.growing.is_empty() || self.flat.is_finite() || self.sizing.by_place.is_some()
     }
 
-    /// Longest edge allowed at a place because of sources nearby; infinite where nothing is asked.
+    /// Longest edge allowed at a place because of sources nearby; infinite where there is no limit.
     pub fn limit_at(&self, at: Point) -> f64 {
         let by_place = self.sizing.by_place.as_ref().map_or(f64::INFINITY, |b| b.at(at));
         let limit = self.flat.min(by_place);
         if self.growing.is_empty() {
             return limit;
         }
-        // A limit over the smallest grade is at least the distance, by which the search leaves boxes out.
+        // A limit divided by the smallest grade is at least the distance, so the search can skip boxes by distance.
         let least = self.grades.0;
         let nearest = self.boxes.nearest(at, limit / least, |i, _| self.growing[i].at(at) / least);
         nearest.map_or(limit, |(i, _)| self.growing[i].at(at).min(limit))
@@ -272,7 +283,8 @@ impl SizeField {
         self.curve_edges[curve].min(self.flat)
     }
 
-    /// Largest triangle allowed anywhere in a region: by area, and by its edges, of which equal ones enclose the most.
+    /// Largest area of a triangle allowed anywhere in a region, by the area limit and by the edges of an equilateral
+    /// triangle.
     pub fn largest_triangle(&self, region: RegionId) -> f64 {
         let edge = self.region_edges[region].min(self.flat);
         self.region_areas[region].min(0.25 * 3f64.sqrt() * edge * edge)
@@ -283,13 +295,13 @@ impl SizeField {
         self.region_areas[region]
     }
 
-    /// The edge that a cell is to have in a region at a place: the longest allowed, or that of the largest equilateral
+    /// The target length of an edge in a region at a place: the longest allowed, or that of the largest equilateral
     /// triangle.
     pub fn length_in(&self, region: RegionId, at: Point) -> f64 {
         self.edge_in(region, at).min((self.area_in(region) * 4.0 / 3f64.sqrt()).sqrt())
     }
 
-    /// How many times a triangle is over its limits (1 and below: within them): by its longest edge and its area.
+    /// The ratio of a triangle to its limits, by its longest edge and its area; at most 1: within them.
     pub fn excess(&self, region: RegionId, corners: [Point; 3]) -> f64 {
         let [a, b, c] = corners;
         let longest2 = a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a));
@@ -299,11 +311,11 @@ impl SizeField {
         (longest2 / (edge * edge)).max(area / self.area_in(region)).sqrt()
     }
 
-    /// The largest ball at a corner, up to `most`, in which cells meet the limits though nothing inside it is ever
-    /// refined.
+    /// The largest radius of a ball at a corner, up to `most`, with which cells meet the limits although nothing inside
+    /// it is ever refined.
     ///
-    /// Its spokes are mesh edges: each must turn little enough and lie near enough to its curve. A curve that is smooth
-    /// at its end straightens as it shortens, so the search ends; 200 steps are a factor of 1e-19.
+    /// Its spokes are mesh edges: each must meet the limits on turning and chord error. A curve that is smooth at its
+    /// end becomes straighter as it shortens, so the search ends; 200 steps are a factor of 1e-19.
     pub fn largest_ball(&self, domain: &Domain, corner: PointId, most: f64) -> f64 {
         let mut radius = most.min(self.largest_fan(domain, corner));
         for _ in 0..200 {
@@ -316,7 +328,8 @@ impl SizeField {
         radius
     }
 
-    /// Whether an expression allows fans of this radius around a corner, by samples: how it varies is not known.
+    /// Whether an expression forbids fans of this radius around a corner. It is sampled, since its variation is
+    /// unknown.
     fn fan_too_large(&self, at: Point, radius: f64) -> bool {
         let Some(by_place) = &self.sizing.by_place else { return false };
         let ring = (0..16).map(|k| geometry::direction(f64::from(k) * std::f64::consts::FRAC_PI_8));
@@ -324,9 +337,9 @@ impl SizeField {
         samples.chain([at]).any(|p| 2.0 * radius > by_place.at(p))
     }
 
-    /// The largest radius whose triangles meet the limits. A triangle with its circumcenter in B(p) has a circumradius
-    /// below d(p), for p lies not inside its circumcircle: edges below 2d, area below (3√3/4)·d² < 1.3·d², corners
-    /// within 2d of p.
+    /// The largest radius d of a ball whose triangles meet the limits. A triangle with its circumcenter in B(p) has a
+    /// circumradius below d(p), because p does not lie inside its circumcircle. So its edges are below 2d, its area is
+    /// below (3√3/4)·d² < 1.3·d², and its corners lie within 2d of p.
     fn largest_fan(&self, domain: &Domain, corner: PointId) -> f64 {
         let at = domain.points()[corner];
         let steepest = self.grades.1;
@@ -353,13 +366,13 @@ impl SizeField {
         }
     }
 
-    /// Whether a part of a curve is longer, turns more, or strays farther from its chord than a mesh edge may.
+    /// Whether a part of a curve is longer, turns more, or is farther from its chord than a mesh edge may be.
     pub fn edge_too_large(&self, curve: CurveId, shape: &Curve, t0: f64, t1: f64) -> bool {
         let (x, y) = (shape.point(t0), shape.point(t1));
         x.distance(y) > self.edge_on(curve, x.midpoint(y)) || self.edge_too_bent(shape, t0, t1)
     }
 
-    /// Whether a part of a curve turns more, or strays farther from its chord than a mesh edge may.
+    /// Whether a part of a curve turns more, or is farther from its chord than a mesh edge may be.
     pub fn edge_too_bent(&self, shape: &Curve, t0: f64, t1: f64) -> bool {
         if shape.is_straight() {
             return false;

@@ -1,4 +1,4 @@
-//! The Delaunay property, the angles of the triangles, and what exempts a small one.
+//! The Delaunay property, the angles of the triangles, and which small ones are exempt.
 
 use super::balls::SoundBall;
 use super::evidence::Evidence;
@@ -14,10 +14,9 @@ use crate::promise::{ANGLE_RULE_GUARANTEE_RAD, ConstrainedPromise, EnginePromise
 use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// What κ the theory covers for this domain: whether a bound that holds is proven or merely reached.
+/// Whether theory covers κ for this domain: a bound that holds is then proven, else reached.
 fn status_of_angle_bound(ev: &Evidence, kappa: f64) -> Status {
-    // What theory says of our engine says nothing of a mesh from elsewhere; and triangles left alone for their size are
-    // no part of it.
+    // Theory covers neither a mesh from elsewhere nor triangles that are not refined because of their size.
     let ours = ev.domain.filter(|_| !ev.promise.foreign && ev.promise.sizing.min_edge.is_none());
     let proven = match &ev.promise.engine {
         EnginePromise::Lopping(lopping) => ours.is_some_and(|domain| kappa < covered(lopping, domain)),
@@ -26,7 +25,7 @@ fn status_of_angle_bound(ev: &Evidence, kappa: f64) -> Status {
     if proven { Status::Proven } else { Status::Reached }
 }
 
-/// The κ that corner lopping covers.
+/// The κ (radians) below which corner lopping is proven on a domain.
 fn covered(lopping: &LoppingPromise, domain: &Domain) -> f64 {
     let lens = domain.curves().iter().map(|c| c.curve.lens_angle(0.0, 1.0)).fold(0.0, f64::max);
     let arcs = lopping.arc_turning_rad.filter(|_| domain.points().ids().any(|p| domain.is_acute(p)));
@@ -39,24 +38,35 @@ fn covered(lopping: &LoppingPromise, domain: &Domain) -> f64 {
     }
 }
 
-/// Whether constrained refinement proves its angle here: on segments, none of which meet too sharply.
+/// Whether constrained refinement proves its angle on a domain: it has only segments, and all their angles are above
+/// the bound.
 fn is_covered(constrained: &ConstrainedPromise, domain: &Domain) -> bool {
     let Some(least) = constrained.proven_above_rad else { return false };
     let corners = domain.points().ids().filter_map(|p| domain.corner(p));
     domain.curves().iter().all(|c| c.curve.is_straight())
-        // An angle of the bound itself, rounded, is not above it.
+        // An angle equal to the bound but for rounding is not above it.
         && corners.map(|corner| corner.angle_rad).all(|angle| angle > least + 1e-9)
 }
 
-/// No triangle beside an edge has its far corner inside the circle of the other, exactly; where the mesh is constrained
-/// Delaunay, edges on curves are exempt. Checked: edges with two triangles. Worst: the largest sum of the two angles
-/// that face an edge, in degrees (180 where all four corners lie on a circle).
+/// At every edge with two triangles the corner `across` lies not inside the circle of the triangle of `apex`, by exact
+/// signs. Where the mesh is constrained Delaunay, edges on curves are exempt. Checked: edges with two triangles. Worst:
+/// the largest sum of the two angles that face an edge, in degrees (180 where all four corners lie on a circle).
+///
+/// ```text
+///         apex
+///       .´ α  `.        facing: α + β, in degrees
+///     .´        `.      < 180: across lies outside the circle of x y apex
+///   x ──────────── y    = 180: all four lie on one circle
+///     `.        .´      > 180: it lies inside, and the edge is flawed
+///       `. β  .´
+///        across
+/// ```
 pub fn delaunay(ev: &Evidence) -> Check {
     let constrained = ev.promise.is_constrained();
     let mut tally = Tally::highest(if constrained { "constrained_delaunay" } else { "delaunay" });
     let mut on_curve = vec![false; if constrained { ev.edges.edges().len() } else { 0 }];
     if constrained {
-        ev.pieces.iter().filter_map(|piece| piece.edge).for_each(|edge| on_curve[edge] = true);
+        ev.parts.iter().filter_map(|part| part.edge).for_each(|edge| on_curve[edge] = true);
     }
     for (i, edge) in ev.edges.edges().iter().enumerate() {
         let (Some(left), Some(right)) = (edge.left(), edge.right()) else { continue };
@@ -87,17 +97,31 @@ pub fn delaunay(ev: &Evidence) -> Check {
 /// Sum of the angles at `a` and `b` that face the edge `x y` from its left and right, in degrees.
 fn facing([x, y]: [Point; 2], a: Point, b: Point) -> f64 {
     let (at_a, at_b) = (((x - a).cross(y - a), (x - a).dot(y - a)), ((y - b).cross(x - b), (y - b).dot(x - b)));
-    // Adding angles is multiplying complex numbers; the sum of two angles of triangles lies within 0..2π.
+    // The angle of a product of complex numbers is the sum of their angles, here within 0..2π.
     let (sin, cos) = (at_a.0 * at_b.1 + at_a.1 * at_b.0, at_a.1 * at_b.1 - at_a.0 * at_b.0);
     let angle = libm::atan2(sin, cos).to_degrees();
     if angle < -90.0 { angle + 360.0 } else { angle }
 }
 
-/// Engine and judge compute an angle by different formulas, each a few ε off times at most 1/κ; in radians.
+/// Engine and verifier compute an angle by different formulas, each with an error of a few ε times at most 1/κ.
+/// Radians.
 const ANGLE: f64 = 1e-12;
 
-/// Where asked: every triangle has all angles ≥ κ, or a corner exempts it (Lemma 6; with corner arcs: all three of its
-/// nodes lie in one ball). Worst: the smallest angle without exemption, in degrees. Also returns the exempts, by ball.
+/// If κ is asked for: every triangle has all angles ≥ κ, or a corner exempts it (Lemma 6; with corner arcs: all three
+/// of its nodes lie in one ball). Worst: the smallest angle of a triangle that is not exempt, in degrees. Also returns
+/// the exemptions, by ball.
+///
+/// ```text
+///             x.                                          a
+///           ╱   `.                                      ╱ │`.
+///         ╱   ·c  :                                   q   │ t c
+///       ╱  t     :                                      ╲ │.´
+///     p ──────── y                                        b
+///
+///   Corner lopping: the circumcenter c of t      Constrained refinement: the shortest edge a b of t
+///   lies in B(p); with corner arcs: all          lies across the sharp corner q, |qa| = |qb|
+///   corners of t lie in B(p)
+/// ```
 pub fn min_angle(ev: &Evidence, balls: &[SoundBall]) -> (Check, Vec<Exemption>) {
     let Some(kappa) = ev.promise.angle_min_rad else { return (Check::not_asked("min_angle"), Vec::new()) };
     let mut tally = Tally::lowest("min_angle");
@@ -135,8 +159,8 @@ pub fn min_angle(ev: &Evidence, balls: &[SoundBall]) -> (Check, Vec<Exemption>) 
     (tally.finish(status_of_angle_bound(ev, kappa)), exempt)
 }
 
-/// Where asked: the radius-edge ratio of every triangle without exemption is at most that of κ, 1/(2 sin κ). Worst: the
-/// largest.
+/// If κ is asked for: the radius-edge ratio of every triangle that is not exempt is at most that of κ, 1/(2 sin κ).
+/// Worst: the largest.
 pub fn radius_edge(ev: &Evidence, exempt: &[Exemption]) -> Check {
     let Some(kappa) = ev.promise.angle_min_rad else { return Check::not_asked("radius_edge") };
     let mut tally = Tally::highest("radius_edge");
@@ -164,7 +188,7 @@ struct AcrossCorners<'a> {
 
 impl<'a> AcrossCorners<'a> {
     fn new(ev: &'a Evidence<'a>, domain: &'a Domain) -> Self {
-        let mut at_nodes: Vec<_> = ev.pieces.iter().flat_map(|p| p.nodes.map(|v| (v, p.curve))).collect();
+        let mut at_nodes: Vec<_> = ev.parts.iter().flat_map(|p| p.nodes.map(|v| (v, p.curve))).collect();
         at_nodes.sort_unstable();
         at_nodes.dedup();
         Self { ev, domain, at_nodes }
@@ -175,12 +199,13 @@ impl<'a> AcrossCorners<'a> {
         self.at_nodes[first..].iter().take_while(|&&(w, _)| w == v).map(|&(_, curve)| curve).collect()
     }
 
-    /// The corner that lies across the shortest edge of a triangle: its smallest angle is the drawing's own.
+    /// The sharp corner that exempts a triangle: its shortest edge lies across it, with ends equally far from it. So
+    /// its smallest angle is that of the drawing.
     fn exemption(&self, t: TriangleId) -> Option<PointId> {
         let [a, b, c] = self.ev.mesh.triangles[t];
         let length = |e: &[VertexId; 3]| self.ev.node(e[0]).distance(self.ev.node(e[1]));
         let turns = [[a, b, c], [b, c, a], [c, a, b]];
-        // Of edges that are equal but for rounding the engine may have taken any.
+        // Of edges that are equal but for rounding the engine may have chosen any.
         let least = turns.iter().map(length).fold(f64::INFINITY, f64::min) * (1.0 + 1e-9);
         turns.into_iter().filter(|turn| length(turn) <= least).find_map(|turn| {
             let [a, b, c] = turn.map(|v| self.curves(v));
@@ -199,7 +224,7 @@ impl<'a> AcrossCorners<'a> {
     }
 }
 
-/// The user's own wish: triangles with a circumradius below `min_edge` are not refined for their angles.
+/// Whether a triangle is not refined for its angles because its circumradius is below `min_edge`, as the user asked.
 fn is_below_min_edge(ev: &Evidence, t: TriangleId) -> bool {
     let limit = ev.promise.sizing.min_edge.unwrap_or(0.0);
     Circle::around(ev.mesh.corners(t)).is_some_and(|c| c.radius <= limit)
@@ -222,7 +247,8 @@ pub fn max_angle(ev: &Evidence) -> Check {
     for t in ev.mesh.triangles.ids() {
         let corners = ev.mesh.corners(t);
         let (_, most) = angle_range(corners);
-        // Nodes rounded by `rounding` each turn an edge of length l by 2·rounding/l: all that matters at a cusp.
+        // Nodes that are each rounded by `rounding` turn an edge of length l by 2·rounding/l. At a cusp that is
+        // decisive.
         let slack = || 2.0 * ev.rounding / shortest_edge(corners);
         if most > limit && is_below_min_edge(ev, t) {
             tally.exempt();
@@ -241,15 +267,15 @@ fn shortest_edge([a, b, c]: [Point; 3]) -> f64 {
     a.distance(b).min(b.distance(c)).min(c.distance(a))
 }
 
-/// The balls, found by place.
+/// The balls, with a search by place.
 struct Corners<'a> {
     ev: &'a Evidence<'a>,
     balls: &'a [SoundBall],
     hierarchy: BoxHierarchy,
 }
 
-/// Engine and judge each round a circumcenter; 1e-9 of the radius is above either for angles down to 1e-6, and what is
-/// thinner gets the rounding of its own circle on top.
+/// Engine and verifier each round a circumcenter. 1e-9 of the radius is above both errors for angles down to 1e-6; a
+/// thinner triangle adds the error of its own circle.
 const CENTER: f64 = 1e-9;
 
 impl<'a> Corners<'a> {
@@ -269,14 +295,14 @@ impl<'a> Corners<'a> {
 
     /// The ball in which all corners lie, up to the rounding of nodes that were placed on its rim.
     fn holding(&self, corners: &[Point; 3]) -> Option<usize> {
-        // 1e-12 as for the radius itself; the rim's points are rounded where they lie.
+        // 1e-12 as for the radius itself, and the rounding of points on the rim.
         let reach = |ball: &SoundBall| ball.radius * (1.0 + 1e-12) + self.ev.rim;
         self.find(Rect::from_points(corners[0], corners[0]), |ball| {
             corners.iter().all(|c| c.distance(ball.center) <= reach(ball))
         })
     }
 
-    /// The open ball that holds the circle's centre, up to what rounding does to it.
+    /// The open ball in which the centre of a circle lies, up to rounding.
     fn over(&self, circle: Circle) -> Option<usize> {
         let at = circle.center;
         self.find(Rect::from_points(at, at).inflate(circle.error, circle.error), |ball| {
@@ -311,8 +337,8 @@ impl Circle {
         let to_center = crate::geometry::Vec2::new(v.y * uu - u.y * vv, u.x * vv - v.x * uu) / (2.0 * cross);
         let radius = to_center.hypot();
         let (least, _) = angle_range([a, b, c]);
-        // The cross product of edges that meet at an angle θ is a few ε/sin θ off, and the centre as much of the
-        // radius.
+        // The cross product of edges that meet at an angle θ has a relative error of a few ε/sin θ, and the centre one
+        // of as much of the radius.
         let error = 16.0 * f64::EPSILON * radius / libm::sin(least).abs();
         (radius.is_finite() && error.is_finite()).then_some(Self { center: a + to_center, radius, error })
     }

@@ -1,4 +1,12 @@
-//! The protecting balls: which of them can exemption a triangle.
+//! The protecting balls, and which of them may exempt a triangle.
+//!
+//! ```text
+//!         ╱ `.
+//!       ╱     :             nearest other point q of P: |pq| = lfs₀(p)
+//!     p ─ d ──┤·········● q
+//!       ╲     :             ball_radius: d ≤ (√2 − 1)·lfs₀(p), and no two balls meet
+//!         ╲ .´              lfs_ratio:   lfs(p) ≤ C₀·d
+//! ```
 
 use super::Check;
 use super::Status;
@@ -15,19 +23,22 @@ use std::f64::consts::SQRT_2;
 /// C₀ = 1 + √2, the grading constant of Lemma 4.
 const GRADING: f64 = 1.0 + SQRT_2;
 
-/// A radius is a quotient of rounded distances, a few ε off; 1e-12 is theory.md's allowance for it.
+/// A radius is a quotient of rounded distances, with an error of a few ε; 1e-12 is far above it.
 const RADIUS: f64 = 1.0 + 1e-12;
 
-/// A ball that stood the test.
+/// A ball that passed `ball_radius` and `lfs_ratio`: it may exempt triangles.
 #[derive(Clone, Copy, Debug)]
 pub struct SoundBall {
+    /// The place of its corner.
     pub center: Point,
+    /// In units of the drawing.
     pub radius: f64,
+    /// What set the radius, as the report spells it.
     pub why: &'static str,
 }
 
-/// `ball_radius`, `lfs_ratio` and the balls that passed both. A foreign mesh has no balls of its own: every acute
-/// corner is given the largest, (√2−1)·lfs₀, and nothing is checked.
+/// `ball_radius`, `lfs_ratio` and the balls that passed both. A foreign mesh has no balls of its own. There every acute
+/// corner gets the largest one, of radius (√2−1)·lfs₀, and nothing is checked.
 pub fn judge(ev: &Evidence, domain: &Domain) -> (Check, Check, Vec<SoundBall>) {
     let lfs0 = domain.lfs0();
     if ev.promise.foreign {
@@ -87,12 +98,12 @@ fn radius(ev: &Evidence, domain: &Domain, lfs0: &IdVec<PointId, f64>) -> (Check,
     (tally.finish(Status::Proven), placed)
 }
 
-/// For each ball the corner of another that it meets.
+/// For each ball the corner of a ball that it meets.
 fn balls_that_meet(ev: &Evidence, domain: &Domain) -> Vec<Option<PointId>> {
     let balls = &ev.mesh.balls;
     let center = |i: usize| domain.points()[balls[i].corner];
     let mut met = vec![None; balls.len()];
-    // A radius that is no number has a box of no size here, and is told elsewhere.
+    // A radius that is not finite has a box of size 0 here; `radius` reports it.
     let size = |r: f64| if r.is_finite() { 2.0 * r.abs() } else { 0.0 };
     let boxes =
         (0..balls.len()).map(|i| Rect::from_center_size(center(i), (size(balls[i].radius), size(balls[i].radius))));
@@ -117,7 +128,8 @@ fn ratio(ev: &Evidence, domain: &Domain) -> (Check, Vec<bool>) {
     let grading = beta.map_or(GRADING, |beta| GRADING.max(1.5 / beta));
     let field = SizeField::new(&ev.promise.sizing, domain);
     let lfs0 = domain.lfs0();
-    // Found by the same steps from the same numbers, but for the scale: 1e-9 is above any rounding in between.
+    // The engine computed it by the same steps from the same numbers, but for the scale: 1e-9 is above any rounding in
+    // between.
     let capped = |ball: &Ball| {
         let largest = field.largest_ball(domain, ball.corner, lfs0[ball.corner] / GRADING);
         ball.radius >= largest * (1.0 - 1e-9)

@@ -1,4 +1,4 @@
-//! What the curves of the domain ask of the mesh: nodes on them, chains of edges along them, small errors.
+//! The mesh along the curves of the domain: nodes on them, chains of edges, chord errors and turnings.
 
 use super::elevation::mids_on_curves;
 use super::evidence::{CurvePart, Evidence, is_kept, place};
@@ -11,23 +11,23 @@ use crate::geometry::Point;
 use crate::geometry::boxes::BoxHierarchy;
 use crate::ids::{CurveId, Id, IdVec, PointId, VertexId};
 
-/// Every linked node lies where its curve has the parameter, within the welding distance and rounding; ends lie exactly
-/// on points of P. Of a foreign mesh: every node at which a region ends lies on some curve. Worst: the largest
-/// distance.
+/// Every linked node lies at the point of its curve at its parameter, within the welding distance and rounding. Ends
+/// lie exactly on points of P. In a foreign mesh every node at which a region ends lies on some curve. Worst: the
+/// largest distance.
 pub fn on_curve(ev: &Evidence, domain: &Domain) -> Check {
     let mut tally = Tally::highest("on_curve");
     // A weld moves a curve by at most the tolerance; evaluation and storing round.
     let reach = domain.tolerance() + ev.rounding;
-    for piece in &ev.pieces {
-        let curve = &domain.curves()[piece.curve];
-        for (t, v) in piece.t.into_iter().zip(piece.nodes) {
+    for part in &ev.parts {
+        let curve = &domain.curves()[part.curve];
+        for (t, v) in part.t.into_iter().zip(part.nodes) {
             tally.count();
             let at = ev.node(v);
             let away = at.distance(curve.curve.point(t));
             tally.measure(away, at);
             let end = (t == 0.0 || t == 1.0).then(|| curve.ends[usize::from(t == 1.0)]);
             if away.is_nan() || away > reach {
-                let c = piece.curve.0;
+                let c = part.curve.0;
                 tally.flaw(|| format!("node {} at {} lies {away} from curve {c} at t = {t}", v.0, place(at)));
             } else if let Some(p) = end.filter(|_| !ev.promise.foreign) {
                 exactly(ev, domain, p, v, &mut tally);
@@ -57,10 +57,10 @@ fn exactly(ev: &Evidence, domain: &Domain, p: PointId, v: VertexId, tally: &mut 
     }
 }
 
-/// Nodes of edges that end a region, but on no curve.
+/// Reports nodes of edges that end a region, but lie on no curve.
 fn stray_nodes(ev: &Evidence, domain: &Domain, tally: &mut Tally) {
     let mut found = vec![false; ev.mesh.nodes.len()];
-    ev.pieces.iter().flat_map(|p| p.nodes).for_each(|v| found[v.index()] = true);
+    ev.parts.iter().flat_map(|p| p.nodes).for_each(|v| found[v.index()] = true);
     let hierarchy = BoxHierarchy::new(domain.curves().iter().map(|c| c.curve.bounds()));
     for v in ev.edges.edges().iter().filter(|e| ends_a_region(ev, e)).flat_map(|e| e.nodes) {
         if std::mem::replace(&mut found[v.index()], true) {
@@ -76,13 +76,19 @@ fn stray_nodes(ev: &Evidence, domain: &Domain, tally: &mut Tally) {
     }
 }
 
-/// Every curve with a kept side is one chain of edges from its first point to its last, its parameters ascending,
-/// without a gap, and grouped by curve. Checked: curves.
+/// Every curve with a kept side is one chain of edges from its first point to its last: with ascending parameters,
+/// without a gap, in one group. Checked: curves.
+///
+/// ```text
+///    p ●───────●───────●───────● q      nodes[0] of the first part is p, at t[0] = 0
+///      0      t₁      t₂       1        t[1] and nodes[1] of a part are t[0] and nodes[0] of the next
+///                                       nodes[1] of the last part is q, at t[1] = 1
+/// ```
 pub fn curve_chain(ev: &Evidence, domain: &Domain) -> Check {
     let mut tally = Tally::highest("curve_chain");
     let node = ev.nodes_of_points(domain);
     let mut seen: IdVec<CurveId, bool> = vec![false; domain.curves().len()].into();
-    for chain in ev.pieces.chunk_by(|a, b| a.curve == b.curve) {
+    for chain in ev.parts.chunk_by(|a, b| a.curve == b.curve) {
         tally.count();
         let id = chain[0].curve;
         let again = std::mem::replace(&mut seen[id], true);
@@ -99,7 +105,7 @@ pub fn curve_chain(ev: &Evidence, domain: &Domain) -> Check {
     tally.finish(Status::Proven)
 }
 
-/// What keeps `chain` from leading from one end to the other.
+/// Why `chain` does not lead from one end to the other; `None` where it does.
 fn gap_in(ev: &Evidence, chain: &[CurvePart], ends: [Option<VertexId>; 2]) -> Option<String> {
     let (first, last) = (chain.first()?, chain.last()?);
     let at = |v: VertexId| place(ev.node(v));
@@ -116,21 +122,21 @@ fn gap_in(ev: &Evidence, chain: &[CurvePart], ends: [Option<VertexId>; 2]) -> Op
     Some(format!("has a gap after t = {}, node {} at {}", torn[0].t[1], torn[0].nodes[1].0, at(torn[0].nodes[1])))
 }
 
-/// Where asked: no curve is farther than the limit from its edge.
+/// If asked for: no curve is farther from its edge than the limit.
 pub fn chord_error(ev: &Evidence, domain: &Domain) -> Check {
     // Evaluating the curve and its chord rounds.
     let limit = ev.promise.sizing.chord_error.map(|limit| limit * (1.0 + MEASURED_TWICE) + ev.rounding);
     along_pieces(ev, domain, "chord_error", limit, "lies", Curve::chord_error)
 }
 
-/// Where asked: along no edge does its curve turn more than the limit. Radians.
+/// If asked for: along no edge its curve turns more than the limit. Radians.
 pub fn edge_turning(ev: &Evidence, domain: &Domain) -> Check {
     let limit = ev.promise.sizing.edge_turning_rad.map(|limit| limit * (1.0 + MEASURED_TWICE));
     along_pieces(ev, domain, "edge_turning", limit, "turns", Curve::turning)
 }
 
-/// Equal cuts of a curve are found by iteration and stored as rounded parameters; 1e-9 of the limit is far above either
-/// and below what anyone can see.
+/// Equal cuts of a curve are found by iteration and stored as rounded parameters. 1e-9 of the limit is far above both
+/// errors, and too small to matter.
 const MEASURED_TWICE: f64 = 1e-9;
 
 fn along_pieces(
@@ -143,14 +149,14 @@ fn along_pieces(
 ) -> Check {
     let Some(limit) = limit else { return Check::not_asked(name) };
     let mut tally = Tally::highest(name);
-    for piece in &ev.pieces {
+    for part in &ev.parts {
         tally.count();
-        let (t0, t1) = piece.range();
-        let value = if t0 < t1 { measure(&domain.curves()[piece.curve].curve, t0, t1) } else { 0.0 };
-        let at: Point = ev.middle(piece.nodes);
+        let (t0, t1) = part.range();
+        let value = if t0 < t1 { measure(&domain.curves()[part.curve].curve, t0, t1) } else { 0.0 };
+        let at: Point = ev.middle(part.nodes);
         tally.measure(value, at);
         if value.is_nan() || value > limit {
-            tally.flaw(|| format!("curve {} {verb} {value} along {}", piece.curve.0, ev.tell_edge(piece.nodes)));
+            tally.flaw(|| format!("curve {} {verb} {value} along {}", part.curve.0, ev.tell_edge(part.nodes)));
         }
     }
     tally.finish(Status::Proven)

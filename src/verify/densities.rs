@@ -1,4 +1,4 @@
-//! The densities that a refinement recorded, held against their bounds.
+//! The densities of recorded insertions, checked against their bounds.
 
 use super::tally::Tally;
 use super::{Check, Status};
@@ -9,9 +9,9 @@ use crate::mesh::{Insertion, InsertionKind, Mesh};
 use crate::promise::DensityPromise;
 use std::collections::BTreeMap;
 
-/// *density_a*, *density_b*, *density_c*: lfs is measured anew on the domain; the recorded R(p) is not believed to be
-/// larger than the edges that the vertex has in the mesh with older ones. Worst: the largest density. Not asked where
-/// there is no finite bound.
+/// *density_a*, *density_b*, *density_c*: D(p) = lfs(p)/R(p) is at most the bound for its type. lfs is measured anew on
+/// the domain. R(p) is the recorded one, or the length of the shortest edge from the vertex to an older one in the
+/// mesh, if that is less. Worst: the largest density. `n/a` where there is no finite bound.
 pub fn densities(
     domain: &Domain,
     mesh: &Mesh,
@@ -47,14 +47,14 @@ pub fn densities(
 /// For each inserted vertex the length of the shortest edge to an older one, infinite where it has none.
 fn nearest_older(mesh: &Mesh, insertions: &[Insertion]) -> Vec<f64> {
     let bits = |p: Point| [p.x.to_bits(), p.y.to_bits()];
-    // Of two at one place the later one stands: the first was deleted.
+    // Of two insertions at one place the later one counts: the first vertex was deleted.
     let ages: BTreeMap<[u64; 2], usize> = insertions.iter().enumerate().map(|(age, i)| (bits(i.at), age)).collect();
     let age_of = |v: VertexId| ages.get(&bits(mesh.nodes[v])).copied();
     let ages: Vec<Option<usize>> = mesh.nodes.ids().map(age_of).collect();
     let mut nearest = vec![f64::INFINITY; insertions.len()];
     for &[a, b, c] in mesh.triangles.iter() {
         for [v, w] in [[a, b], [b, c], [c, a]] {
-            // What was not inserted was there from the first.
+            // A vertex without an age was there from the start.
             if let Some(age) = ages[v.index()].max(ages[w.index()]) {
                 nearest[age] = nearest[age].min(mesh.nodes[v].distance(mesh.nodes[w]));
             }

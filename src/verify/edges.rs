@@ -1,14 +1,27 @@
-//! Every edge of a mesh once, with the triangles on its two sides: found by counting, without a hash map.
+//! The edge table: every edge of a mesh once, with the triangles on its two sides. It is made by a counting sort,
+//! without a hash map.
+//!
+//! ```text
+//!           2          half-edges by smaller node       edges, first          left       right
+//!         ╱   ╲        0:  (1, t₀0) (2, t₀2)            first[0] = 0:  0–1    t₀, 0      t₁, 0
+//!       ╱  t₀   ╲          (1, t₁0) (3, t₁1)                           0–2    none       t₀, 2
+//!     0 ───────── 1    1:  (2, t₀1) (3, t₁2)                           0–3    t₁, 1      none
+//!       ╲  t₁   ╱      each bucket sorted by the        first[1] = 3:  1–2    t₀, 1      none
+//!         ╲   ╱        larger node: runs are edges                     1–3    none       t₁, 2
+//!           3          t₀ = (0, 1, 2), t₁ = (1, 0, 3)
+//! ```
 
 use crate::ids::{IdVec, TriangleId, VertexId};
 
-/// No triangle on that side.
+/// Stands for no triangle on that side.
 const NONE: u32 = u32::MAX;
 
-/// A directed side of a triangle: side `i` runs from corner `i` to corner `i + 1`.
+/// A side of a triangle: side `i` runs from corner `i` to corner `i + 1`.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct TriangleSide {
+    /// The triangle, on its left.
     pub triangle: TriangleId,
+    /// The corner at which it starts, in 0..3.
     pub corner: usize,
 }
 
@@ -25,6 +38,7 @@ impl TriangleSide {
 /// An edge between two nodes, the smaller id first.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Edge {
+    /// The two nodes, ascending.
     pub nodes: [VertexId; 2],
     sides: [u32; 2],
 }
@@ -46,14 +60,16 @@ pub struct EdgeTable {
     edges: Vec<Edge>,
     /// `edges[first[v]..first[v + 1]]` have `v` as their smaller node.
     first: Vec<u32>,
-    /// Sides that found their place taken: a third triangle, or two that run the same way.
+    /// Sides whose place in the table was taken already: a third triangle at an edge, or two sides that run the same
+    /// way.
     pub surplus: Vec<TriangleSide>,
     /// Triangles that name a node twice.
     pub collapsed: Vec<TriangleId>,
 }
 
 impl EdgeTable {
-    /// Nodes of `triangles` must be below `nodes`. O(n) but for the sort of each node's few edges.
+    /// The edges of `triangles`, whose nodes are below `nodes`. Takes O(n), apart from the sort of each node's few
+    /// edges.
     pub fn new(nodes: usize, triangles: &IdVec<TriangleId, [VertexId; 3]>) -> Self {
         let mut start = vec![0u32; nodes + 1];
         let mut collapsed = Vec::new();
@@ -103,11 +119,12 @@ impl EdgeTable {
         }
     }
 
+    /// All edges, ascending by their nodes.
     pub fn edges(&self) -> &[Edge] {
         &self.edges
     }
 
-    /// The place of the edge between two nodes.
+    /// The place of the edge between two nodes in the table; `None` where there is none.
     pub fn find(&self, a: VertexId, b: VertexId) -> Option<usize> {
         let (low, high) = (a.min(b), a.max(b));
         let (start, end) = (self.first[low.0 as usize] as usize, self.first[low.0 as usize + 1] as usize);

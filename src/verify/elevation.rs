@@ -1,4 +1,4 @@
-//! What order 2 adds: valid cells, and nodes within edges that lie on the curves.
+//! Order 2: cells are valid, and nodes within edges lie on the curves.
 
 use super::evidence::{Evidence, place};
 use super::tally::Tally;
@@ -6,8 +6,8 @@ use super::{Check, Status};
 use crate::domain::Domain;
 use crate::mesh::{Mesh, quality};
 
-/// Of order 2: every cell's Jacobian determinant is positive throughout, by Bézier bounds, and cells that share an edge
-/// share the node within it. Checked: cells and edges.
+/// Order 2: the Jacobian determinant of every cell is positive throughout, by Bézier bounds, and cells that share an
+/// edge share the node within it. Checked: cells and edges.
 pub fn jacobian(ev: &Evidence) -> Check {
     if ev.mesh.order() == 1 {
         return Check::not_asked("jacobian");
@@ -30,8 +30,8 @@ pub fn jacobian(ev: &Evidence) -> Check {
     tally.finish(Status::Proven)
 }
 
-/// Of order 2: the node within each linked edge lies on its curve, between the edge's ends, or is the middle of its
-/// chord (a straightened side: exempt, since it is listed). Adds to `on_curve`.
+/// Order 2: the node within each linked edge lies on its curve between the ends of the edge. A node in the middle of
+/// the chord is exempt: the side was straightened, and is listed. Adds to the check `on_curve`.
 pub fn mids_on_curves(ev: &Evidence, domain: &Domain, reach: f64, tally: &mut Tally) {
     for (edge, &mid) in ev.mesh.edges.iter().zip(&ev.mesh.edge_mids) {
         let Some(link) = edge.link else { continue };
@@ -50,7 +50,7 @@ pub fn mids_on_curves(ev: &Evidence, domain: &Domain, reach: f64, tally: &mut Ta
     }
 }
 
-/// Sentences on lists of order 2 that do not fit the mesh.
+/// The flaws of lists of order 2 whose lengths or ids do not fit the mesh, as sentences.
 pub fn unreadable(mesh: &Mesh) -> Vec<String> {
     let mut flaws = Vec::new();
     if mesh.order() == 1 {

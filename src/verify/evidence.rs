@@ -1,4 +1,4 @@
-//! What the judge finds out for itself before it checks anything.
+//! The evidence: what the verifier derives from mesh and domain before it checks anything.
 
 use super::edges::EdgeTable;
 use crate::domain::Domain;
@@ -9,12 +9,14 @@ use crate::mesh::{Mesh, RIM_ROUNDING};
 use crate::promise::Promise;
 use std::collections::BTreeSet;
 
-/// A stretch of a curve that a mesh edge stands for.
+/// The part of a curve that a mesh edge approximates.
 #[derive(Clone, Copy, Debug)]
 pub struct CurvePart {
+    /// The curve of the domain.
     pub curve: CurveId,
-    /// Parameters of the two nodes, within 0..1; ascending in a right mesh.
+    /// Parameters of the two nodes, within 0..1; ascending in a mesh that passes `curve_chain`.
     pub t: [f64; 2],
+    /// The end nodes, in the direction of the curve.
     pub nodes: [VertexId; 2],
     /// Place of the edge in the edge table, where the mesh has it.
     pub edge: Option<usize>,
@@ -29,28 +31,35 @@ impl CurvePart {
     }
 }
 
+/// A mesh and a domain, with what all checks need of them.
 pub struct Evidence<'a> {
+    /// The domain, where it is known.
     pub domain: Option<&'a Domain>,
+    /// The mesh to verify.
     pub mesh: &'a Mesh,
+    /// The guarantees to verify.
     pub promise: &'a Promise,
-    /// Which nodes are no corners, but lie within edges of order 2.
+    /// By node: whether it is no corner, but lies within an edge of order 2.
     pub within: IdVec<VertexId, bool>,
-    /// The nodes times a power of two, for exact signs.
+    /// The nodes multiplied by a power of two to unit magnitude, for exact signs.
     pub signs: IdVec<VertexId, Point>,
+    /// All edges of the mesh.
     pub edges: EdgeTable,
-    /// Stretches of curves in the mesh's order; of a foreign mesh, by curve and parameter as found by the judge.
-    pub pieces: Vec<CurvePart>,
-    /// Listed edges whose link is missing or leads off its curve.
+    /// Parts of curves in the mesh's order; in a foreign mesh as the verifier found them, by curve and parameter.
+    pub parts: Vec<CurvePart>,
+    /// Listed edges without a link, or with a parameter outside 0..1.
     pub unlinked: Vec<usize>,
+    /// The classes of regions.
     pub classes: Classes,
-    /// Four units in the last place of the largest coordinate: what rounding a point to `f64` a few times can move it.
+    /// Four units in the last place of the largest coordinate: a point that is rounded to `f64` a few times moves no
+    /// farther.
     pub rounding: f64,
-    /// What rounding can move a node off the rim of a ball.
+    /// How far rounding may move a node off the rim of a ball.
     pub rim: f64,
 }
 
 impl<'a> Evidence<'a> {
-    /// Looks at a mesh without `unreadable` flaws.
+    /// The evidence of a mesh that has no `unreadable` flaws.
     pub fn gather(domain: Option<&'a Domain>, mesh: &'a Mesh, promise: &'a Promise) -> Self {
         let of_domain = domain.filter(|d| !d.points().is_empty()).map_or(0.0, |d| geometry::magnitude(d.bounds()));
         let magnitude = geometry::bounds_of(mesh.nodes.iter().copied()).map_or(0.0, geometry::magnitude).max(of_domain);
@@ -60,15 +69,15 @@ impl<'a> Evidence<'a> {
         let rounding = 4.0 * f64::EPSILON * magnitude;
         let mut within: IdVec<VertexId, bool> = vec![false; mesh.nodes.len()].into();
         mesh.triangle_mids.iter().flatten().for_each(|&v| within[v] = true);
-        let (mut pieces, unlinked) = match domain {
+        let (mut parts, unlinked) = match domain {
             Some(domain) if promise.foreign => {
                 (recovered(domain, mesh, &within, domain.tolerance() + rounding), Vec::new())
             }
             Some(_) => linked(mesh),
             None => (Vec::new(), Vec::new()),
         };
-        for piece in &mut pieces {
-            piece.edge = edges.find(piece.nodes[0], piece.nodes[1]);
+        for part in &mut parts {
+            part.edge = edges.find(part.nodes[0], part.nodes[1]);
         }
         Self {
             domain,
@@ -77,7 +86,7 @@ impl<'a> Evidence<'a> {
             within,
             signs: mesh.nodes.iter().map(|&p| geometry::scaled(p, factor)).collect(),
             edges,
-            pieces,
+            parts,
             unlinked,
             classes: Classes::of(domain, mesh, promise.foreign),
             rounding,
@@ -85,21 +94,23 @@ impl<'a> Evidence<'a> {
         }
     }
 
-    /// The node's coordinates, as the mesh has them.
+    /// The coordinates of a node, as in the mesh.
     pub fn node(&self, v: VertexId) -> Point {
         self.mesh.nodes[v]
     }
 
+    /// The middle between two nodes.
     pub fn middle(&self, nodes: [VertexId; 2]) -> Point {
         self.node(nodes[0]).midpoint(self.node(nodes[1]))
     }
 
+    /// The centroid of a triangle.
     pub fn centroid(&self, t: TriangleId) -> Point {
         let [a, b, c] = self.mesh.corners(t);
         a + ((b - a) + (c - a)) / 3.0
     }
 
-    /// Class of a triangle's region.
+    /// The class of a triangle's region.
     pub fn class(&self, t: TriangleId) -> u32 {
         self.classes.of_mesh[self.mesh.triangle_regions[t]]
     }
@@ -111,9 +122,9 @@ impl<'a> Evidence<'a> {
             node[p] = Some(v);
         }
         if self.promise.foreign {
-            for piece in &self.pieces {
-                let ends = domain.curves()[piece.curve].ends;
-                for (t, v) in piece.t.into_iter().zip(piece.nodes) {
+            for part in &self.parts {
+                let ends = domain.curves()[part.curve].ends;
+                for (t, v) in part.t.into_iter().zip(part.nodes) {
                     if t == 0.0 || t == 1.0 {
                         node[ends[usize::from(t == 1.0)]] = Some(v);
                     }
@@ -135,15 +146,18 @@ impl<'a> Evidence<'a> {
     }
 }
 
-/// A place for people.
+/// A place as text: "(x, y)".
 pub fn place(p: Point) -> String {
     format!("({}, {})", p.x, p.y)
 }
 
 /// Regions of one name are one class, since a name is all that a mesh file keeps of a region.
 pub struct Classes {
+    /// The name of each class.
     pub names: Vec<String>,
+    /// The class of each region of the mesh.
     pub of_mesh: IdVec<RegionId, u32>,
+    /// The class of each region of the domain.
     pub of_domain: IdVec<RegionId, u32>,
 }
 
@@ -154,7 +168,7 @@ impl Classes {
         let mut names: Vec<&str> = in_mesh.iter().chain(&in_domain).copied().collect();
         names.sort_unstable();
         names.dedup();
-        // A file of a format without names: everything in it is one class, or nothing could be compared.
+        // A mesh file of a format without names: all its regions are one class, since nothing else could be compared.
         let known: BTreeSet<&str> = in_domain.iter().copied().collect();
         let unknown = |n: &&str| !known.contains(n);
         let nameless = foreign && in_mesh.iter().any(unknown);
@@ -168,23 +182,24 @@ impl Classes {
 
 /// The mesh's own links, and the listed edges that have none within 0..1.
 fn linked(mesh: &Mesh) -> (Vec<CurvePart>, Vec<usize>) {
-    let (mut pieces, mut unlinked) = (Vec::with_capacity(mesh.edges.len()), Vec::new());
+    let (mut parts, mut unlinked) = (Vec::with_capacity(mesh.edges.len()), Vec::new());
     for (i, edge) in mesh.edges.iter().enumerate() {
         match edge.link {
             Some(link) if link.t.iter().all(|t| (0.0..=1.0).contains(t)) => {
                 let name = Some(edge.name);
-                pieces.push(CurvePart { curve: link.curve, t: link.t, nodes: edge.nodes, edge: None, name });
+                parts.push(CurvePart { curve: link.curve, t: link.t, nodes: edge.nodes, edge: None, name });
             }
             _ => unlinked.push(i),
         }
     }
-    (pieces, unlinked)
+    (parts, unlinked)
 }
 
-/// Boxes a curve is searched by: a mesh has many nodes near few curves, and a small box is cheap to miss.
+/// Boxes per curve in the search for nodes on curves. A mesh has many nodes near few curves, and small boxes exclude
+/// most of them.
 const SEARCH_PARTS: usize = 16;
 
-/// Stretches of the kept curves between the corners of cells that lie on them within `reach`.
+/// Parts of the kept curves between consecutive corners of cells that lie on them, within `reach`.
 fn recovered(domain: &Domain, mesh: &Mesh, within: &IdVec<VertexId, bool>, reach: f64) -> Vec<CurvePart> {
     let kept: Vec<CurveId> = domain.curves().enumerate().filter(|(_, c)| is_kept(c.sides)).map(|(id, _)| id).collect();
     let range = |part: usize| {
@@ -225,6 +240,7 @@ fn recovered(domain: &Domain, mesh: &Mesh, within: &IdVec<VertexId, bool>, reach
         .collect()
 }
 
+/// Whether a curve with these regions on its sides is in the mesh: one of them is kept.
 pub fn is_kept(sides: [Option<RegionId>; 2]) -> bool {
     sides.iter().any(Option::is_some)
 }
@@ -246,10 +262,11 @@ impl ListedNames {
     }
 }
 
-/// Sentences on ids that lead nowhere and numbers that are none; empty of a mesh that can be judged.
+/// Flaws that exclude a check: ids that do not exist and coordinates that are not finite, as sentences. Empty for a
+/// mesh that can be verified.
 pub fn unreadable(domain: Option<&Domain>, mesh: &Mesh) -> Vec<String> {
     let mut flaws = Vec::new();
-    // Sides of triangles are counted in u32, with one value to spare.
+    // Sides of triangles are numbered in u32, and one value is reserved.
     if mesh.triangles.len() >= u32::MAX as usize / 3 {
         flaws.push(format!("{} triangles are more than can be judged", mesh.triangles.len()));
     }

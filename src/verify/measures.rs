@@ -10,11 +10,12 @@ use crate::mesh::quality;
 use crate::size::{SizeField, Source};
 use std::collections::BTreeSet;
 
-/// A length is measured from rounded coordinates: a few ε, and 1e-12 is thousands of them.
+/// A length is measured from rounded coordinates: its error is a few ε, and 1e-12 is thousands of ε.
 const MEASURED: f64 = 1.0 + 1e-12;
 
-/// Where asked: no cell exceeds a limit: edges against `max_edge` and the sources, areas against `max_area` and the
-/// regions' own limits. Checked: triangles and listed edges. Worst: the largest size, in limits.
+/// If asked for: no cell exceeds a limit. Edges are checked against `max_edge` and the sources, areas against
+/// `max_area` and the limits of regions. Checked: triangles and listed edges. Worst: the largest ratio of a size to its
+/// limit.
 pub fn size(ev: &Evidence) -> Check {
     let limits = Limits::of(ev);
     if !limits.any() {
@@ -43,7 +44,7 @@ pub fn size(ev: &Evidence) -> Check {
     tally.finish(Status::Proven)
 }
 
-/// Every limit that was asked for, ready to be compared; infinite where there is none.
+/// All limits, by region and boundary; infinite where there is none.
 struct Limits {
     /// Longest edge and largest area by region of the mesh.
     region: Vec<(f64, f64)>,
@@ -90,7 +91,7 @@ impl Limits {
         }
     }
 
-    /// The drawing's own area limits; of several regions of one name, the largest holds.
+    /// Adds the area limits of the drawing. Of several regions of one name, the largest limit counts.
     fn add_areas_of_regions(&mut self, ev: &Evidence, domain: &Domain) {
         let mut largest: Vec<Option<f64>> = vec![None; ev.classes.names.len()];
         for (id, region) in domain.regions().enumerate() {
@@ -121,8 +122,16 @@ impl Limits {
     }
 }
 
-/// For every region name: the triangles' area and that between the chords and their curves add up to what the curves
-/// enclose. Checked: region names. Worst: the largest difference.
+/// For every region name: the area of the triangles and the area between chords and curves add up to the area that the
+/// curves enclose. Checked: region names. Worst: the largest difference.
+///
+/// ```text
+///        .-───-.
+///      .´ lens  `.          lens: the area between a curve and its chords, negative where the curve bends inwards
+///     ●───────────●
+///     │ triangles │         triangles + lenses = asked, the exact area of the region, by the integral along its curves
+///     ●───────────●
+/// ```
 pub fn area(ev: &Evidence, domain: &Domain) -> Check {
     let mut tally = Tally::highest("area");
     let mut sums = vec![Sums::default(); ev.classes.names.len()];
@@ -138,8 +147,8 @@ pub fn area(ev: &Evidence, domain: &Domain) -> Check {
         tally.count();
         let off = (sum.triangles + sum.lenses - sum.asked).abs();
         tally.measure(off, bounds.center());
-        // Sums of a million rounded terms keep about nine digits of the box at worst; a rim that moved by the weld or
-        // by rounding sweeps its own length times that.
+        // Sums of a million rounded terms have an error of at most about 1e-9 of the area of the box. A rim moved by
+        // welding or rounding sweeps its length times that distance.
         let slack = 1e-9 * bounds.area() + (domain.tolerance() + ev.rounding) * sum.rim;
         if off.is_nan() || off > slack {
             let (has, asked) = (sum.triangles + sum.lenses, sum.asked);
@@ -152,19 +161,20 @@ pub fn area(ev: &Evidence, domain: &Domain) -> Check {
 #[derive(Clone, Default)]
 struct Sums {
     triangles: f64,
-    /// Between chords and curves, counted positive where the curve bulges out of the triangles.
+    /// Between chords and curves: positive where the curve bulges out of the triangles.
     lenses: f64,
     asked: f64,
     rim: f64,
 }
 
-/// Adds what lies between each curve and its chords to the region on its left, and takes it from the one on its right.
+/// Adds the signed area between each curve and its chords to the region on its left, and subtracts it from the region
+/// on its right.
 fn add_lenses(ev: &Evidence, domain: &Domain, sums: &mut [Sums]) {
     let side = |curve: usize, side: usize| {
         domain.curves().as_slice()[curve].sides[side].map(|r| ev.classes.of_domain[r] as usize)
     };
     for (id, curve) in domain.curves().enumerate().filter(|(_, c)| is_kept(c.sides)) {
-        // About the curve's own start, so that an offset costs no digits.
+        // Relative to the start of the curve, so that an offset loses no digits.
         let area = curve.curve.signed_area(curve.curve.start());
         let length = curve.curve.length();
         for (s, sign) in [(0, 1.0), (1, -1.0)] {
@@ -174,19 +184,19 @@ fn add_lenses(ev: &Evidence, domain: &Domain, sums: &mut [Sums]) {
             }
         }
     }
-    for piece in &ev.pieces {
-        let origin = domain.curves()[piece.curve].curve.start();
-        let [a, b] = piece.nodes.map(|v| ev.node(v) - origin);
+    for part in &ev.parts {
+        let origin = domain.curves()[part.curve].curve.start();
+        let [a, b] = part.nodes.map(|v| ev.node(v) - origin);
         for (s, sign) in [(0, 1.0), (1, -1.0)] {
-            if let Some(class) = side(piece.curve.index(), s) {
+            if let Some(class) = side(part.curve.index(), s) {
                 sums[class].lenses -= sign * 0.5 * a.cross(b);
             }
         }
     }
 }
 
-/// Every region name and every name of a curve with a kept side is in the mesh, and each edge on a curve has the
-/// curve's name. A foreign mesh is asked only for the kind of names, of regions or of boundaries, that it kept; n/a
+/// Every region name and every name of a curve with a kept side is in the mesh, and each edge on a curve has the name
+/// of the curve. In a foreign mesh only the kind of names that it kept, of regions or of boundaries, is checked; n/a
 /// where it kept neither. Checked: names and edges.
 pub fn names(ev: &Evidence, domain: &Domain) -> Check {
     let mesh = ev.mesh;
@@ -235,46 +245,46 @@ fn every_name(
     }
 }
 
-/// Whether a mesh calls any region as the domain does.
+/// Whether any region of the mesh has a name of the domain.
 fn kept_regions(ev: &Evidence, domain: &Domain) -> bool {
     let has = in_use(ev, ev.mesh.triangle_regions.iter().map(|&r| ev.mesh.regions[r]));
     !ev.promise.foreign || !has.is_disjoint(&in_domain(domain, domain.regions().iter().map(|r| r.name)))
 }
 
-/// Whether a mesh calls any boundary as the domain does. Numbers that do not fit are another program's numbers: formats
-/// without names have nothing else.
+/// Whether any boundary of the mesh has a name of the domain. Numbers that do not fit are the numbers of another
+/// program: a format without names has nothing else.
 fn kept_boundaries(ev: &Evidence, domain: &Domain) -> bool {
     let asked = in_domain(domain, names_of_boundaries(domain));
     let has = in_use(ev, ev.mesh.edges.iter().map(|e| e.name));
     let are_numbers = has.iter().all(|name| name.parse::<i64>().is_ok());
     let fits = |p: &CurvePart| p.name.is_none_or(|name| ev.mesh.names.text(name) == name_asked(domain, p));
     let known = !has.is_disjoint(&asked);
-    !ev.promise.foreign || known && (!are_numbers || ev.pieces.iter().all(fits))
+    !ev.promise.foreign || known && (!are_numbers || ev.parts.iter().all(fits))
 }
 
 fn in_domain(domain: &Domain, names: impl Iterator<Item = NameId>) -> BTreeSet<&str> {
     distinct(names).into_iter().map(|name| domain.name(name)).collect()
 }
 
-fn name_asked<'a>(domain: &'a Domain, piece: &CurvePart) -> &'a str {
-    domain.name(domain.curves()[piece.curve].name)
+fn name_asked<'a>(domain: &'a Domain, part: &CurvePart) -> &'a str {
+    domain.name(domain.curves()[part.curve].name)
 }
 
-/// Each edge on a curve has its name, and (of a foreign mesh) no other edge has one.
+/// Each edge on a curve has the name of the curve, and in a foreign mesh no other edge has a name of a curve.
 fn names_of_edges(ev: &Evidence, domain: &Domain, tally: &mut Tally) {
-    for piece in &ev.pieces {
-        let Some(has) = piece.name.map(|n| ev.mesh.names.text(n)) else { continue };
+    for part in &ev.parts {
+        let Some(has) = part.name.map(|n| ev.mesh.names.text(n)) else { continue };
         tally.count();
-        let asked = name_asked(domain, piece);
+        let asked = name_asked(domain, part);
         if has != asked {
-            tally.flaw(|| format!("{} is of \"{has}\", its curve of \"{asked}\"", ev.tell_edge(piece.nodes)));
+            tally.flaw(|| format!("{} is of \"{has}\", its curve of \"{asked}\"", ev.tell_edge(part.nodes)));
         }
     }
     if !ev.promise.foreign {
         return;
     }
     let ascending = |[a, b]: [VertexId; 2]| [a.min(b), a.max(b)];
-    let mut on_curves: Vec<_> = ev.pieces.iter().map(|p| ascending(p.nodes)).collect();
+    let mut on_curves: Vec<_> = ev.parts.iter().map(|p| ascending(p.nodes)).collect();
     on_curves.sort_unstable();
     let asked = in_domain(domain, names_of_boundaries(domain));
     for edge in ev.mesh.edges.iter().filter(|e| on_curves.binary_search(&ascending(e.nodes)).is_err()) {

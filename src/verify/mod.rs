@@ -1,22 +1,30 @@
-//! The judge: (Domain, Mesh, Promise) → Verdict. It shares with the kernels only what lies below them, and believes
-//! nothing.
+//! The verifier: (Domain, Mesh, Promise) → Verdict. It shares with the kernels only what lies below them, and checks
+//! everything anew.
 //!
-//! Links between nodes and curves are evaluated again, balls are measured against the domain, edges are counted from
-//! the triangles. What the single checks say adds up: every triangle runs counter-clockwise (*orientation*), every edge
-//! has at most one triangle on either side (*manifold*), and the edges at which a region ends are exactly the chords of
-//! its curves, each once and with the region on the right side (*conforming*, *curve_chain*). The number of triangles
-//! of a region that cover a point is therefore the winding number of the chords around it; and since no two chords
-//! cross (*conforming*) and none has a node on it (*empty_diametral*), that number is 0 or 1: the triangles tile the
-//! region, without overlap. Locally Delaunay edges (*delaunay*) and empty diametral circles at the rim then make the
-//! tiling Delaunay as a whole. A constrained tiling has other evidence that chords do not cross and no node lies on one
-//! (*conforming* looks into every circle all the same), and is Delaunay but at chords (*constrained_delaunay*).
+//! It evaluates the links between nodes and curves again, measures balls against the domain, and counts edges from the
+//! triangles. Together the checks prove that the triangles tile the domain:
 //!
-//! **Proven or reached.** A check of the output is `proven` where it holds, since nothing is left to believe. The angle
-//! bounds are `proven` only where [`crate::promise::guaranteed_angle`] covers κ, so that no input of that turning could
-//! have missed it; else `reached`.
+//! ```text
+//!   orientation, manifold, conforming, curve_chain ──▶ cover count of a point = winding number of the chords
+//!   no chords cross, no node on a chord            ──▶ that number is 0 or 1: the triangles tile the region
+//!   delaunay, empty_diametral                      ──▶ the tiling is Delaunay as a whole
+//! ```
 //!
-//! Signs come from [`crate::geometry::exact`] on coordinates scaled to unit magnitude; everything measured is plain
-//! `f64` and its tolerance is derived where it stands.
+//! Every triangle runs counter-clockwise (*orientation*). Every edge has at most one triangle on either side
+//! (*manifold*). The edges at which a region ends are exactly the chords of its curves, each once and with the region
+//! on the right side (*conforming*, *curve_chain*). So the number of triangles of a region that cover a point is the
+//! winding number of the chords around it. No two chords cross (*conforming*) and none has a node on it
+//! (*empty_diametral*), so that number is 0 or 1: the triangles tile the region, without overlap. With locally Delaunay
+//! edges (*delaunay*) and empty diametral circles at the rim, the tiling is Delaunay as a whole. For a constrained
+//! tiling *conforming* checks that no chords cross and no node lies on one; it is Delaunay but at chords
+//! (*constrained_delaunay*).
+//!
+//! **Proven or reached.** A check of the output is `proven` where it holds, since it was made on this very output. The
+//! angle bounds are `proven` only where theory covers κ ([`crate::promise::guaranteed_angle`]), so that no input of
+//! that turning can miss it; else `reached`.
+//!
+//! Signs come from [`crate::geometry::exact`] on coordinates scaled to unit magnitude. Measures are plain `f64`, each
+//! with a tolerance derived where it is used.
 
 mod angles;
 mod balls;
@@ -53,7 +61,7 @@ pub enum Status {
     Reached,
     /// The check fails.
     Broken,
-    /// The check was not made: it does not apply to the mesh, was not promised, or lacks the curves.
+    /// The check was not made: it does not apply to the mesh, was not asked for, or needs curves that are not known.
     #[serde(rename = "n/a")]
     NotAsked,
 }
@@ -65,17 +73,17 @@ pub struct Check {
     pub name: &'static str,
     /// The outcome.
     pub status: Status,
-    /// How many things were checked, and how many failed.
+    /// How many things were checked.
     pub checked: usize,
     /// How many of them failed.
     pub broken: usize,
-    /// How many things the check does not apply to, for a reason that stands elsewhere (balls that a size limit
-    /// capped).
+    /// How many things the check does not apply to, for a reason that the report states elsewhere (balls that a size
+    /// limit capped).
     #[serde(skip_serializing_if = "is_zero")]
     pub exempt: usize,
     /// The worst value met, and where.
     pub worst: Option<Worst>,
-    /// Sentences with culprits, for people; the first few.
+    /// The first few flaws, as sentences with their places.
     #[serde(skip)]
     pub flaws: Vec<String>,
 }
@@ -90,7 +98,7 @@ pub struct Worst {
     pub at: Place,
 }
 
-/// Triangles below the angle that a corner exempts.
+/// Triangles below the angle asked for that are exempt, and the reason.
 #[derive(Clone, Debug, serde::Serialize, schemars::JsonSchema)]
 #[schemars(rename = "Excuse")]
 pub struct Exemption {
@@ -105,7 +113,7 @@ pub struct Exemption {
     pub cells: Vec<u32>,
 }
 
-/// The judge's verdict: `promise` of the report.
+/// The verdict: `promise` in the report.
 #[derive(Clone, Debug)]
 pub struct Verdict {
     /// The checks, each once, in the contract's order.
@@ -115,7 +123,7 @@ pub struct Verdict {
 }
 
 impl Verdict {
-    /// No check is broken.
+    /// Whether no check is broken.
     pub fn kept(&self) -> bool {
         self.checks.iter().all(|c| c.status != Status::Broken)
     }
@@ -130,12 +138,12 @@ fn is_zero(n: &usize) -> bool {
     *n == 0
 }
 
-/// Judges a mesh against the domain (already τ-split) and a promise. `None` for a mesh whose curves are unknown: checks
-/// that need them are n/a.
+/// Verifies a mesh against the domain (already τ-split) and the guarantees of `promise`. `None` for a mesh whose curves
+/// are unknown: checks that need them are n/a.
 ///
 /// The checks come in the contract's order, each once, `n/a` included; *constrained_delaunay* and *radius_edge* only
-/// where promised. A mesh whose ids lead nowhere or whose coordinates are not finite has `manifold` broken, with the
-/// culprits, and everything else `n/a`.
+/// where they are guaranteed. A mesh with ids that do not exist or coordinates that are not finite has `manifold`
+/// broken, with the flaws, and everything else `n/a`.
 pub fn verify(domain: Option<&Domain>, mesh: &Mesh, promise: &Promise) -> Verdict {
     let mut unreadable = evidence::unreadable(domain, mesh);
     unreadable.extend(elevation::unreadable(mesh));
@@ -145,7 +153,7 @@ pub fn verify(domain: Option<&Domain>, mesh: &Mesh, promise: &Promise) -> Verdic
     let evidence = Evidence::gather(domain, mesh, promise);
     let known =
         |check: fn(&Evidence, &Domain) -> Check, name| domain.map_or(Check::not_asked(name), |d| check(&evidence, d));
-    // Checks share nothing but the evidence: the dear ones take what cores there are.
+    // Checks share only the evidence, so the expensive ones run in parallel.
     let (circles, delaunay) =
         threads::join(|| domain.map(|d| (d, Circles::look(&evidence, d))), || angles::delaunay(&evidence));
     let constrained = promise.is_constrained();

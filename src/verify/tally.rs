@@ -1,12 +1,12 @@
-//! Counting while a check goes on.
+//! Counts, worst value and flaws of a check while it runs.
 
 use super::{Check, Status, Worst};
 use crate::geometry::Place;
 
-/// Sentences kept of one check: enough to see what is wrong, few enough to read.
+/// Number of flaws that a check keeps as sentences.
 const SENTENCES: usize = 10;
 
-/// A check in the making.
+/// A check that is under way.
 pub struct Tally {
     check: Check,
     /// Which values are worse: 1 the larger, −1 the smaller.
@@ -14,6 +14,7 @@ pub struct Tally {
 }
 
 impl Check {
+    /// The check that was not made.
     pub(super) fn not_asked(name: &'static str) -> Self {
         Self { name, status: Status::NotAsked, checked: 0, broken: 0, exempt: 0, worst: None, flaws: Vec::new() }
     }
@@ -30,17 +31,17 @@ impl Tally {
         Self { check: Check::not_asked(name), sense: -1.0 }
     }
 
-    /// One more thing was checked.
+    /// Counts one more thing that was checked.
     pub fn count(&mut self) {
         self.check.checked += 1;
     }
 
-    /// One more thing is exempt.
+    /// Counts one more thing that is exempt.
     pub fn exempt(&mut self) {
         self.check.exempt += 1;
     }
 
-    /// A value met at a place; the worst is kept.
+    /// Notes a value and its place; the worst is kept.
     #[inline]
     pub fn measure(&mut self, value: f64, at: impl Into<Place>) {
         if self.check.worst.is_none_or(|w| (value - w.value) * self.sense > 0.0) {
@@ -48,7 +49,7 @@ impl Tally {
         }
     }
 
-    /// One thing failed, and why.
+    /// Counts one more thing that failed, and the reason.
     pub fn flaw(&mut self, sentence: impl FnOnce() -> String) {
         self.check.broken += 1;
         if self.check.flaws.len() < SENTENCES {
@@ -68,7 +69,7 @@ impl Tally {
         }
     }
 
-    /// The check, of the status `held` where nothing failed.
+    /// The finished check, with the status `held` where nothing failed.
     pub fn finish(mut self, held: Status) -> Check {
         self.check.status = if self.check.broken == 0 { held } else { Status::Broken };
         self.check

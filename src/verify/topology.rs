@@ -12,7 +12,7 @@ use crate::geometry::{Point, Rect, bounds_of};
 use crate::ids::{Id, PointId, VertexId};
 use crate::mesh::quality;
 
-/// Every triangle runs counter-clockwise, exactly. Worst: the smallest signed area.
+/// Every triangle runs counter-clockwise, by exact signs. Worst: the smallest signed area.
 pub fn orientation(ev: &Evidence) -> Check {
     let mut tally = Tally::lowest("orientation");
     for (t, corners) in ev.mesh.triangles.enumerate() {
@@ -28,7 +28,7 @@ pub fn orientation(ev: &Evidence) -> Check {
     tally.finish(Status::Proven)
 }
 
-/// Every edge has at most one triangle on either side, and no triangle names a node twice. Regions may touch in a node.
+/// Every edge has at most one triangle on either side, and no triangle has a node twice. Regions may touch in a node.
 /// Checked: edges.
 pub fn manifold(ev: &Evidence) -> Check {
     let mut tally = Tally::highest("manifold");
@@ -46,13 +46,20 @@ pub fn manifold(ev: &Evidence) -> Check {
 }
 
 /// The edges at which a region ends are exactly the chords of the curves, each with its regions on the right sides, and
-/// no two chords cross; every point of P in a kept region is a node, and (ours) every node has a triangle. A hanging
-/// node would leave an edge that ends a region on no curve. Checked: chords, other edges that end a region, and points.
+/// no two chords cross. Every point of P in a kept region is a node. In a mesh of ours every node has a triangle. A
+/// hanging node is found as well: it leaves an edge that ends a region on no curve. Checked: chords, other edges that
+/// end a region, and points.
+///
+/// ```text
+///        A
+///   ● ──────▶ ● ──────▶ ●     asked: A and B, the regions on the left and right of the curve;
+///        B                    has: those of the triangles at each of its chords. Both must be equal.
+/// ```
 pub fn conforming(ev: &Evidence, domain: &Domain, circles: &Circles) -> Check {
     let mut tally = Tally::highest("conforming");
     let mut on_curve = vec![false; ev.edges.edges().len()];
-    for piece in &ev.pieces {
-        chord(ev, domain, piece, &mut on_curve, &mut tally);
+    for part in &ev.parts {
+        chord(ev, domain, part, &mut on_curve, &mut tally);
     }
     for (edge, _) in ev.edges.edges().iter().zip(&on_curve).filter(|(_, on_curve)| !**on_curve) {
         if ends_a_region(ev, edge) {
@@ -68,42 +75,44 @@ pub fn conforming(ev: &Evidence, domain: &Domain, circles: &Circles) -> Check {
     tally.finish(Status::Proven)
 }
 
-fn chord(ev: &Evidence, domain: &Domain, piece: &CurvePart, on_curve: &mut [bool], tally: &mut Tally) {
+fn chord(ev: &Evidence, domain: &Domain, part: &CurvePart, on_curve: &mut [bool], tally: &mut Tally) {
     tally.count();
-    let Some(place) = piece.edge else {
+    let Some(place) = part.edge else {
         return tally
-            .flaw(|| format!("curve {} asks for {}, which no triangle has", piece.curve.0, ev.tell_edge(piece.nodes)));
+            .flaw(|| format!("curve {} asks for {}, which no triangle has", part.curve.0, ev.tell_edge(part.nodes)));
     };
     if std::mem::replace(&mut on_curve[place], true) {
-        return tally.flaw(|| format!("{} lies on two curves", ev.tell_edge(piece.nodes)));
+        return tally.flaw(|| format!("{} lies on two curves", ev.tell_edge(part.nodes)));
     }
-    let asked = domain.curves()[piece.curve].sides.map(|r| r.map(|r| ev.classes.of_domain[r]));
-    let has = sides(ev, &ev.edges.edges()[place], piece.nodes);
+    let asked = domain.curves()[part.curve].sides.map(|r| r.map(|r| ev.classes.of_domain[r]));
+    let has = sides(ev, &ev.edges.edges()[place], part.nodes);
     if asked != has {
         let name = |class: Option<u32>| class.map_or("nothing", |c| ev.classes.names[c as usize].as_str());
         tally.flaw(|| {
             let ([left, right], [to_left, to_right]) = (has.map(name), asked.map(name));
-            let edge = ev.tell_edge(piece.nodes);
+            let edge = ev.tell_edge(part.nodes);
             format!(
                 "{edge} has {left} on its left and {right} on its right; curve {} has {to_left} and {to_right}",
-                piece.curve.0
+                part.curve.0
             )
         });
     }
 }
 
-/// Classes on the left and right of an edge followed from `nodes[0]`.
+/// Classes on the left and right of an edge, in the direction from `nodes[0]` to `nodes[1]`.
 fn sides(ev: &Evidence, edge: &Edge, nodes: [VertexId; 2]) -> [Option<u32>; 2] {
     let [left, right] = [edge.left(), edge.right()].map(|side| side.map(|s| ev.class(s.triangle)));
     if nodes == edge.nodes { [left, right] } else { [right, left] }
 }
 
+/// Whether an edge has different classes on its two sides, or a triangle on one side only.
 pub fn ends_a_region(ev: &Evidence, edge: &Edge) -> bool {
     let [left, right] = sides(ev, edge, edge.nodes);
     left != right
 }
 
-/// A point at the end of a kept curve must be a node; one that no curve holds, if a triangle covers it.
+/// Reports points that must be nodes but are none: ends of kept curves, and points without curves that a triangle
+/// covers.
 fn missing_points(ev: &Evidence, domain: &Domain, tally: &mut Tally) {
     let node = ev.nodes_of_points(domain);
     let mut lone = Vec::new();
@@ -116,7 +125,7 @@ fn missing_points(ev: &Evidence, domain: &Domain, tally: &mut Tally) {
             lone.push(p);
         }
     }
-    // A lone point of a foreign mesh may be a node all the same, for nothing lists it.
+    // A lone point may be a node of a foreign mesh although it is not listed.
     let covered = |p: PointId, corners: [Point; 3]| {
         let at = domain.points()[p];
         covers(corners, at)
@@ -148,7 +157,7 @@ fn covered_by_a_triangle(
     points.iter().zip(covered).filter(|(_, covered)| *covered).map(|(&p, _)| p).collect()
 }
 
-/// Whether a triangle holds a point, its border included.
+/// Whether a point lies in a triangle, its border included.
 fn covers([a, b, c]: [Point; 3], p: Point) -> bool {
     [(a, b), (b, c), (c, a)].iter().all(|&(x, y)| orient(x, y, p) != Orientation::Clockwise)
 }

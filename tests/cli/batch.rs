@@ -33,7 +33,7 @@ fn a_batch_goes_on_after_errors_and_tells_one_line_an_input_in_their_order() {
     assert_eq!(told("input"), ["in/a.poly", "in/b.json", "in/b.poly", "in/deep/c.json", "missing.svg"]);
     assert_eq!(told("exit"), [0, 0, 0, 4, 3]);
     assert_eq!(told("kept"), [true, true, true, false, false]);
-    assert!(said(&output).contains("3  done, every promise kept (0)"), "{}", said(&output));
+    assert!(said(&output).contains("3  done, every guarantee holds (0)"), "{}", said(&output));
     // Two inputs of one name keep their suffixes.
     for made in ["a.vtu", "a.su2", "a.report.json", "b.json.vtu", "b.poly.su2", "deep/c.report.json"] {
         assert!(bench.has(&format!("out/{made}")), "{made}");
@@ -62,7 +62,7 @@ fn a_batch_that_was_killed_is_resumed_with_nothing_lost_or_done_twice() {
     let output = bench.ends(1, &batch(&["--resume"]));
     let inputs: Vec<_> = lines_of(&output).iter().map(|l| l["input"].clone()).collect();
     assert_eq!(inputs, ["lens.json", "open.json"]);
-    assert!(said(&output).contains("3 inputs, 1 of them earlier"), "{}", said(&output));
+    assert!(said(&output).contains("3 inputs, 1 of them in an earlier run"), "{}", said(&output));
     // All is done; an output that is gone is made again.
     assert!(lines_of(&bench.ends(1, &batch(&["--resume"]))).is_empty());
     fs::remove_file(bench.0.join("out/square.vtu")).expect("removed");

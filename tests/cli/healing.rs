@@ -79,8 +79,8 @@ fn overlaps_of_shapes_become_regions_where_asked_for() {
     near(regions(&["--overlap", "fragment"]), &[("low", 20.0), ("top", 16.0), ("top+low", 4.0)]);
 }
 
-/// A plate with a near-miss of every kind, each below the default tolerances (5e-9, and 5e-6 for ends that meet nothing): and a notch
-/// drawn twice, which is no miss.
+/// A plate with a near-miss of every kind, each below the default tolerances (5e-9, and 5e-6 for ends that meet
+/// nothing): and a notch drawn twice, which is no miss.
 const NEAR_MISSES: &str = r#"{ "squinch": 1, "curves": [
     { "name": "rim", "line": [[0, 0], [4, 0]] }, { "name": "rim", "line": [[4, 0], [4, 3]] },
     { "name": "rim", "line": [[4, 3], [0, 3]] }, { "name": "rim", "line": [[0, 3], [0, 0]] },

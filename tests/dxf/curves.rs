@@ -174,7 +174,8 @@ fn splines_through_fit_points() {
     let tangents = drawn(&format!("0 SPLINE; 70 8; 71 3; 12 1; 22 0; 32 0; {fit}"));
     assert!(noted(&tangents, "tangents"));
     assert!(only(&tangents).direction_at(End::Start).cross(Vec2::new(1.0, 0.0)).abs() < 1e-15);
-    // By chord length: the natural cubic through 0, 1 and 9 on a line, whose parameter is the place itself, stays on it at even pace.
+    // By chord length: the natural cubic through 0, 1 and 9 on a line, whose parameter is the place itself, stays on it
+    // at even pace.
     let uneven = drawn("0 SPLINE; 70 8; 71 3; 74 3; 11 0; 21 0; 11 1; 21 0; 11 9; 21 0");
     near_point(only(&uneven).point(0.5), (4.5, 0.0));
 }

@@ -26,7 +26,8 @@ fn the_edges_of_a_hatch() {
     near(slot("50 270; 51 90; 73 1", "50 90; 51 270; 73 1"), 6.0 + PI);
     // The angles of a clockwise arc are measured clockwise.
     near(slot("50 90; 51 270; 73 0", "50 270; 51 90; 73 0"), 6.0 - PI);
-    // An elliptic arc by angles: the quarter from the major axis to the ray of 45°, closed by two lines through the center.
+    // An elliptic arc by angles: the quarter from the major axis to the ray of 45°, closed by two lines through the
+    // center.
     let sector = "92 1; 93 3; 72 3; 10 0; 20 0; 11 2; 21 0; 40 0.5; 50 0; 51 45; 73 1;
                   72 1; 10 0.894427190999916; 20 0.894427190999916; 11 0; 21 0; 72 1; 10 0; 20 0; 11 2; 21 0; 97 0";
     // A sector of the unit disc by parameter, stretched twofold.

@@ -352,7 +352,8 @@ fn the_far_field_is_a_circle_around_mid_chord() {
     let fluid = drawing.names.find("fluid").unwrap();
     assert_eq!(drawing.seeds.len(), 1);
     assert_eq!(drawing.seeds[0].kind, SeedKind::Region { name: fluid, max_area: None });
-    // The size that its sources ask for, integrated: as many triangles as a mesh with edges of 0.7 to 1 times it would have.
+    // The size that its sources ask for, integrated: as many triangles as a mesh with edges of 0.7 to 1 times it would
+    // have.
     let triangles = triangles_asked_for(&drawing, circle.center, circle.radius);
     assert!((4000.0..12000.0).contains(&triangles), "{triangles}");
 }

@@ -99,8 +99,8 @@ fn the_shared_airfoils_read_with_every_trailing_edge() {
             assert!(te.is_empty() == (upper.start() == lower.end()), "{name}");
             assert!(edge != TrailingEdge::Sharp || te.is_empty(), "{name}");
             assert!(matches!(edge, TrailingEdge::Keep | TrailingEdge::Sharp) || !te.is_empty(), "{name}");
-            // Once around turns by π and the trailing edge's angles; concave parts and rounded corners (2.25 π of a flat back) add to
-            // that, oscillations many times as much.
+            // Once around turns by π and the trailing edge's angles; concave parts and rounded corners (2.25 π of a
+            // flat back) add to that, oscillations many times as much.
             let turning = upper.turning(0.0, 1.0) + lower.turning(0.0, 1.0);
             assert!(turning < 2.4 * std::f64::consts::PI, "{name}: {turning}");
         }

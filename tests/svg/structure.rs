@@ -72,7 +72,7 @@ fn what_is_not_drawn_is_counted_or_hidden() {
         <path id="m" marker-end="url(#x)" d="M0 0h1v1z"/><pattern id="p"/><rect id="f" mask="url(#x)" filter="url(#x)" fill="url(#p)" width="1" height="1"/>
         <rect id="a" width="1" height="1"><animate/></rect>"##);
     assert_eq!(names(&drawing), ["seen", "m", "f", "a"]);
-    assert_eq!(drawing.notes, ["Elements with a mask: 1; masks are not applied, and what they hide is there."]);
+    assert_eq!(drawing.notes, ["Elements with a mask: 1; masks are not applied: all of these elements is read."]);
     assert_eq!(
         left_out(&drawing),
         [
@@ -81,9 +81,9 @@ fn what_is_not_drawn_is_counted_or_hidden() {
             "1 rect: visibility is hidden",
             "1 text: text has no outlines here; convert it to paths",
             "1 image: a raster image has no curves",
-            "1 foreignObject: it is no SVG",
+            "1 foreignObject: it is not SVG",
             "1 rect: neither filled nor stroked",
-            "1 unknown element: it is no element of SVG that is drawn",
+            "1 unknown element: it is not an element that SVG draws",
             "1 path: markers are not drawn",
             "1 rect: masks are not applied",
             "1 rect: filters are not applied",

@@ -1,8 +1,8 @@
-//! What is done of a batch: recorded as it happens, printed in the order of the inputs, counted at the end.
+//! The record of a batch: written as inputs are done, printed in their order, summed up at the end.
 //!
-//! The record is a file of JSON lines: first the request that all inputs had, then a line when an input is begun and
-//! one when it is done, each written at once. An input is done once its files have their names, so that whatever ends
-//! the program, what is recorded as done is there, and the rest is done by `--resume`.
+//! The record is a file of JSON lines: the request of all inputs, then a line when an input begins and a line when it
+//! is done. Each line is written at once. An input is recorded as done after its files have their final names. So if
+//! the program is ended, `--resume` does the rest.
 
 use crate::cli::files;
 use crate::cli::output::Output;
@@ -20,32 +20,44 @@ use std::path::Path;
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
-/// What came of one input: a line of the record and of standard output.
+/// The result of one input: a line of the record and of standard output.
 #[derive(Serialize, JsonSchema)]
 pub struct Line {
+    /// The input, as given.
     pub input: String,
+    /// The exit code.
     pub exit: u8,
     /// How it ended, in words.
     pub ending: String,
+    /// Whether every guarantee holds.
     pub kept: bool,
+    /// The mesh files.
     pub outputs: Vec<String>,
+    /// Number of vertices.
     pub vertices: usize,
+    /// Number of triangles.
     pub triangles: usize,
+    /// Smallest angle of all triangles, in degrees.
     pub min_angle_deg: Option<f64>,
-    /// Triangles below the angle asked for that a corner excuses.
+    /// Number of triangles below the requested angle that are exempt.
     pub excused: usize,
+    /// Number of repairs.
     pub repairs: usize,
-    /// What was left as it is by `--tolerance 0`.
+    /// Number of flaws that `--tolerance 0` left.
     pub unhealed: usize,
+    /// Number of entities that were left out.
     pub skipped: usize,
-    /// What was noticed of the input.
+    /// Notes about the input.
     pub notes: Vec<String>,
+    /// Why there is no mesh.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub failure: Option<FailureReport>,
+    /// Seconds.
     pub seconds: f64,
 }
 
 impl Line {
+    /// The line of a run.
     pub fn of(input: String, outcome: &Outcome) -> Self {
         let report = &outcome.report;
         Self {
@@ -67,7 +79,7 @@ impl Line {
         }
     }
 
-    /// Of an input that did not come to a run.
+    /// The line of an input without a run.
     pub fn failed(input: String, failure: FailureReport) -> Self {
         Self {
             input,
@@ -89,7 +101,7 @@ impl Line {
     }
 }
 
-/// A line of the record as it is read back.
+/// A line of the record, read back.
 #[derive(Deserialize)]
 #[serde(untagged)]
 enum Entry {
@@ -98,20 +110,21 @@ enum Entry {
     Done { input: String, exit: u8, outputs: Vec<String> },
 }
 
-/// An input at which the program itself ended so often is not begun again.
+/// An input is not tried again after this number of runs during which the program ended.
 const TRIES: usize = 2;
 
+/// The record of a batch.
 pub struct Record {
     path: String,
     file: File,
     /// Exit codes of the inputs that an earlier run finished.
     done: BTreeMap<String, u8>,
-    /// Inputs that an earlier run began and did not finish, and how often.
+    /// The inputs that an earlier run began and did not finish, with the number of tries.
     begun: BTreeMap<String, usize>,
 }
 
 impl Record {
-    /// Opens the record to go on with it, or begins it anew.
+    /// Opens the record to continue it, or begins a new one.
     pub fn open(
         path: &Path,
         resume: bool,
@@ -151,7 +164,7 @@ impl Record {
         } else if text.ends_with('\n') {
             Ok(())
         } else {
-            // The last line was cut short.
+            // The last line is incomplete.
             record.file.write_all(b"\n")
         };
         begins.map_err(|e| record.unwritable(&e))?;
@@ -187,31 +200,31 @@ impl Record {
     }
 }
 
-/// Where the workers of a batch report.
+/// Collects the results of the threads of a batch.
 pub struct Desk {
     state: Mutex<State>,
     earlier: usize,
     volume: Volume,
-    /// Lines are for programs: a terminal shows what failed instead.
+    /// Whether lines are printed. They are for programs; a terminal shows failures instead.
     lines: bool,
-    /// Whether somebody looks: at what failed.
+    /// Whether failures are shown on a terminal.
     watched: bool,
 }
 
 struct State {
     record: Record,
     bar: say::Count,
-    /// The next line to be printed, and those that wait for their turn.
+    /// The next line to print, and the lines after it.
     next: usize,
     waiting: BTreeMap<usize, String>,
-    /// How many inputs ended with each exit code.
+    /// Number of inputs with each exit code.
     exits: BTreeMap<u8, usize>,
-    /// The first thing that could not be written: the batch goes on, and ends with it.
+    /// The first output that could not be written. The batch continues and ends with this error.
     unwritten: Option<Halt>,
 }
 
 impl Desk {
-    /// For so many inputs; `earlier` are the exit codes of those that were done before.
+    /// For this number of inputs. `earlier` are the exit codes of inputs that were done before.
     pub fn new(record: Record, earlier: &[u8], inputs: usize, volume: Volume) -> Self {
         let mut exits: BTreeMap<u8, usize> = BTreeMap::new();
         earlier.iter().for_each(|&exit| *exits.entry(exit).or_default() += 1);
@@ -226,10 +239,10 @@ impl Desk {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Notes that an input is begun.
+    /// Records that an input begins.
     ///
     /// # Errors
-    /// Where the program ended at it before, more than once: memory, or a fault of ours that cannot be caught.
+    /// Where the program ended during it more than once: for lack of memory, or by a bug that cannot be caught.
     pub fn begin(&self, input: &str) -> Result<(), FailureReport> {
         let mut state = self.state();
         if state.record.begun.get(input).is_some_and(|&n| n >= TRIES) {
@@ -240,7 +253,7 @@ impl Desk {
         Ok(())
     }
 
-    /// Records what came of the k-th input, and prints it when all before it are; to a terminal only what failed.
+    /// Records the result of the k-th input, and prints it after all before it; on a terminal only failures.
     pub fn end(&self, k: usize, line: &Line) {
         let mut state = self.state();
         let text = serde_json::to_string(line).expect("a line holds only words, numbers and lists of them");

@@ -1,4 +1,4 @@
-//! First guesses in closed form for two circular arcs, or a line and an arc.
+//! First guesses in closed form, for two circular arcs or a line and an arc.
 
 use super::Guess;
 use super::contact::Contacts;
@@ -7,11 +7,18 @@ use crate::curve::{CircularArc, Curve, Line};
 use crate::geometry::{Point, Vec2};
 use std::f64::consts::TAU;
 
-/// Pairs of parameters, one at least in every contact of two circular arcs or of a line and an arc; `None` for other
-/// kinds, and where a circle is so large or so far that the closed form loses the tolerance to rounding, unless the
-/// circles are clear of each other.
+/// Pairs of parameters, at least one in every contact of two circular arcs or of a line and an arc. `None` for other
+/// kinds, and where a circle is so large or so far away that the rounding of the closed form exceeds the tolerance,
+/// unless the circles are certainly apart.
 ///
-/// A contact holds a crossing, a place where the curves come closest (on the line of centers), or an end.
+/// Every contact contains a crossing, a place where the circles are nearest (on the line of centers), or an end.
+///
+/// ```text
+///                ● crossing
+///    ○──────· p ─┼─○───· q      ● the crossings of the circles p and q, at the ends of their common chord; ○ the
+///                │              points of p on the line of centers, where the circles are nearest.
+///                ● crossing
+/// ```
 pub(super) fn guesses(contacts: &Contacts) -> Option<Vec<Guess>> {
     let (a, b) = (contacts.a.curve, contacts.b.curve);
     let places = match (a.as_arc(), b.as_arc()) {
@@ -20,7 +27,7 @@ pub(super) fn guesses(contacts: &Contacts) -> Option<Vec<Guess>> {
         (Some(p), None) => line_with_circle(b.as_line()?, p),
         (None, None) => return None,
     };
-    // A few units of rounding in each of some ten operations.
+    // A few units of rounding for each of about ten operations.
     let rounding = 64.0 * f64::EPSILON * reach_of(a).max(reach_of(b));
     if rounding > contacts.tolerance {
         let (p, q) = (a.as_arc()?, b.as_arc()?);
@@ -40,7 +47,7 @@ pub(super) fn guesses(contacts: &Contacts) -> Option<Vec<Guess>> {
     Some(guesses)
 }
 
-/// Whether one circle lies outside of the other, or within it, by more than the tolerance, whatever rounding does.
+/// Whether one circle lies outside of the other, or within it, by more than the tolerance, with allowance for rounding.
 fn are_clear(p: &CircularArc, q: &CircularArc, tolerance: f64, rounding: f64) -> bool {
     let distance = length(q.center - p.center);
     let gap = (distance - p.radius - q.radius).max((p.radius - q.radius).abs() - distance);
@@ -48,19 +55,19 @@ fn are_clear(p: &CircularArc, q: &CircularArc, tolerance: f64, rounding: f64) ->
     !p.is_spiral() && !q.is_spiral() && gap > tolerance + 8.0 * rounding
 }
 
-/// The largest length that points of the curve are computed from.
+/// The largest length from which points of the curve are computed.
 fn reach_of(curve: &Curve) -> f64 {
     curve.as_arc().map_or(0.0, |arc| arc.center.x.abs().max(arc.center.y.abs()) + arc.radius)
 }
 
-/// A guess on a crossing brought to the crossing.
+/// A guess near a crossing, refined to the crossing by Newton's method.
 fn polished(contacts: &Contacts, t: f64, u: f64) -> Guess {
     let (a, b) = (contacts.a.curve, contacts.b.curve);
     let sine = |t: f64, u: f64| {
         let (da, db) = (a.derivative(t), b.derivative(u));
         (da.cross(db) / (length(da) * length(db))).abs()
     };
-    // Below a thousandth Newton's method may run along the curves; following the contact finds the place as well.
+    // Below a thousandth Newton's method may run along the curves. Following the contact finds the place as well.
     if sine(t, u) < 1.0 / 1024.0 {
         return Guess::at(t, u);
     }
@@ -70,14 +77,15 @@ fn polished(contacts: &Contacts, t: f64, u: f64) -> Guess {
     }
     let (sine, place) = (sine(t, u), a.point(t));
     let reach = 2.0 * contacts.tolerance / sine;
-    // Over that length the angle between the curves changes by less than a quarter of it.
+    // Over that length the angle between the curves changes by less than a quarter.
     let bends_little = 4.0 * reach * (a.curvature(t).abs() + b.curvature(u).abs()) <= sine;
     let ends = [a.start(), a.end(), b.start(), b.end()];
     let is_clear = bends_little && ends.iter().all(|&end| length(end - place) > reach);
     Guess { t, u, root: true, clear: if is_clear { reach } else { 0.0 } }
 }
 
-/// Parameters of a line or an arc beside a place: of the point there, or of the ends where the arc has none there.
+/// The parameters of a line or an arc beside a place: of the nearest point of line or circle, or of both ends where the
+/// arc does not extend there.
 fn beside(curve: &Curve, place: Point) -> Vec<f64> {
     match curve.as_arc() {
         Some(arc) => {
@@ -96,7 +104,7 @@ fn beside(curve: &Curve, place: Point) -> Vec<f64> {
     }
 }
 
-/// Where the circles meet, and where they are nearest.
+/// The places where the circles meet, and where they are nearest.
 fn circle_with_circle(p: &CircularArc, q: &CircularArc) -> Vec<Point> {
     let apart = q.center - p.center;
     let distance = length(apart);
@@ -104,14 +112,14 @@ fn circle_with_circle(p: &CircularArc, q: &CircularArc) -> Vec<Point> {
         return Vec::new();
     }
     let toward = apart / distance;
-    // Of the common chord: where it crosses the line of centers, by (d² + r² − s²)/2d.
+    // The distance from p's center at which the common chord crosses the line of centers: (d² + r² − s²)/2d.
     let along = 0.5 * (distance + (p.radius - q.radius) * (p.radius + q.radius) / distance);
     let mut places = vec![p.center + toward * p.radius, p.center - toward * p.radius];
     places.extend(on_chord(p.center + toward * along, toward, (p.radius - along) * (p.radius + along)));
     places
 }
 
-/// Where the line meets the circle, and where they are nearest.
+/// The places where the line meets the circle, and where they are nearest.
 fn line_with_circle(line: &Line, arc: &CircularArc) -> Vec<Point> {
     let along = line.end - line.start;
     if along == Vec2::ZERO {
@@ -126,7 +134,7 @@ fn line_with_circle(line: &Line, arc: &CircularArc) -> Vec<Point> {
     places
 }
 
-/// The ends of a chord through `middle`, perpendicular to the unit vector `normal`, of which half the length is
+/// The ends of a chord with the middle `middle`, perpendicular to the unit vector `normal`; half its length is
 /// √`half2`.
 fn on_chord(middle: Point, normal: Vec2, half2: f64) -> Vec<Point> {
     if half2 <= 0.0 {

@@ -1,51 +1,64 @@
-//! From a first guess to a meeting: followed both ways, told from a stretch that is shared, and brought to its exact
-//! place.
+//! From a first guess to a meeting: the contact is followed both ways, classified as a meeting or a shared stretch, and
+//! its exact place is computed.
 //!
-//! The pairs (t, u) with a gap of at most the tolerance fall into connected *contacts*. The meeting is one a contact: a
-//! crossing where the curves leave it on opposite sides, else a touching. So a lens between two crossings that is no
-//! deeper than the tolerance is one touching, and a deeper one two crossings, whatever their distance. Two curves of
-//! low degree that agree on a stretch agree until one of their spans ends, so a contact is an overlap between the
-//! outermost span ends that it holds, if those are apart, and otherwise snaps to the end that it holds.
+//! The pairs (t, u) with a gap of at most the tolerance form connected *contacts*. Each contact is one meeting: a
+//! crossing if the curves leave it on opposite sides, else a touching. So a lens between two crossings that is no
+//! deeper than the tolerance is one touching, and a deeper lens has two crossings, whatever their distance. Two curves
+//! of low degree that agree on a stretch agree until a span of one of them ends. So a contact is an overlap between the
+//! outermost span ends that it contains, if those are apart; else it snaps to the end that it contains.
+//!
+//! ```text
+//!      before      at     after            before      at     after           Walks from the guess `at` go along a in
+//!   a ──╮ :        :        : ╭──       a ──╮ :        :        :             both senses, with the feet u on b, as
+//!       ╰─:────────●────────:─╯             ╰─:──╮     :        :             long as the gap is within the tolerance.
+//!   b ────:────────:────────:─────      b ────:──╰─────●─────╮──:────         `before` and `after` are just beyond.
+//!                                             :        :     ╰──:── a         Left: a leaves on one side, a touching.
+//!          touching                            crossing                       Right: a crossing.
+//! ```
 
 use super::hull::length;
 use super::{Meeting, MeetingBudget, MeetingKind, Overlap};
 use crate::curve::{Curve, End};
 use crate::geometry::{Point, Vec2};
 
-/// Newton's method doubles its digits a step; a halving fallback never needs more steps than a double has bits.
+/// Newton's method doubles the correct digits each step. The fallback, bisection, needs at most as many steps as a
+/// double has bits.
 const NEWTON_STEPS: usize = 53;
-/// A step along a contact is at most this part of a span times the degree of the partner: then the samples on a span
-/// outnumber the crossings that curves of such degrees can have (Bézout), up to degree eight.
+/// The least number of steps of a walk on a span, for each degree of the curves. Up to degree eight, a span then has at
+/// least as many samples as two curves of the degree can have crossings (Bézout).
 const SAMPLES_PER_DEGREE: f64 = 8.0;
 
-/// One curve as a contact sees it.
+/// One of the two curves, with what the walks need.
 pub(super) struct Track<'c> {
+    /// The curve.
     pub curve: &'c Curve,
     /// Ends of spans: 0, the inner knots, 1.
     pub knots: Vec<f64>,
+    /// The highest degree of its spans.
     pub degree: usize,
-    /// Longer side of its box.
+    /// The longer side of its box.
     pub size: f64,
 }
 
 impl<'c> Track<'c> {
+    /// A curve with the highest degree of its spans and the longer side of its box.
     pub fn new(curve: &'c Curve, degree: usize, size: f64) -> Self {
         Self { curve, knots: curve.knots(), degree, size }
     }
 
-    /// Width of the span at t.
+    /// The width of the span at t, as a range of the parameter.
     fn span(&self, t: f64) -> f64 {
         let above = self.knots.partition_point(|&k| k <= t).clamp(1, self.knots.len() - 1);
         self.knots[above] - self.knots[above - 1]
     }
 
-    /// The change of parameter at t that moves the curve's point by about `distance`, either way.
+    /// The change of parameter at t, in either sense, that moves the curve's point by about `distance`.
     fn step_of(&self, t: f64, distance: f64) -> f64 {
         let (velocity, bend) = (length(self.curve.derivative(t)), length(self.curve.second_derivative(t)));
-        // Where a curve stands still it soon moves on: the floor is a sixteenth of its least mean speed.
+        // A curve may have speed 0 at single parameters: the lower limit is a sixteenth of its least mean speed.
         let speed = velocity.max(self.size / 16.0);
         let steady = if speed > distance { distance / speed } else { 1.0 };
-        // At a handle of no length it moves by the square of the step: |γ′| h + |γ″| h²/2 = distance.
+        // At a repeated control point it moves by the square of the step: |γ′| h + |γ″| h²/2 = distance.
         let start = 0.5 * (velocity + (velocity * velocity + 2.0 * bend * distance).sqrt());
         if start * steady >= distance {
             return steady.min(distance / start);
@@ -61,7 +74,7 @@ impl<'c> Track<'c> {
     }
 }
 
-/// Both ends of a walk along a contact.
+/// How a walk along a contact ends.
 #[derive(Clone, Copy)]
 enum Stop {
     /// One of the curves ends here.
@@ -70,40 +83,45 @@ enum Stop {
     Away([f64; 2]),
 }
 
-/// What a contact is.
+/// The classification of a contact.
 enum Finding {
     Point(Meeting),
     Stretch(Overlap),
-    /// The common end of a closed curve, or a curve's nearness to itself along itself.
+    /// No meeting: the common end of a closed curve, or a curve near to itself only because its points are neighbours.
     Nothing,
 }
 
 /// Every contact found so far.
 pub(super) struct Contacts<'c> {
+    /// The first curve, with parameter t.
     pub a: Track<'c>,
+    /// The second curve, with parameter u.
     pub b: Track<'c>,
+    /// The largest gap of a meeting.
     pub tolerance: f64,
-    /// The gap up to which a contact is followed: noise about the tolerance would tear it where the curves part slowly,
-    /// and each shred would be a meeting.
+    /// The gap up to which a contact is followed: the tolerance plus noise. Where curves part slowly, noise around the
+    /// tolerance would otherwise break the contact into many, each a meeting.
     held: f64,
     /// Whether a and b are one curve that may meet itself.
     pub same: bool,
-    /// Walks along contacts: (t, u) with ascending t.
+    /// The walks along contacts: pairs (t, u) with ascending t.
     walks: Vec<Vec<[f64; 2]>>,
-    /// The range of t of each.
+    /// By walk: its range of t.
     reaches: Vec<[f64; 2]>,
+    /// The meetings so far.
     pub points: Vec<Meeting>,
+    /// The shared stretches so far.
     pub overlaps: Vec<Overlap>,
 }
 
 impl<'c> Contacts<'c> {
-    /// `noise`: what rounding does to a gap.
+    /// No contacts yet. `noise` is the rounding error of a gap.
     pub fn new(a: Track<'c>, b: Track<'c>, tolerance: f64, noise: f64, same: bool) -> Self {
         let (walks, reaches, points, overlaps) = Default::default();
         Self { a, b, tolerance, held: tolerance + 2.0 * noise, same, walks, reaches, points, overlaps }
     }
 
-    /// Records a crossing of which nothing else can be near: no end, no other meeting within `reach` of it.
+    /// Records a crossing that has no end and no other meeting within `reach` of it, without a walk.
     pub fn add_clear_crossing(&mut self, t: f64, u: f64, reach: f64) {
         let (dt, du) = (self.a.step_of(t, reach), self.b.step_of(u, reach));
         self.keep(vec![[t - dt, u - du], [t + dt, u + du]]);
@@ -112,8 +130,12 @@ impl<'c> Contacts<'c> {
         self.points.push(Meeting { at, t, u, kind: MeetingKind::Crossing, contact });
     }
 
-    /// Follows the contact through (t, u), which must be within the tolerance, and records what it is. `root` says that
-    /// (t, u) solves a(t) = b(u) as well as can be.
+    /// Follows the contact through (t, u), whose gap must be within the tolerance, and records its meeting or stretch.
+    /// `root` says that (t, u) solves a(t) = b(u) up to rounding.
+    ///
+    /// # Errors
+    ///
+    /// [`MeetingBudget`] where a walk takes too many steps.
     pub fn add(&mut self, t: f64, u: f64, root: bool) -> Result<(), MeetingBudget> {
         if self.knows(t, u) {
             return Ok(());
@@ -143,17 +165,17 @@ impl<'c> Contacts<'c> {
         self.walks.push(walk);
     }
 
-    /// How many contacts were followed: what it costs to ask for one.
+    /// The number of contacts followed so far: the cost of [`Contacts::knows`].
     pub fn followed(&self) -> usize {
         self.walks.len()
     }
 
-    /// Whether (t, u) lies in a contact that was followed.
+    /// Whether (t, u) lies in a contact that was already followed.
     pub fn knows(&self, t: f64, u: f64) -> bool {
         self.knows_box([t; 2], [u; 2])
     }
 
-    /// Whether a pair of ranges lies within a contact that was followed, next to its walk.
+    /// Whether a pair of ranges lies within a contact that was already followed, next to its walk.
     pub fn knows_box(&self, t: [f64; 2], u: [f64; 2]) -> bool {
         if self.walks.is_empty() {
             return false;
@@ -169,7 +191,7 @@ impl<'c> Contacts<'c> {
             if u[0] < low || u[1] > high {
                 return false;
             }
-            // The part of the walk over t, one step more at either side.
+            // The part of the walk over t, and one more step at either side.
             let from = walk.partition_point(|w| w[0] < t[0]).saturating_sub(1);
             let to = (walk.partition_point(|w| w[0] <= t[1]) + 1).min(walk.len());
             let part = &walk[from.min(to - 1)..to];
@@ -179,15 +201,16 @@ impl<'c> Contacts<'c> {
         })
     }
 
-    /// Follows the contact from a pair, with t falling (−1) or rising (+1): the pairs passed, the last one included.
+    /// Follows the contact from a pair, with t falling (`sense` −1) or rising (+1). Returns the pairs after the first,
+    /// and how the walk ends.
     fn walk(&self, from: [f64; 2], sense: f64) -> Result<(Vec<[f64; 2]>, Stop), MeetingBudget> {
         let (a, b) = (self.a.curve, self.b.curve);
         let goal = if sense > 0.0 { 1.0 } else { 0.0 };
         let first_step = (0.25 * self.a.step_of(from[0], self.tolerance)).max(f64::EPSILON);
         let samples = SAMPLES_PER_DEGREE * self.a.degree.max(self.b.degree) as f64;
         let spans = self.a.knots.len() + self.b.knots.len();
-        // Doubling and quartering steps are some 60 each; the rest are full, at most two a sample on all spans. Twice
-        // that.
+        // Steps that double or quarter are some 60 each; the others are full, at most two a sample on all spans. The
+        // budget is twice that.
         let budget = 2 * (120 + 2 * spans * samples as usize);
         let (mut passed, mut here, mut step) = (Vec::new(), from, first_step);
         for _ in 0..budget {
@@ -200,7 +223,8 @@ impl<'c> Contacts<'c> {
             step = step.min(self.a.span(t) / samples);
             let room = 0.5 * self.b.span(u) / samples;
             if ratio.abs() * step > room {
-                // As far as b goes within the room: by its points, since it may stand still at u and soon move on.
+                // The step is limited by the distance that b covers within the room; its speed at u would not do, since
+                // it may be 0 there.
                 let reach = [u - room, u + room].map(|v| length(b.point(v) - b.point(u)));
                 step = step.min(reach[0].max(reach[1]) / length(velocity)).max(first_step);
             }
@@ -225,8 +249,8 @@ impl<'c> Contacts<'c> {
                 }
                 return Ok((passed, Stop::End));
             }
-            // The border of the contact is wanted to a small part of its length only: it serves to know the contact
-            // again. But a gap far beyond the tolerance may be a foot gone astray in a sharp bend.
+            // The border of the contact is needed to a small part of its length only, to recognise the contact later.
+            // But a gap far beyond the tolerance may come from a wrong foot in a sharp bend.
             let is_border = gap <= 2.0 * self.held && !jumps && step <= (t - from[0]).abs() / 256.0;
             if is_border || step <= first_step {
                 return Ok((passed, Stop::Away([next, foot])));
@@ -236,10 +260,11 @@ impl<'c> Contacts<'c> {
         Err(MeetingBudget { at: a.point(here[0]) })
     }
 
-    /// Where the end `e` of b (0 or 1) lies beside a between two parameters, if it does.
+    /// The pair at the end `e` of b (0 or 1), if that end lies beside a between two parameters.
     fn end_of_b_between(&self, e: f64, t: f64, next: f64) -> Option<[f64; 2]> {
         let (beside, gap) = foot(self.a.curve, self.b.curve.point(e), t);
-        // In space, not by parameter: near a handle of no length a curve stays within the tolerance for long.
+        // By distance, not by parameter: near a repeated control point a curve stays within the tolerance over a long
+        // range.
         let between = beside.clamp(t.min(next), t.max(next));
         (gap <= self.tolerance && is_near(self.a.curve, beside, between, self.tolerance)).then_some([between, e])
     }
@@ -264,7 +289,7 @@ impl<'c> Contacts<'c> {
         Finding::Point(self.meeting_inside(walk, at, root, before, after))
     }
 
-    /// Ends of the curves in the contact, as pairs.
+    /// The ends of the curves in the contact, as pairs.
     fn ends_in(&self, walk: &[[f64; 2]], at: [f64; 2], before: Stop, after: Stop) -> Vec<[f64; 2]> {
         let (first, last) = (walk[0], walk[walk.len() - 1]);
         let mut ends = Vec::new();
@@ -274,9 +299,9 @@ impl<'c> Contacts<'c> {
         if let Stop::End = after {
             ends.push(last);
         }
-        // A walk along a passes an end of b unseen where the curves cross steeply. Where they cross at the angle θ, b
-        // stays within the tolerance for tolerance/sin θ, of which the walk sees the part cos θ; the rest is tan(θ/2) ≤
-        // 1 times the tolerance. And it stops at an end of b although one of a may be as near.
+        // A walk along a may miss an end of b where the curves cross steeply. Where they cross at the angle θ, b stays
+        // within the tolerance over tolerance/sin θ, and the walk covers the part cos θ of it; the rest is tan(θ/2) ≤ 1
+        // times the tolerance. Also, the walk stops at an end of b although an end of a may be as near.
         let (a, b) = (self.a.curve, self.b.curve);
         let is_near = |curve: &Curve, x: f64, e: f64| is_near(curve, x, e, 2.0 * self.tolerance);
         for e in [0.0, 1.0] {
@@ -295,15 +320,15 @@ impl<'c> Contacts<'c> {
         ends
     }
 
-    /// The foot of a place on a curve, where it is within the tolerance.
+    /// The parameter of the foot of a place on a curve, if it is within the tolerance.
     fn beside(&self, curve: &Curve, place: Point, guess: f64) -> Option<f64> {
         let (x, gap) = foot(curve, place, guess);
         (gap <= self.tolerance).then_some(x)
     }
 
-    /// Knots of either curve inside the contact, as pairs: where a contact is a shared stretch, it may end at one. Only
-    /// those count at which the gap is far below the tolerance, lest a shallow crossing of short spans pass for a
-    /// shared stretch.
+    /// The knots of either curve inside the contact, as pairs: a shared stretch may end at a knot. Only knots with a
+    /// gap far below the tolerance count; otherwise a shallow crossing of short spans would be taken for a shared
+    /// stretch.
     fn knots_in(&self, walk: &[[f64; 2]]) -> Vec<[f64; 2]> {
         let (a, b) = (self.a.curve, self.b.curve);
         let (first, last) = (walk[0], walk[walk.len() - 1]);
@@ -327,7 +352,7 @@ impl<'c> Contacts<'c> {
         knots
     }
 
-    /// A pair at an end of a stretch, moved to the ends of curves among `ends` that lie within the tolerance of it.
+    /// A pair at an end of a stretch, moved to ends of curves among `ends` if they lie within the tolerance of it.
     fn snapped(&self, pair: [f64; 2], ends: &[[f64; 2]]) -> [f64; 2] {
         let (a, b) = (self.a.curve, self.b.curve);
         let t = ends.iter().map(|w| w[0]).find(|&e| is_end(e) && is_near(a, pair[0], e, self.tolerance));
@@ -336,7 +361,7 @@ impl<'c> Contacts<'c> {
         if self.gap(snapped) <= self.tolerance { snapped } else { pair }
     }
 
-    /// Whether the walk goes further than the tolerance from its start between two pairs.
+    /// Whether the walk goes farther than the tolerance from its start between two pairs.
     fn is_long(&self, walk: &[[f64; 2]], from: [f64; 2], to: [f64; 2]) -> bool {
         let a = self.a.curve;
         let start = a.point(from[0]);
@@ -346,21 +371,21 @@ impl<'c> Contacts<'c> {
             && inside.chain([to[0]]).any(|t| length(a.point(t) - start) > self.tolerance)
     }
 
-    /// The meeting of a contact no longer than the tolerance that holds the given ends.
+    /// The meeting of a contact that is no longer than the tolerance and contains the given ends.
     fn meeting_at_end(&self, walk: &[[f64; 2]], ends: &[[f64; 2]]) -> Finding {
         let Some(&first) = ends.iter().find(|w| is_end(w[0])).or(ends.first()) else { return Finding::Nothing };
         let [t, u] = self.snapped(first, ends);
         let (a, b) = (self.a.curve, self.b.curve);
         if self.same && (t == 0.0 && u == 1.0 || u <= t || is_near(a, t, u, self.tolerance)) {
-            // The seam of a closed curve, or a curve that slows down to its end: near to itself along itself.
+            // The seam of a closed curve, or a curve that slows down towards its end: its points are only neighbours.
             return Finding::Nothing;
         }
-        // An end is where it is; the other curve is brought to it.
+        // The place is that of the end, exactly.
         let at = if is_end(t) { a.point(t) } else { b.point(u) };
         Finding::Point(Meeting { at, t, u, kind: MeetingKind::Touching, contact: whole(walk) })
     }
 
-    /// The meeting of a contact inside both curves, left at `before` and `after`.
+    /// The meeting of a contact inside both curves. `before` and `after` are the first pairs outside.
     fn meeting_inside(
         &self,
         walk: &[[f64; 2]],
@@ -396,7 +421,7 @@ impl<'c> Contacts<'c> {
         best.copied().unwrap_or_default()
     }
 
-    /// Halves between two pairs of a walk to where `value` changes sign.
+    /// Bisects between two pairs of a walk to the place where `value` changes sign; `None` where it does not.
     fn change_of_sign(
         &self,
         mut low: [f64; 2],
@@ -426,8 +451,8 @@ impl<'c> Contacts<'c> {
         Some(low)
     }
 
-    /// Newton's method for a(t) = b(u), kept in two ranges: the pair, and whether the gap fell to a quarter of the
-    /// tolerance.
+    /// Newton's method for a(t) = b(u), limited to two ranges `within`. Returns the pair, and whether the gap fell to a
+    /// quarter of the tolerance.
     pub fn root(&self, mut t: f64, mut u: f64, within: [[f64; 2]; 2]) -> ([f64; 2], bool) {
         let (a, b) = (self.a.curve, self.b.curve);
         let mut gap = a.point(t) - b.point(u);
@@ -440,7 +465,7 @@ impl<'c> Contacts<'c> {
             let next_t = (t - gap.cross(db) / area).clamp(within[0][0], within[0][1]);
             let next_u = (u - gap.cross(da) / area).clamp(within[1][0], within[1][1]);
             let next = a.point(next_t) - b.point(next_u);
-            // At the end, rounding alone moves the gap.
+            // Near the solution only rounding changes the gap.
             if next.hypot2() >= gap.hypot2() && length(gap) <= 0.25 * self.tolerance {
                 break;
             }
@@ -453,7 +478,7 @@ impl<'c> Contacts<'c> {
     }
 }
 
-/// The stretch of a walk.
+/// The stretch that a walk covers.
 fn whole(walk: &[[f64; 2]]) -> Overlap {
     let (first, last) = (walk[0], walk[walk.len() - 1]);
     Overlap { t: [first[0], last[0]], u: [first[1], last[1]] }
@@ -463,13 +488,14 @@ fn is_end(x: f64) -> bool {
     x == 0.0 || x == 1.0
 }
 
-/// Whether the curve between two parameters stays about a place: both ends of a closed curve are not near.
+/// Whether the points at two parameters and halfway between are within `distance` of each other. The ends of a closed
+/// curve are not.
 pub(super) fn is_near(curve: &Curve, x: f64, y: f64, distance: f64) -> bool {
     let from = curve.point(x);
     length(curve.point(y) - from) <= distance && length(curve.point(0.5 * (x + y)) - from) <= distance
 }
 
-/// Direction of travel at t.
+/// The unit tangent at t.
 fn tangent(curve: &Curve, t: f64) -> Vec2 {
     let derivative = curve.derivative(t);
     let speed = length(derivative);
@@ -479,8 +505,7 @@ fn tangent(curve: &Curve, t: f64) -> Vec2 {
     curve.tangent(t, if t < 1.0 { End::Start } else { End::Finish })
 }
 
-/// The parameter near `guess` at which the curve comes closest to p (a local minimum, or an end), and the distance
-/// there.
+/// The parameter near `guess` at which the curve is closest to p (a local minimum, or an end), and the distance there.
 pub(super) fn foot(curve: &Curve, p: Point, guess: f64) -> (f64, f64) {
     let mut u = guess.clamp(0.0, 1.0);
     if curve.derivative(u) == Vec2::ZERO {
@@ -490,14 +515,14 @@ pub(super) fn foot(curve: &Curve, p: Point, guess: f64) -> (f64, f64) {
     for _ in 0..NEWTON_STEPS {
         let velocity = curve.derivative(u);
         let bent = velocity.hypot2() + away.dot(curve.second_derivative(u));
-        // Beyond the center of curvature Newton's method would climb; there, the step of Gauss and Newton descends.
+        // Beyond the center of curvature Newton's method would ascend; a Gauss–Newton step descends.
         let slope_change = if bent > 0.25 * velocity.hypot2() { bent } else { velocity.hypot2() };
         if slope_change == 0.0 {
             break;
         }
         let mut step = -away.dot(velocity) / slope_change;
         let mut moved = false;
-        // A step that does not descend is quartered, four times at most: what remains is rounding.
+        // A step that does not descend is quartered, at most four times: what remains is rounding.
         for _ in 0..4 {
             let next = (u + step).clamp(0.0, 1.0);
             if next == u {
@@ -517,5 +542,5 @@ pub(super) fn foot(curve: &Curve, p: Point, guess: f64) -> (f64, f64) {
     (u, length(away))
 }
 
-/// A curve may stand still at a parameter (two control points in one); the search starts this far beside it.
+/// Where the derivative is 0 at an end (a repeated control point), the search starts this far inside.
 const INWARD: f64 = 1.0 / 4096.0;

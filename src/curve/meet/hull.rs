@@ -1,10 +1,19 @@
-//! The hull tree of a curve: ever smaller pieces, each with its control polygon, box, lens and cone of tangents.
+//! The hull tree of a curve: pieces, their halves, and so on, each with its control polygon, box, strip and cone of
+//! tangents.
 //!
-//! Every kind of curve is a chain of Bézier pieces in homogeneous coordinates: lines have degree one, circular and
-//! elliptic arcs are cut into rational quadratics of at most a quarter turn. The piece lies in the convex hull of its
-//! control points, and since corner cutting only blends neighbouring legs, every tangent and every chord of it lies in
-//! the cone of the legs. Children are made by de Casteljau's algorithm at the middle, when first asked for, and kept: a
-//! piece is halved once whatever it is compared with.
+//! Every kind of curve is a chain of Bézier spans in homogeneous coordinates: lines have degree one, circular and
+//! elliptic arcs are cut into rational quadratics of at most a quarter turn. A piece lies in the convex hull of its
+//! control points. Corner cutting only blends neighbouring legs, so every tangent and every chord of the piece lies in
+//! the cone of the legs. Halves are made by de Casteljau's algorithm at the middle, at the first request, and stored: a
+//! piece is halved only once, whatever it is compared with.
+//!
+//! ```text
+//!             group                  A piece:   p₁ ●────────● p₂       hull    p₀ … p₃
+//!            ╱     ╲                             ╱╭────────╮ ╲         spread  the strip along the chord that
+//!       span 0     span 1                      ╱╭─╯        ╰──╮╲               contains the hull
+//!       ╱    ╲     ╱    ╲                  p₀ ●───── chord ─────● p₃   cone    of the legs p₀p₁, p₁p₂ and p₂p₃
+//!    halves  …    …     …
+//! ```
 
 use crate::curve::{Bezier, Cone, Curve, EllipticArc};
 use crate::geometry::{Point, Rect, Vec2, magnitude};
@@ -13,66 +22,70 @@ use std::f64::consts::FRAC_PI_2;
 /// A control point times its weight, and the weight.
 type Homogeneous = [f64; 3];
 
-/// One Bézier piece, or (without control points) a group of neighbouring ones.
+/// One Bézier piece, or (without control points) a group of neighbouring pieces.
 pub(super) struct HullNode {
     control: Vec<Homogeneous>,
     /// The control points; empty for a group.
     pub hull: Vec<Point>,
+    /// The box around the hull.
     pub bounds: Rect,
     /// The range of the curve's parameter.
     pub t: [f64; 2],
-    /// The range of the parameter of its span.
+    /// The range of its span's own parameter.
     s: [f64; 2],
     span: usize,
-    /// Unit normal of the chord; zero where the chord has no length.
+    /// The unit normal of the chord; zero where the chord has no length.
     pub normal: Vec2,
-    /// Least and largest signed distance of the hull from the chord's line.
+    /// The least and the largest signed distance of the hull from the line of the chord.
     pub spread: [f64; 2],
-    /// The cone of tangents, where all legs run less than a right angle from the chord.
+    /// The cone of tangents, if all legs are less than a right angle from the chord.
     pub cone: Option<Cone>,
-    /// Longer side of the box.
+    /// The longer side of the box.
     pub size: f64,
-    /// Whether its first and last point are ends of a span: ends of the curve, or knots, where the tangent may jump.
+    /// Whether its first and its last point are ends of a span: ends of the curve, or knots, where the tangent may
+    /// jump.
     pub span_end: [bool; 2],
     children: Option<[usize; 2]>,
 }
 
 impl HullNode {
+    /// The start of the piece; not of a group.
     pub fn first(&self) -> Point {
         self.hull[0]
     }
 
+    /// The end of the piece; not of a group.
     pub fn last(&self) -> Point {
         self.hull[self.hull.len() - 1]
     }
 
+    /// Whether it is a group, which has no control points.
     pub fn is_group(&self) -> bool {
         self.hull.is_empty()
     }
 
-    /// Distance between the two lines along the chord that enclose the piece.
+    /// The width of the strip along the chord that contains the piece.
     pub fn width(&self) -> f64 {
         self.spread[1] - self.spread[0]
     }
 
-    /// Whether the piece is a thin lens along its chord, travelled one way: no wider than an eighth of its length.
+    /// Whether the strip is no wider than an eighth of the piece's size, and all legs advance along the chord.
     pub fn is_slender(&self) -> bool {
-        // Legs of such a lens run within about π/6 of its chord where they advance, which is where Newton's method is
+        // The legs of such a piece are within about π/6 of its chord where they advance. There Newton's method is
         // quick.
         self.cone.is_some() && 8.0 * self.width() <= self.size
     }
 
-    /// Whether the piece is a straight stretch, or a point, to within `gap`.
+    /// Whether the piece is straight, or a point, to within `gap`.
     pub fn is_straight(&self, gap: f64) -> bool {
         !self.is_group() && (self.size <= gap || (self.cone.is_some() && self.width() <= gap))
     }
 }
 
-/// How the parameter of a span runs along the curve's own.
+/// How the curve's parameter depends on that of a span.
 enum Pace {
     Even,
-    /// A conic of which half the angle is φ: tan(θ/2) = tan(φ/2)·(2s − 1) for the angle θ from its middle; here
-    /// tan(φ/2).
+    /// A conic of half angle φ: tan(θ/2) = tan(φ/2)·(2s − 1) for the angle θ from its middle. This is tan(φ/2).
     Angle(f64),
 }
 
@@ -93,13 +106,14 @@ impl Span {
     }
 }
 
+/// The hull tree of a curve.
 pub(super) struct Hulls {
     spans: Vec<Span>,
     pieces: Vec<HullNode>,
     root: usize,
-    /// The largest coordinate that the curve is computed from.
+    /// The largest coordinate from which the curve is computed.
     pub magnitude: f64,
-    /// Highest degree of a span.
+    /// The highest degree of a span.
     pub degree: usize,
     control_points: usize,
 }
@@ -112,6 +126,7 @@ impl std::ops::Index<usize> for Hulls {
 }
 
 impl Hulls {
+    /// The tree of a curve down to its spans; halves are made on request.
     pub fn of(curve: &Curve) -> Self {
         let mut hulls =
             Self { spans: Vec::new(), pieces: Vec::new(), root: 0, magnitude: 0.0, degree: 1, control_points: 0 };
@@ -129,11 +144,12 @@ impl Hulls {
         hulls
     }
 
+    /// The index of the node for the whole curve.
     pub fn root(&self) -> usize {
         self.root
     }
 
-    /// How many control points halving has made so far.
+    /// The number of control points that halving has made so far.
     pub fn control_points(&self) -> usize {
         self.control_points
     }
@@ -155,14 +171,14 @@ impl Hulls {
         for k in 0..count as usize {
             let t = [k as f64 / count, (k + 1) as f64 / count];
             let ends = t.map(|t| curve.point(t));
-            // The shoulder seen from the chord's middle, not from the center: a flat arc has a far center.
+            // The shoulder is computed from the chord's middle, not from the center: a flat arc has a distant center.
             let shoulder = ends[0].midpoint(ends[1]) + axis(start + (2 * k + 1) as f64 * half) * (sin * sin / cos);
             let control = [(ends[0], 1.0), (shoulder, cos), (ends[1], 1.0)];
             self.add(t, Pace::Angle(libm::tan(0.5 * half)), control.map(|(p, w)| [p.x * w, p.y * w, w]).to_vec());
         }
     }
 
-    /// Joins neighbours by twos until one piece is left.
+    /// Joins neighbours in pairs until one node is left.
     fn group(&mut self) {
         let mut level: Vec<usize> = (0..self.pieces.len()).collect();
         while level.len() > 1 {
@@ -181,7 +197,7 @@ impl Hulls {
         self.root = level[0];
     }
 
-    /// The two halves of a piece.
+    /// The children of a node; a piece is halved at the first request.
     pub fn halves(&mut self, i: usize) -> [usize; 2] {
         if let Some(children) = self.pieces[i].children {
             return children;
@@ -265,14 +281,14 @@ fn group_piece(left: &HullNode, right: &HullNode, children: [usize; 2]) -> HullN
     }
 }
 
-/// The cone of the legs, which is narrower than a half plane.
+/// The cone of the legs, if it lies in the half plane along the chord.
 fn cone(hull: &[Point], chord: Vec2) -> Option<Cone> {
     let mut cone = Cone::along(chord)?;
     let mut legs = hull.windows(2).map(|w| w[1] - w[0]).filter(|&leg| leg != Vec2::ZERO);
     legs.all(|leg| cone.widen(leg, chord)).then_some(cone)
 }
 
-/// Length of a vector (by `sqrt`, which is the same on every machine).
+/// The length of a vector (by `sqrt`, which gives the same bits on every machine).
 pub(super) fn length(v: Vec2) -> f64 {
     v.hypot2().sqrt()
 }

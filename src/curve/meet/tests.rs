@@ -179,7 +179,7 @@ fn turned(curve: &Curve, angle: f64) -> Curve {
     curve.transformed(kurbo::Affine::rotate(angle))
 }
 
-/// A circle as the generic way sees it: an ellipse.
+/// A circle as an ellipse, for the general method.
 fn round_ellipse(x: f64, y: f64, r: f64) -> Curve {
     Curve::ellipse(Point::new(x, y), Vec2::new(r, 0.0), Vec2::new(0.0, r), 0.3, TAU).unwrap()
 }
@@ -645,7 +645,7 @@ fn flat_arcs_with_far_centers_meet_like_lines() {
 #[test]
 fn curves_that_stand_still_or_have_no_length_are_met() {
     let p = |x: f64, y: f64| Point::new(x, y);
-    // Both ends stand still.
+    // The speed is 0 at both ends.
     let slow = Curve::bezier(vec![p(0.0, 0.0), p(0.0, 0.0), p(1.0, 1.0), p(1.0, 1.0)]).unwrap();
     let line = Curve::line(p(0.0, 0.0), p(1.0, 1.0)).unwrap();
     for (a, b) in [(&slow, &slow), (&slow, &line), (&line, &slow)] {

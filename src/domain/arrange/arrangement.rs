@@ -1,10 +1,11 @@
 //! The arrangement: nodes, and the edges of drawn curves that run between them, on their way to a domain.
 //!
 //! ```text
-//!   as drawn                          edges a, b, c and nodes ●
+//!   as drawn                 edges a, b, c and nodes ●
 //!
-//!   p ──────────────                ●── a ──●══ b ══●── c ──●      Each edge is a part of a drawn curve, its `source`: a and b of p, c of q.
-//!           ────────────── q                                       Along b runs q, too, which is `merged` with it.
+//!   p ──────────────         ●── a ──●══ b ══●── c ──●     An edge is a part of one drawn curve, its `source`: a and b
+//!           ─────────── q                                  are parts of p, c is a part of q. q runs along b as well:
+//!                                                          it is listed in `merged` of b.
 //! ```
 
 use super::frame::Tolerances;
@@ -16,7 +17,8 @@ use crate::ids::{CurveId, IdVec, PointId, SeenId, ShapeId};
 use crate::watch::Progress;
 use std::collections::BTreeMap;
 
-/// What a node or a cut is there for. Earlier ones win where nodes are welded: what was drawn is the truth.
+/// Why there is a node or a cut. Where nodes are welded, the earlier variant is kept: a drawn place before a computed
+/// one.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub(super) enum NodeOrigin {
     /// An end or a break of a drawn curve.
@@ -28,11 +30,12 @@ pub(super) enum NodeOrigin {
 }
 
 impl NodeOrigin {
-    /// Drawn nodes first, curves and points alike.
+    /// Whether the place was computed, and not drawn.
     pub fn is_computed(self) -> bool {
         matches!(self, NodeOrigin::Meeting(_))
     }
 
+    /// The entity of `drawing` that the node is part of, as messages call it.
     pub fn text(self, drawing: &Drawing) -> &str {
         match self {
             NodeOrigin::Curve(i) | NodeOrigin::Meeting(i) => &drawing.curves[i as usize].entity,
@@ -41,10 +44,12 @@ impl NodeOrigin {
     }
 }
 
-/// A vertex to be.
+/// A vertex of the domain in the making.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Node {
+    /// Its place, in the unit frame.
     pub at: Point,
+    /// Why it is there.
     pub origin: NodeOrigin,
     /// Not yet looked at for meetings.
     pub fresh: bool,
@@ -53,22 +58,26 @@ pub(super) struct Node {
 /// A curve, and between which parameters of a drawn one it runs.
 #[derive(Clone, Debug)]
 pub(super) struct Part {
+    /// The geometry, which may have been moved within the tolerance.
     pub curve: Curve,
+    /// The two parameters.
     pub range: [f64; 2],
 }
 
 impl Part {
+    /// The whole of a drawn curve.
     pub fn whole(curve: &Curve) -> Self {
         Self { curve: curve.clone(), range: [0.0, 1.0] }
     }
 
+    /// The part between two parameters of this one, `t0 < t1`.
     pub fn between(&self, t0: f64, t1: f64) -> Self {
         let [r0, r1] = self.range;
         let along = |t: f64| if t == 1.0 { r1 } else { r0 + t * (r1 - r0) };
         Self { curve: self.curve.part(t0, t1), range: [along(t0), along(t1)] }
     }
 
-    /// The parts between ascending parameters inside it.
+    /// The parts between cuts: ascending parameters strictly inside this one.
     pub fn split(self, cuts: &[f64]) -> Vec<Self> {
         if cuts.is_empty() {
             return vec![self];
@@ -78,11 +87,14 @@ impl Part {
     }
 }
 
-/// A part of a drawn curve, on its way between two nodes.
+/// A part of a drawn curve between two nodes.
 #[derive(Clone, Debug)]
 pub(super) struct Edge {
+    /// Its geometry, from the first of its nodes to the second.
     pub curve: Curve,
+    /// The nodes at its start and end.
     pub ends: [PointId; 2],
+    /// The box around `curve`.
     pub bounds: Rect,
     /// The drawn curve.
     pub source: u32,
@@ -90,13 +102,14 @@ pub(super) struct Edge {
     pub range: [f64; 2],
     /// Further drawn curves that run along the whole edge, and whether they run against it.
     pub merged: Vec<(u32, bool)>,
-    /// What is seen on its left and right, once hidden stretches are left out.
+    /// The shapes that are visible on its left and right. Set once hidden stretches are left out.
     pub paint: Option<[Option<SeenId>; 2]>,
     /// Not yet looked at for meetings.
     pub fresh: bool,
 }
 
 impl Edge {
+    /// A fresh edge along a part of the drawn curve `source`.
     pub fn new(Part { curve, range }: Part, ends: [PointId; 2], source: u32) -> Self {
         Self { bounds: curve.bounds(), curve, ends, source, range, merged: Vec::new(), paint: None, fresh: true }
     }
@@ -112,10 +125,12 @@ impl Edge {
         self.range == [0.0, 1.0]
     }
 
+    /// Whether its curve is a line segment.
     pub fn is_line(&self) -> bool {
         matches!(self.curve, Curve::Line(_))
     }
 
+    /// The node at one of its ends.
     pub fn end(&self, end: End) -> PointId {
         match end {
             End::Start => self.ends[0],
@@ -124,15 +139,20 @@ impl Edge {
     }
 }
 
-/// Nodes and edges on their way to a domain.
+/// Nodes and edges of which a domain is made, with the repairs so far.
 pub(super) struct Arrangement<'a> {
+    /// The drawing, in the unit frame.
     pub drawing: &'a Drawing,
+    /// Its lengths below which features become one.
     pub tolerances: Tolerances,
+    /// The nodes.
     pub nodes: IdVec<PointId, Node>,
+    /// The edges, each between two of the nodes.
     pub edges: IdVec<CurveId, Edge>,
+    /// What was repaired so far.
     pub repairs: Vec<Repair>,
-    /// Loops of a drawn curve that became lines: the curve, the place and the width. Itemised where some of the curve
-    /// is left.
+    /// Loops of a drawn curve that became lines: the curve, the place and the width. They are listed as repairs where
+    /// some of the curve is left.
     pub loops: Vec<(u32, Point, f64)>,
     /// The ends of the drawn curves, as they were drawn; `None` of curves of no length.
     pub drawn_ends: Vec<Option<[PointId; 2]>>,
@@ -142,9 +162,10 @@ pub(super) struct Arrangement<'a> {
     pub seen: Seen,
 }
 
-/// The shapes seen on faces: lists of them, the topmost first, each list once.
+/// The lists of shapes that are visible on faces, the topmost first; each list is stored once.
 #[derive(Default)]
 pub(super) struct Seen {
+    /// By id.
     pub lists: IdVec<SeenId, Vec<ShapeId>>,
     known: BTreeMap<Vec<ShapeId>, SeenId>,
 }
@@ -169,8 +190,8 @@ impl Seen {
     }
 }
 
-/// Whether a curve is an arc that winds off its circle: only parts of it are arcs of circles, and those on both sides
-/// of a cut are of different ones.
+/// Whether a curve is an arc whose ends lie at different distances from its center. Only parts of it are arcs of
+/// circles, and the parts on the two sides of a cut lie on different circles.
 pub(super) fn is_spiral(curve: &Curve) -> bool {
     matches!(curve, Curve::Arc(arc) if arc.is_spiral())
 }
@@ -191,11 +212,12 @@ impl<'a> Arrangement<'a> {
         }
     }
 
-    /// How far a phase is, with so much left to do.
+    /// The progress of a phase with `queued` steps left.
     pub fn progress(&self, phase: &'static str, queued: usize) -> Progress {
         Progress { phase, vertices: self.nodes.len(), queued }
     }
 
+    /// Adds a fresh node.
     pub fn add_node(&mut self, at: Point, origin: NodeOrigin) -> PointId {
         self.nodes.push(Node { at, origin, fresh: true })
     }
@@ -216,12 +238,12 @@ impl<'a> Arrangement<'a> {
         [(edge.source, false)].into_iter().chain(edge.merged.iter().copied())
     }
 
-    /// Lists a repair.
+    /// Adds a repair to the list.
     pub fn repair(&mut self, kind: RepairKind, at: Point, size: f64, what: String) {
         self.repairs.push(Repair { kind, at: [at.x, at.y], size, what });
     }
 
-    /// Drops nodes that nothing ends at; the order stays.
+    /// Drops nodes at which no edge ends and nothing was drawn; the order stays.
     pub fn renumber(&mut self) {
         let mut used: IdVec<PointId, bool> = vec![false; self.nodes.len()].into();
         let ends = self.edges.iter().flat_map(|p| p.ends);

@@ -1,6 +1,14 @@
-//! Linework that is no edge of the part, where inside and outside are told by how often outlines go around: drawing
-//! frames, outlines that cross those of another layer, and bolt circles. It is taken as drawn, and told with the option
-//! that leaves it out.
+//! Auxiliary lines, which are no edges of the part: drawing frames, outlines that cross those of another layer, and
+//! bolt circles. Where winding numbers decide what is inside, they change the result. They are arranged as drawn, and a
+//! note names the option that leaves them out.
+//!
+//! ```text
+//!   ┌─────────────────────────────┐         By the odd-even rule the sheet around the part is inside, the part itself
+//!   │  ╭───────────────╮          │         outside, and its holes ○ inside. A frame holds outlines that hold others
+//!   │  │ ○   part    ○ │  ┌────┐  │         in turn; the boxes of a title block hold none.
+//!   │  ╰───────────────╯  └────┘  │
+//!   └─────────────────────────────┘
+//! ```
 
 use super::arrangement::Arrangement;
 use super::faces::Faces;
@@ -12,13 +20,13 @@ use crate::geometry::Point;
 use crate::ids::{CurveId, Id, LayerId};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Parts of names that layers of drawing frames have, in the languages of common templates.
+/// Parts of the usual names of layers with drawing frames, in the languages of common templates.
 const FRAMES: [&str; 9] = ["frame", "border", "title", "sheet", "rahmen", "schriftfeld", "cadre", "cartouche", "marco"];
 
-/// A bolt circle runs through so many holes or more.
+/// A bolt circle runs through at least this many holes.
 const HOLES: usize = 3;
 
-/// What is to be told of a drawing with layers.
+/// The notes on auxiliary lines in a drawing with layers.
 pub(super) fn remarks(arrangement: &Arrangement, domain: &Domain, faces: &Faces) -> Vec<String> {
     if arrangement.drawing.layers.is_empty() {
         return Vec::new();
@@ -35,7 +43,7 @@ struct Outlines<'a> {
     arrangement: &'a Arrangement<'a>,
     faces: &'a Faces,
     by_curve: Vec<BTreeSet<LayerId>>,
-    /// The drawn curves that are closed each for itself, with a layer: circles, mostly.
+    /// By curve: the drawn curves along it that are closed and have a layer; mostly circles.
     circles: Vec<BTreeSet<usize>>,
     by_component: Vec<BTreeSet<LayerId>>,
 }
@@ -59,8 +67,8 @@ impl<'a> Outlines<'a> {
         let circles = arrangement.edges.ids().map(circles).collect();
         let mut by_component = vec![BTreeSet::new(); faces.outer.len()];
         for (k, layers) in by_curve.iter().enumerate() {
-            let half = DirectedEdge { curve: CurveId::from_index(k), side: Side::Left };
-            by_component[faces.cycles[faces.cycle_of[half.index()]].component].extend(layers);
+            let directed = DirectedEdge { curve: CurveId::from_index(k), side: Side::Left };
+            by_component[faces.cycles[faces.cycle_of[directed.index()]].component].extend(layers);
         }
         Self { arrangement, faces, by_curve, circles, by_component }
     }
@@ -69,13 +77,14 @@ impl<'a> Outlines<'a> {
         &self.arrangement.drawing.layers[layer].name
     }
 
-    /// The component in which a component lies.
+    /// The component around a component.
     fn around(&self, component: usize) -> Option<usize> {
         self.faces.parent[component].map(|face| self.faces.cycles[face].component)
     }
 
-    /// Layers of nothing but outlines in each other, the innermost of which holds outlines of other layers that hold
-    /// others in turn; or that holds any, where the layer is called a frame.
+    /// Notes on layers that look like drawing frames: all their outlines are nested, and the innermost holds outlines
+    /// of other layers that hold others in turn. If the layer's name is that of a frame, it is enough that the
+    /// innermost holds any.
     fn frames(&self) -> Vec<String> {
         let mut of_layer: BTreeMap<LayerId, Vec<usize>> = BTreeMap::new();
         for (component, layers) in self.by_component.iter().enumerate() {
@@ -92,7 +101,7 @@ impl<'a> Outlines<'a> {
         };
         let is_frame = |layer: LayerId, components: &[usize]| {
             let alone = components.iter().all(|&c| self.by_component[c].len() == 1);
-            // Boxes of the title block are empty.
+            // The boxes of the title block hold no outlines.
             let holding: Vec<usize> = components.iter().copied().filter(|&c| depth(c) > 0).collect();
             let innermost = self.innermost(&holding).filter(|_| self.outermost(components) == 1);
             let name = self.name(layer).to_lowercase();
@@ -109,13 +118,13 @@ impl<'a> Outlines<'a> {
         frames.map(|(&layer, _)| told(self.name(layer))).collect()
     }
 
-    /// How many of these components lie in no other of them.
+    /// How many of these components lie in none of the others.
     fn outermost(&self, components: &[usize]) -> usize {
         let within = |component: usize| self.around(component).is_some_and(|around| components.contains(&around));
         components.iter().filter(|&&c| !within(c)).count()
     }
 
-    /// Of components that lie in each other the innermost; `None` of others.
+    /// The innermost of nested components; `None` where they are not nested.
     fn innermost(&self, components: &[usize]) -> Option<usize> {
         let around: BTreeSet<usize> = components.iter().filter_map(|&c| self.around(c)).collect();
         let mut inner = components.iter().filter(|c| !around.contains(c));
@@ -125,13 +134,13 @@ impl<'a> Outlines<'a> {
         }
     }
 
-    /// Pairs of layers whose closed outlines cross.
+    /// Notes on pairs of layers whose closed outlines cross.
     fn crossings(&self, domain: &Domain) -> Vec<String> {
         let places = crossings(domain, &self.by_curve);
         places.iter().map(|(&pair, places)| self.tell_crossing(pair, places)).collect()
     }
 
-    /// Circles that cross others of their own layer, which do not cross each other.
+    /// Notes on circles that cross other circles of their layer, which do not cross each other.
     fn bolt_circles(&self, domain: &Domain) -> Vec<String> {
         let layer = |circle: usize| self.arrangement.drawing.curves[circle].layer;
         let mut crossed: BTreeMap<usize, BTreeSet<usize>> = BTreeMap::new();
@@ -152,7 +161,7 @@ impl<'a> Outlines<'a> {
         crossed.iter().filter(|(_, holes)| is_bolt_circle(holes)).map(told).collect()
     }
 
-    /// The layer of fewer outlines is the one that crosses.
+    /// The note on one pair of layers. The layer with fewer outlines is said to cross the other.
     fn tell_crossing(&self, pair: [LayerId; 2], places: &[Point]) -> String {
         let count = |layer: LayerId| self.by_curve.iter().filter(|layers| layers.contains(&layer)).count();
         let entities = |layer: LayerId| self.arrangement.drawing.layers[layer].line_types.values().sum::<usize>();
@@ -171,8 +180,8 @@ impl<'a> Outlines<'a> {
     }
 }
 
-/// The points at which closed outlines of two kinds cross, by the kinds: around the point their curves take turns.
-/// `kinds` are those of each curve of the domain.
+/// The points at which closed outlines of two kinds cross, by the pair of kinds. `kinds` holds those of each curve of
+/// the domain.
 fn crossings<K: Copy + Ord>(domain: &Domain, kinds: &[BTreeSet<K>]) -> BTreeMap<[K; 2], Vec<Point>> {
     let mut places: BTreeMap<[K; 2], Vec<Point>> = BTreeMap::new();
     for (point, star) in domain.stars.enumerate() {
@@ -193,7 +202,15 @@ fn crossings<K: Copy + Ord>(domain: &Domain, kinds: &[BTreeSet<K>]) -> BTreeMap<
     places
 }
 
-/// Whether, in order around a point, curves of one kind alone and of another alone take turns twice.
+/// Whether, in the order around a point, curves of only the kind a and curves of only the kind b take turns twice.
+///
+/// ```text
+///     a   b          a   b
+///      ╲ ╱            ╲ ╱         Left: a, b, a, b around the point, four changes: the outlines cross.
+///       ●              ●          Right: a, b, b, a, two changes: they touch.
+///      ╱ ╲            ╱ ╲
+///     b   a          a   b
+/// ```
 fn take_turns<K: Copy + Ord>(around: &[&BTreeSet<K>], a: K, b: K) -> bool {
     let only = |kinds: &&BTreeSet<K>| match (kinds.contains(&a), kinds.contains(&b)) {
         (true, false) => Some(a),
@@ -205,7 +222,7 @@ fn take_turns<K: Copy + Ord>(around: &[&BTreeSet<K>], a: K, b: K) -> bool {
     changes >= 4
 }
 
-/// A name as it is typed.
+/// A name as it is typed in a shell.
 fn quoted(name: &str) -> String {
     let is_plain = |c: char| c.is_alphanumeric() || "_-.".contains(c);
     if name.chars().all(is_plain) { name.to_owned() } else { format!("'{name}'") }

@@ -1,5 +1,5 @@
-//! What may meet: pairs of edges, and of a node and an edge, whose boxes meet and of which it is not plain that they
-//! do not.
+//! Candidates for meetings: pairs of edges, and pairs of a node and an edge. Their boxes meet, and no quick test shows
+//! that they are apart.
 
 use super::arrangement::{Arrangement, Edge};
 use super::error::{ArrangeError, Unarranged};
@@ -10,29 +10,35 @@ use crate::ids::{CurveId, Id, IdVec, PointId};
 use crate::watch::Watch;
 use std::f64::consts::TAU;
 
-/// Pairs of curves, or of a node and a curve, that are kept at most while it is looked for where they meet: half a
-/// gigabyte.
+/// The largest number of pairs that are stored while meetings are searched for: half a gigabyte.
 const PAIRS_MAX: usize = 1 << 26;
 
-/// Cuts of one round that are kept at most, two a crossing: some gigabytes with the edges that they make.
+/// The largest number of cuts of one round, two a crossing: some gigabytes with the edges that they make.
 pub(super) const CUTS_MAX: usize = 1 << 24;
 
-/// Curves part slowly where they stay within the tolerance of each other for so many tolerances; those that part at an
-/// angle with a sine of one over this do not.
+/// Curves part slowly where they stay within the tolerance of each other over a length of this many tolerances. Curves
+/// that part at an angle with a sine of one over this do not.
 pub(super) const SLOW: f64 = 16.0;
 
-/// Circles that cross at a smaller angle (its sine) are compared in full: they stay within the tolerance of each other
-/// for long.
+/// Circles that cross at an angle with a smaller sine are compared in full: they stay within the tolerance of each
+/// other over a long stretch.
 const SLANT: f64 = 1e-3;
 
-/// Fewer lines around a node are compared each with each.
+/// Around a node with fewer lines each is compared with each.
 const HUB: usize = 16;
 
-/// Nodes at which many lines end. That a spoke's far end lies on another spoke is asked of its neighbours by angle
-/// only.
+/// Nodes at which many lines, their spokes, end. Whether the far end of a spoke lies on another spoke is tested for its
+/// neighbours by angle only.
+///
+/// ```text
+///             ╱ other              The far end of the spoke `id` can lie within the tolerance w of another spoke only
+///           ╱                      where the angle between the two is small: |other − angle| ≤ 2w / |arm(id)|.
+///   hub ●───────────● far(id)
+///           ╲
+/// ```
 struct Hubs {
     spokes: IdVec<PointId, Vec<CurveId>>,
-    /// Hubs to which a line runs from a node.
+    /// By node: the hubs from which a line runs to it.
     of_node: IdVec<PointId, Labels>,
 }
 
@@ -58,11 +64,11 @@ impl Hubs {
     }
 
     /// The hubs at which a line ends.
-    fn of_piece(&self, edge: &Edge) -> Labels {
+    fn of_edge(&self, edge: &Edge) -> Labels {
         if edge.is_line() { edge.ends.map(|end| self.is_hub(end).then_some(end.0)) } else { Labels::default() }
     }
 
-    /// Calls `ask` with the far ends of spokes that may lie on other spokes of their hub, and these.
+    /// Calls `ask` with each far end of a spoke and each other spoke of the same hub that it may lie on.
     fn spokes_on_spokes(
         &self,
         arrangement: &Arrangement,
@@ -76,8 +82,7 @@ impl Hubs {
             around.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
             let n = around.len();
             for (k, &(angle, id)) in around.iter().enumerate() {
-                // Half a circle's chord at least as long as the tolerance; 1e-12 is more than rounding does to an
-                // angle.
+                // Up to a right angle sin θ ≥ θ/2, so θ ≤ 2w/|arm|. 1e-12 is more than the rounding error of an angle.
                 let reach = (2.0 * arrangement.tolerances.weld / arm(id).hypot()).min(4.0) + 1e-12;
                 let off = |other: f64| (other - angle).abs().min(TAU - (other - angle).abs());
                 let beside = |step: usize| (1..n).map(move |i| (k + i * step) % n);
@@ -94,7 +99,7 @@ impl Hubs {
 }
 
 impl Arrangement<'_> {
-    /// Pairs of edges that may cross and were not both looked at before, in order.
+    /// Pairs of edges that may cross and of which at least one is fresh, in order. `boxes` are those of the edges.
     pub fn fresh_pairs(&self, boxes: &BoxHierarchy, watch: &mut Watch) -> Result<Vec<(CurveId, CurveId)>, Unarranged> {
         let mut pairs = Vec::new();
         let fresh: Vec<CurveId> = self.edges.ids().filter(|&id| self.edges[id].fresh).collect();
@@ -125,8 +130,8 @@ impl Arrangement<'_> {
         Ok(pairs)
     }
 
-    /// Nodes with edges that they may lie on without being their ends, each pair once, in order.
-    pub fn nodes_near_pieces(
+    /// Nodes with the edges that they may lie on without being their ends, each pair once, in order.
+    pub fn nodes_near_edges(
         &self,
         boxes: &BoxHierarchy,
         watch: &mut Watch,
@@ -144,7 +149,7 @@ impl Arrangement<'_> {
         nodes.try_pairs_with(
             |i| hubs.of_node[PointId::from_index(i)],
             boxes,
-            |i| hubs.of_piece(&self.edges[CurveId::from_index(i)]),
+            |i| hubs.of_edge(&self.edges[CurveId::from_index(i)]),
             |i, j| ask(PointId::from_index(i), CurveId::from_index(j)),
         )?;
         hubs.spokes_on_spokes(self, &mut ask)?;
@@ -153,7 +158,7 @@ impl Arrangement<'_> {
         Ok(near)
     }
 
-    /// Asks the watch now and then while pairs are found, and refuses more than can be kept.
+    /// Reports progress every 1024 pairs, and refuses more pairs than can be stored.
     fn keep_on(&self, pairs: usize, at: Point, watch: &mut Watch) -> Result<(), Unarranged> {
         if pairs > PAIRS_MAX {
             return Err(too_many_cuts(CUTS_MAX, at).into());
@@ -161,7 +166,7 @@ impl Arrangement<'_> {
         if pairs.is_multiple_of(1024) { Ok(self.progress("meeting", pairs).tell(watch)?) } else { Ok(()) }
     }
 
-    /// Whether two edges with a common end part there at an angle for good: they meet nowhere else.
+    /// Whether two edges with a common end part there at an angle and stay apart: then they meet nowhere else.
     fn part_at_once(&self, a: CurveId, b: CurveId) -> bool {
         let [first, second] = [a, b].map(|id| &self.edges[id]);
         let ends = [End::Start, End::Finish];
@@ -172,21 +177,28 @@ impl Arrangement<'_> {
         common.is_some_and(|(cone, other)| cone.is_apart_from(&other, 1.0 / SLOW))
     }
 
-    /// Whether a place is for certain no part of an arc, told by its circle.
+    /// Whether a place certainly does not lie on an arc, because it lies off the arc's circle.
     fn is_off_circle(&self, at: Point, edge: &Edge) -> bool {
         let Curve::Arc(arc) = &edge.curve else { return false };
         let from = at.distance(arc.center);
         (from - arc.radius).abs() > self.off_circle(from + arc.radius)
     }
 
-    /// How far a point of an arc, computed from numbers of a magnitude, may lie off its circle, and a tolerance more.
-    /// Moved ends are spread along an arc: its points lie off its circle by two tolerances at most.
+    /// The largest distance of a computed point of an arc from its circle, plus a tolerance. `magnitude` is that of the
+    /// numbers it is computed from. When ends are moved, the arc is deformed along its length: its points lie off its
+    /// circle by two tolerances at most.
     fn off_circle(&self, magnitude: f64) -> f64 {
         8.0 * self.tolerances.weld.max(f64::EPSILON * magnitude)
     }
 
-    /// Whether two arcs meet nowhere, or nowhere but at their one common end, told by their circles: rings in each
-    /// other and fans of arcs have as many pairs of boxes that meet as there are pairs.
+    /// Whether two arcs do not meet, or only at their one common end, because of how their circles p and q lie. In
+    /// nested rings and fans of arcs nearly all pairs of boxes meet, so this test saves most of the work.
+    ///
+    /// ```text
+    ///         at ●              The circles p and q cross at the common end `at`, and once more at `other`, its mirror
+    ///   p ·──────┼──────· q     image in the line of their centers. Where one of the arcs does not pass `other`, they
+    ///      other ●              meet only at `at`.
+    /// ```
     fn are_circles_apart(&self, a: CurveId, b: CurveId) -> bool {
         let [first, second] = [a, b].map(|id| &self.edges[id]);
         let (Curve::Arc(p), Curve::Arc(q)) = (&first.curve, &second.curve) else { return false };
@@ -199,7 +211,7 @@ impl Arrangement<'_> {
         let (Some(hub), None) = (shared.next(), shared.next()) else { return false };
         let at = self.nodes[hub].at;
         let sine = (p.center - at).cross(q.center - at).abs() / (p.radius * q.radius);
-        // Circles that cross at an angle cross once more, as far behind the line of their centers.
+        // The mirror image of `at` in the line of the centers.
         let along = (q.center - p.center) / between;
         let other = p.center + 2.0 * along.dot(at - p.center) * along - (at - p.center);
         let reach = slack / SLANT;
@@ -208,7 +220,7 @@ impl Arrangement<'_> {
             && [first, second].iter().any(|edge| edge.curve.nearest(other, 0.0, 1.0).1 > reach)
     }
 
-    /// Lines with a common end do not cross.
+    /// Labels by which the box search skips pairs: lines with a common end do not cross.
     fn crossing_labels(&self, id: CurveId) -> Labels {
         match &self.edges[id] {
             line if line.is_line() => line.ends.map(|end| Some(end.0)),
@@ -217,6 +229,7 @@ impl Arrangement<'_> {
     }
 }
 
+/// The error of a drawing whose curves meet more than `most / 2` times.
 pub(super) fn too_many_cuts(most: usize, at: Point) -> ArrangeError {
     let what = format!("the curves meet in more than {} places", most / 2);
     let help = match most {

@@ -1,5 +1,4 @@
-//! Drawn curves, cut on their own account: at breaks, around hooks, where they meet themselves, and once where they are
-//! closed.
+//! Cuts of each drawn curve alone: at breaks, around hooks, where it meets itself, and once where it is closed.
 //!
 //! ```text
 //!          cusp                 hook               self-meeting           closed
@@ -18,12 +17,12 @@ use crate::geometry::extent;
 use crate::ids::PointId;
 use crate::watch::Watch;
 
-/// A hook turns at least so far within this part of the tolerance: a disc that is wider than the tolerance has none.
+/// A hook turns at least by this angle within this part of the tolerance. A disk wider than the tolerance has no hook.
 const HOOK_RAD: f64 = 0.05;
 const HOOK: f64 = 0.0625;
 
-/// A Bézier curve has no hooks where its speed along the chord is at least this part of its greatest: it bends no
-/// sharper than some millionth of its size then.
+/// A Bézier curve has no hooks where its speed along the chord is at least this part of its greatest speed: its radius
+/// of curvature is then no smaller than some millionth of its size.
 const PACE: f64 = 1e-3;
 
 /// The edges of a drawing, cut at breaks and self-meetings, not yet met with each other.
@@ -55,8 +54,7 @@ impl Arrangement<'_> {
             return Ok(None);
         }
         if size <= weld {
-            // Too small for a shape of its own. Whether it is lost is told by its ends: a chain of short curves may be
-            // a long one.
+            // Too small to have a shape. Its ends decide whether it is lost: a chain of short curves may be long.
             let [from, to] = [curve.start(), curve.end()].map(|at| self.add_node(at, NodeOrigin::Curve(source)));
             self.edges.push(Edge::new(Part::whole(curve), [from, to], source));
             return Ok(Some([from, to]));
@@ -75,8 +73,8 @@ impl Arrangement<'_> {
         Ok(Some([first, last]))
     }
 
-    /// The parts of a drawn curve when cut on its own account: at breaks, at self-meetings, and once more where a part
-    /// would be closed. Each with what its end is there for.
+    /// The parts of a drawn curve between its own cuts: breaks, self-meetings, and one more where a part would be
+    /// closed. Each comes with the origin of the node at its end.
     fn own_parts(&mut self, source: u32, curve: &Curve) -> Result<Vec<(Part, NodeOrigin)>, ArrangeError> {
         if matches!(curve, Curve::Line(_)) {
             return Ok(vec![(Part::whole(curve), NodeOrigin::Curve(source))]);
@@ -113,9 +111,9 @@ impl Arrangement<'_> {
         parts.into_iter().flat_map(|part| self.parts_between_hooks(source, part)).collect()
     }
 
-    /// A regular part, cut around the hooks in it: bends far narrower than the tolerance, as handles a last digit away
-    /// from their ends make them. What is between the cuts is too short to stay: the hook becomes a corner, or the end
-    /// that it is at.
+    /// A regular part, cut around its hooks: bends far narrower than the tolerance. They come from control points that
+    /// differ from an end in the last digit. The stretch between the two cuts is too short to stay: the hook becomes a
+    /// corner, or joins the end beside it.
     fn parts_between_hooks(&mut self, source: u32, regular: Part) -> Vec<Part> {
         let part = &regular.curve;
         if is_evenly_paced(part) {
@@ -148,8 +146,9 @@ impl Arrangement<'_> {
         regular.split(&cuts)
     }
 
-    /// The parameters at which a regular part meets itself. Within the tolerance a loop is nothing but the curve's
-    /// nearness to itself, but it may cross itself there: asked only of parts that meet themselves nowhere else.
+    /// The parameters at which a regular part meets itself. A loop narrower than the tolerance is no meeting within the
+    /// tolerance, although the part may cross itself there. So a part without meetings is searched once more, within
+    /// the rounding.
     fn self_cuts(&mut self, source: u32, part: &Curve) -> Result<Vec<f64>, ArrangeError> {
         let mut found = self.self_meetings_of(source, part, self.tolerances.weld)?;
         if found.is_empty() {
@@ -169,7 +168,8 @@ impl Arrangement<'_> {
         })
     }
 
-    /// Adds a part, halved where its ends are one point, and where only its halves are arcs of circles.
+    /// Adds a part. It is halved where its ends are one point, and where it is a spiral: only its halves are arcs of
+    /// circles.
     fn open_up(&self, part: Part, origin: NodeOrigin, source: u32, parts: &mut Vec<(Part, NodeOrigin)>) {
         let weld = self.tolerances.weld;
         let is_closed = part.curve.start().distance(part.curve.end()) <= weld && extent(part.curve.bounds()) > weld;
@@ -182,7 +182,7 @@ impl Arrangement<'_> {
     }
 }
 
-/// Whether the speed of a curve varies so little that no bend in it can be a hook.
+/// Whether the speed of a curve varies so little that it has no hook.
 fn is_evenly_paced(curve: &Curve) -> bool {
     match curve {
         Curve::Line(_) | Curve::Arc(_) | Curve::Clothoid(_) => true,

@@ -1,4 +1,9 @@
 //! Free ends, and the gaps between them and to open lines.
+//!
+//! ```text
+//!   ●───── e₁ ─────●───── e₂ ─────┬─────      A free end is a node at which a single edge ends. Its chain leads along
+//!                                 │           edges of nodes of degree 2 to the next free end or branch: here e₁, e₂.
+//! ```
 
 use super::arrangement::{Arrangement, Edge};
 use crate::curve::End;
@@ -7,10 +12,11 @@ use crate::geometry::{Point, Rect, Vec2, extent, scaled};
 use crate::ids::{CurveId, Forest, Id, IdVec, PointId};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// An end stops short of a line of its own chain where the way along the chain is so many times as long as the gap.
+/// An end stops short of a line of its own chain only where the way along the chain is more than this many times as
+/// long as the gap.
 const AROUND: f64 = 4.0;
 
-/// What ends freely.
+/// What a free end belongs to.
 #[derive(Clone, Copy)]
 pub(super) enum Owner {
     Node(PointId),
@@ -20,56 +26,67 @@ pub(super) enum Owner {
 
 /// Where a single line ends.
 pub(super) struct FreeEnd {
+    /// Its place.
     pub at: Point,
     /// Unit vector along the line that ends there.
     pub direction: Vec2,
+    /// What it is the end of.
     pub owner: Owner,
-    /// The length of its chain, as the boxes around its edges tell it.
+    /// The length of its chain: the sum of the diagonals of the boxes around its edges.
     pub chain: f64,
-    /// The unit of the last decimal in which it is written; 0: exact.
+    /// The unit of the last decimal with which the file writes it; 0: exact.
     pub last_decimal: f64,
 }
 
-/// Two free ends that may have been meant as one.
+/// Two free ends that may have been meant to be one.
 #[derive(Clone, Copy)]
 pub(super) struct Gap {
+    /// Their indices in the list of free ends.
     pub ends: [usize; 2],
+    /// Their distance.
     pub width: f64,
 }
 
-/// A free end that stops short of the inside of an open line: had it reached the line, they might bound something.
+/// A free end that stops short of the inside of an open line. If it reached the line, the two might bound something.
 ///
 /// ```text
-///   ─────────────┬─────       the line goes on beyond the corner
-///                · gap
-///                │
+///   ───────────at──────── onto      The line `onto` goes on beyond `at`, the foot of the free end.
+///              ·  width
+///              │
+///              │ end
 /// ```
 #[derive(Clone, Copy)]
 pub(super) struct Short {
+    /// Its index in the list of free ends.
     pub end: usize,
+    /// The line.
     pub onto: CurveId,
-    /// The nearest point of the line, and its parameter.
+    /// The nearest point of the line.
     pub at: Point,
+    /// Its parameter on the line.
     pub t: f64,
+    /// Its distance from the end.
     pub width: f64,
 }
 
-/// Of each end in `among`, the nearest other one nearer than `bound` allows.
+/// The gap from each end in `among` to the nearest other one, where it is no wider than `bound` of the end. `among`
+/// holds indices in `ends`.
 pub(super) fn nearest_ends(ends: &[FreeEnd], among: &[usize], bound: impl Fn(usize) -> f64) -> Vec<Gap> {
     let boxes = BoxHierarchy::new(among.iter().map(|&i| Rect::from_points(ends[i].at, ends[i].at)));
     let nearest = |&i: &usize| {
         let away = |k: usize, _| if among[k] == i { f64::INFINITY } else { ends[i].at.distance(ends[among[k]].at) };
-        // The bound itself still counts: a gap as wide as the tolerance is closed.
+        // The bound itself is included: a gap as wide as the tolerance is closed.
         let (k, width) = boxes.nearest(ends[i].at, bound(i).next_up(), away)?;
         Some(Gap { ends: [i, among[k]], width })
     };
     among.iter().filter_map(nearest).collect()
 }
 
-/// Edges at each node, for walks along them.
+/// The edges at each node, for walks along them.
 pub(super) struct Joints(pub IdVec<PointId, Vec<CurveId>>);
 
 impl Joints {
+    /// The joints of all edges of an arrangement; a closed edge is listed twice at its node.
     pub fn new(arrangement: &Arrangement) -> Self {
         let mut at: IdVec<PointId, Vec<CurveId>> = vec![Vec::new(); arrangement.nodes.len()].into();
         for (id, edge) in arrangement.edges.enumerate() {
@@ -78,22 +95,24 @@ impl Joints {
         Self(at)
     }
 
+    /// Whether a single edge ends at the node.
     pub fn is_free(&self, node: PointId) -> bool {
         self.0[node].len() == 1
     }
 
+    /// How many edges end at the node.
     pub fn degree(&self, node: PointId) -> usize {
         self.0[node].len()
     }
 }
 
-/// The other end of an edge.
+/// The end of an edge that is not `from`.
 pub(super) fn far_end(edge: &Edge, from: PointId) -> PointId {
     if edge.ends[0] == from { edge.ends[1] } else { edge.ends[0] }
 }
 
 impl Arrangement<'_> {
-    /// Nodes at which a single edge ends, ascending.
+    /// The free ends of the arrangement, by ascending node.
     pub fn free_ends(&self) -> Vec<FreeEnd> {
         let joints = Joints::new(self);
         let free = self.nodes.ids().filter(|&node| joints.is_free(node));
@@ -110,8 +129,8 @@ impl Arrangement<'_> {
         FreeEnd { at: self.nodes[node].at, direction, owner: Owner::Node(node), chain, last_decimal }
     }
 
-    /// The edges from a free end to the next free end or branch, each with the length of those before it, as the boxes
-    /// around them tell it.
+    /// The edges from a free end to the next free end or branch, each with the length of those before it, measured by
+    /// the diagonals of their boxes.
     fn chain(&self, node: PointId, joints: &Joints) -> Vec<(CurveId, f64)> {
         let (mut here, mut along, mut before) = (node, joints.0[node][0], 0.0);
         let mut chain = vec![(along, before)];
@@ -126,8 +145,8 @@ impl Arrangement<'_> {
         }
     }
 
-    /// The ends of entities that were left out because they leave the plane: what they would have closed is no open
-    /// line.
+    /// The ends of entities that were left out because they leave the plane: an outline that they would close is no
+    /// open line.
     pub fn off_plane_ends(&self) -> impl Iterator<Item = FreeEnd> {
         self.drawing.off_plane.iter().enumerate().flat_map(|(k, entity)| {
             let chain = entity.ends[0].distance(entity.ends[1]);
@@ -139,11 +158,11 @@ impl Arrangement<'_> {
         })
     }
 
-    /// Of each end in `among`, the nearest line whose inside is nearer than `bound` allows; of its own chain, a line
-    /// farther on. Only where neither is connected with anything closed: lines that stop short of each other within a
-    /// grid take nothing from what it bounds.
+    /// For each end in `among`, the nearest line whose inside is nearer than `bound` of the end. A line of the end's
+    /// own chain counts only if it is farther along the chain. Neither the end nor the line may be connected with a
+    /// closed outline: lines within a grid that stop short of each other change nothing about what the grid bounds.
     pub fn shorts(&self, ends: &[FreeEnd], among: &[usize], bound: impl Fn(usize) -> f64) -> Vec<Short> {
-        let open = self.pieces_of_trees();
+        let open = self.edges_of_trees();
         let boxes = BoxHierarchy::new(open.iter().map(|&id| self.edges[id].bounds));
         let joints = Joints::new(self);
         let short = |&i: &usize| {
@@ -164,8 +183,8 @@ impl Arrangement<'_> {
         among.iter().filter_map(short).collect()
     }
 
-    /// Edges that are connected with nothing closed, ascending.
-    fn pieces_of_trees(&self) -> Vec<CurveId> {
+    /// Edges whose component is a tree, ascending.
+    fn edges_of_trees(&self) -> Vec<CurveId> {
         let mut parts = Forest::new(self.nodes.len());
         let mut closed = Vec::new();
         for edge in self.edges.iter() {
@@ -180,12 +199,13 @@ impl Arrangement<'_> {
         self.edges.ids().filter(|id| is_tree(id)).collect()
     }
 
-    /// The entity of an end and its place in the drawing.
+    /// The place of an end in the drawing's units, with its entity: for messages.
     pub fn place(&self, end: &FreeEnd) -> String {
         let Point { x, y } = scaled(end.at, self.tolerances.unit);
         format!("({x}, {y}) of {}", self.entity_of(end))
     }
 
+    /// The entity that ends there.
     pub fn entity_of(&self, end: &FreeEnd) -> &str {
         match end.owner {
             Owner::Node(node) => self.nodes[node].origin.text(self.drawing),

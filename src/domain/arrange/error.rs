@@ -3,7 +3,7 @@
 use crate::geometry::{Point, scaled};
 use crate::watch::Stopped;
 
-/// What cannot be repaired, where, and the way out.
+/// A flaw that cannot be repaired, its place, and a remedy.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{what} at ({}, {})", at.x, at.y)]
 pub struct ArrangeError {
@@ -15,7 +15,7 @@ pub struct ArrangeError {
     pub also_at: Vec<Point>,
     /// What the user can do.
     pub help: String,
-    /// Whether features that lie too near to each other are the reason: a coarser tolerance may make one of them.
+    /// Whether the reason is that features lie too near to each other. Then a coarser tolerance may make them one.
     pub near: bool,
 }
 
@@ -31,7 +31,7 @@ pub enum Unarranged {
 }
 
 impl Unarranged {
-    /// Its place times a factor.
+    /// The same with its places times a factor.
     pub(super) fn scaled(self, factor: f64) -> Self {
         match self {
             Self::Invalid(error) => {
@@ -44,11 +44,12 @@ impl Unarranged {
 }
 
 impl ArrangeError {
+    /// A flaw at one place.
     pub(super) fn new(what: impl Into<String>, at: Point, help: impl Into<String>) -> Self {
         Self { what: what.into(), at, also_at: Vec::new(), help: help.into(), near: false }
     }
 
-    /// Features lie too near to each other.
+    /// A flaw at one place where features lie too near to each other.
     pub(super) fn near(what: impl Into<String>, at: Point, help: impl Into<String>) -> Self {
         Self { near: true, ..Self::new(what, at, help) }
     }

@@ -1,11 +1,11 @@
-//! Faces: which face holds which component.
+//! Faces, and in which face each component lies.
 //!
 //! ```text
-//!      ╭──────────────────╮
-//!      │ C     ╭───╮      │      Level lines through each component tell it what it sees to its left, beginning at its first crossing: B
-//!  ────│──○────│─B─│───●──│──    sees a side of C that bounds a face, and lies in that. A component that sees another from outside lies
-//!      │       ╰───╯   A  │      where that one lies: A sees B from outside, and so lies in the same face of C.
-//!      ╰──────────────────╯
+//!      ╭──────────────────────╮       A level line through B crosses C next to its left, at a side of C that bounds a
+//!      │ C   ╭─────╮   ╭───╮  │       face: B lies in that face. A level line through A crosses B next, at B's outer
+//!   ───┼─────┼─ B ─┼───┼ A ┼──┼──     cycle: A lies in the same face as B.
+//!      │     ╰─────╯   ╰───╯  │
+//!      ╰──────────────────────╯
 //! ```
 
 use super::error::{ArrangeError, Unarranged};
@@ -16,29 +16,36 @@ use crate::geometry::{Rect, extent};
 use crate::watch::{Progress, Watch};
 use std::collections::BTreeSet;
 
-/// Axis-parallel lines tried through a component before its place counts as undecided; each fails only by passing
-/// within rounding of a vertex or along a curve.
+/// The number of lines parallel to each axis that are tried through a component before its place is undecided. A line
+/// fails only where it passes within rounding of a vertex or runs along a curve.
 const LINES: usize = 64;
 
-/// More than the unit frame is wide, the box of `keep all` included: coordinates of at most 1 and 2√2 on either side.
+/// More than the width of the unit frame with the box of `keep all`: coordinates of at most 1, and 2√2 more on either
+/// side.
 const FRAME: f64 = 16.0;
 
-/// A face: a cycle that bounds it from outside, known by its place; `None`: the unbounded face.
+/// A face, as the index of the cycle around it; `None`: the unbounded face.
 pub(super) type Face = Option<usize>;
 
-/// The cycles of all sides, their components (as in [`Cycles`]), and how components lie in each other.
+/// The cycles of all directed edges and their components (as in [`Cycles`]), and in which face each component lies.
 pub(super) struct Faces {
+    /// By [`DirectedEdge::index`]: the index of its cycle.
     pub cycle_of: Vec<usize>,
+    /// The cycles.
     pub cycles: Vec<Cycle>,
-    /// By component: the cycle that sees the component from outside.
+    /// By component: its outer cycle, which has the face around the component on its left.
     pub outer: Vec<usize>,
     /// By component: the face in which it lies.
     pub parent: Vec<Face>,
 }
 
 impl Faces {
-    /// Finds out in which face each component of a domain lies, along lines that keep `margin` away from ends of
+    /// Determines in which face each component of a domain lies, along lines that keep `margin` away from the ends of
     /// curves.
+    ///
+    /// # Errors
+    ///
+    /// Where all lines through a component fail, and where `watch` ends the run.
     pub fn new(cycles: Cycles, domain: &Domain, margin: f64, watch: &mut Watch) -> Result<Self, Unarranged> {
         let parent = parents(&cycles, domain, margin, watch)?;
         let Cycles { cycle_of, cycles, outer } = cycles;
@@ -50,12 +57,12 @@ impl Faces {
         if self.outer[component] == cycle { self.parent[component] } else { Some(cycle) }
     }
 
-    /// The face on the left of a side.
+    /// The face on the left of a directed edge.
     pub fn face(&self, edge: DirectedEdge) -> Face {
         self.face_of_cycle(self.cycle_of[edge.index()])
     }
 
-    /// The components that lie in each face (by its cycle) and, last, in the unbounded one.
+    /// The components that lie in each face (by the index of its cycle); the last entry is the unbounded face.
     pub fn components_by_face(&self) -> Vec<Vec<usize>> {
         let mut holds = vec![Vec::new(); self.cycles.len() + 1];
         for (component, parent) in self.parent.iter().enumerate() {
@@ -74,7 +81,8 @@ fn parents(cycles: &Cycles, domain: &Domain, margin: f64, watch: &mut Watch) -> 
     }
     view.part_rings(watch)?;
     let seen = view.seen;
-    // A component seen from outside lies where that one lies. Each is followed once: what lies behind it is remembered.
+    // A component that sees an outer cycle lies in the same face as that cycle's component. Results are stored, so each
+    // component is followed once.
     let mut behind: Vec<Option<Face>> = vec![None; seen.len()];
     for component in 0..seen.len() {
         let mut way = Vec::new();
@@ -94,17 +102,17 @@ fn parents(cycles: &Cycles, domain: &Domain, margin: f64, watch: &mut Watch) -> 
     Ok(behind.into_iter().map(Option::flatten).collect())
 }
 
-/// What components see of each other along level lines.
+/// Which cycles are visible from components along axis-parallel lines.
 struct View<'a> {
     cycles: &'a Cycles,
     locator: Locator<'a>,
     margin: f64,
     /// By component.
     bounds: Vec<Rect>,
-    /// By component, once it is known: the first cycle that is seen from its first crossing with some axis-parallel
-    /// line, looking back from there. `Some(None)`: nothing is there.
+    /// By component, once it is known: the next cycle before the component's first crossing with some axis-parallel
+    /// line. `Some(None)`: there is none.
     seen: Vec<Option<Option<usize>>>,
-    /// By component: the last line that met it.
+    /// By component: the number of the last line that met it.
     met: Vec<usize>,
     lines: usize,
 }
@@ -123,8 +131,9 @@ impl<'a> View<'a> {
         Self { cycles, locator: Locator::new(domain), margin, bounds, seen, met, lines: 0 }
     }
 
-    /// Lines to look along from a component. A level line cannot pass a height of a few margins clear of its ends; and
-    /// where none is clear, as at the tip of two curves that part slowly, upright ones may be.
+    /// The lines to try through a component. If the component is only a few margins high, no level line keeps clear of
+    /// its ends, and vertical lines come first. Vertical lines may also be clear where no level line is, as at the tip
+    /// of two curves that part slowly.
     fn lines_through(&self, component: usize) -> impl Iterator<Item = (Axis, f64)> + use<> {
         let bounds = self.bounds[component];
         let axes = [Axis::Horizontal, Axis::Vertical];
@@ -133,14 +142,15 @@ impl<'a> View<'a> {
         in_order.flat_map(move |axis| levels(bounds, axis).map(move |level| (axis, level)))
     }
 
-    /// Finds out what a component sees, if that is not known yet, and with it what others see that its line meets:
-    /// rings in each other are passed a few times all together, not each by each.
+    /// Determines the cycle visible from a component, if it is not known yet. The same line also settles the other
+    /// components that it meets, so nested rings take a few lines altogether, not one each.
     fn look_from(&mut self, component: usize) -> Result<(), ArrangeError> {
         let bounds = self.bounds[component];
         for (axis, level) in self.lines_through(component) {
             let [low, high] = along(axis, bounds);
             let mut reach = 4.0 * extent(bounds);
-            // Looks ever further back: most components have a neighbour nearby. The unit frame ends within a few units.
+            // The reach grows by a factor: most components have a neighbour nearby. The unit frame ends within a few
+            // units.
             while self.seen[component].is_none() {
                 let Some(hits) = self.locator.hits(axis, level, [low - reach, high], self.margin) else { break };
                 if !hits.iter().any(|hit| self.component_of(hit) == component) {
@@ -159,11 +169,21 @@ impl<'a> View<'a> {
         Err(self.untold(component))
     }
 
-    /// Two components may see each other, each from another level. Those of such a ring lie in one face, and what is
-    /// seen left of the leftmost of them on any line bounds it, too: that is what all of them see from then on. A
-    /// further ring joins further ones.
+    /// Two components may each see the other, along lines at different levels. All components of such a ring lie in one
+    /// face. The cycle next to the left of the leftmost of them on any line bounds the same face, so it replaces what
+    /// each of them sees. The replacement may close a further ring, with further components.
+    ///
+    /// ```text
+    ///         ┌───┐     ┌───┐
+    ///   ──────┼───┼─────┼───┼── 1      On line 1 B sees A, on line 2 A sees B: a ring. Of both, line 1 crosses A
+    ///    ┌─┐  │ A │     │   │          first. What it meets before A, here nothing, both A and B see from now on.
+    ///   ─┼─┼──┼───┼─────┼───┼── 2
+    ///    │ │  └───┘     │ B │
+    ///    │ └────────────┘   │
+    ///    └──────────────────┘
+    /// ```
     fn part_rings(&mut self, watch: &mut Watch) -> Result<(), Unarranged> {
-        // By component: one that it was in a ring with, the same of all of them.
+        // By component: the representative of the rings that it was part of.
         let mut group: Vec<usize> = (0..self.seen.len()).collect();
         loop {
             let rings = self.rings();
@@ -179,7 +199,7 @@ impl<'a> View<'a> {
         }
     }
 
-    /// Components that see each other from outside in a ring.
+    /// Rings of components, each of which sees the outer cycle of the next.
     fn rings(&self) -> Vec<Vec<usize>> {
         let next = |component: usize| {
             let cycle = self.seen[component].flatten().filter(|&cycle| self.cycles.is_outer(cycle))?;
@@ -201,8 +221,8 @@ impl<'a> View<'a> {
         rings
     }
 
-    /// What the leftmost of a group sees on a line through one of them, which goes on to the end of the frame, all of
-    /// them see.
+    /// Sets what all components of a group see: the cycle before the first crossing of the group with a line through
+    /// `component`. The line runs to the end of the frame.
     fn look_out_of(&mut self, component: usize, group: &[usize]) -> Result<(), ArrangeError> {
         for (axis, level) in self.lines_through(component) {
             let [low, high] = along(axis, self.bounds[component]);
@@ -218,7 +238,7 @@ impl<'a> View<'a> {
         Err(self.untold(component))
     }
 
-    /// The cycle that is seen from the right of a crossing.
+    /// The cycle on the side of a crossing at larger coordinates.
     fn cycle_beyond(&self, hit: &Hit) -> usize {
         self.cycles.cycle_of[DirectedEdge { curve: hit.curve, side: hit.before.other() }.index()]
     }
@@ -235,7 +255,7 @@ impl<'a> View<'a> {
         self.cycles.of(DirectedEdge { curve: hit.curve, side: hit.before }).component
     }
 
-    /// Notes what the components on a line see there that begin on the looked at part of it.
+    /// Notes what the components on a line see there, if they begin on the searched part of it.
     fn note(&mut self, axis: Axis, from: f64, hits: &[Hit]) {
         self.lines += 1;
         for (k, hit) in hits.iter().enumerate() {
@@ -258,7 +278,7 @@ fn along(axis: Axis, bounds: Rect) -> [f64; 2] {
     }
 }
 
-/// Levels across a box, spread evenly by the golden ratio, so that no regular pattern hits them all.
+/// Levels across a box, spread evenly by the golden ratio, so that no regular pattern of vertices lies on all of them.
 fn levels(bounds: Rect, axis: Axis) -> impl Iterator<Item = f64> {
     let (low, width) = match axis {
         Axis::Horizontal => (bounds.y0, bounds.height()),

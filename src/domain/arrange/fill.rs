@@ -1,4 +1,4 @@
-//! Which faces are inside: by how often the drawn curves go around them, or by the shapes of a picture that paint them.
+//! Which faces are inside: by their winding numbers, or by the shapes of a picture that paint them.
 
 use super::FillRule;
 use super::arrangement::Arrangement;
@@ -10,14 +10,16 @@ use crate::domain::locate::Side;
 use crate::ids::{CurveId, Id, IdVec, NameId, PointId};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// What the fill rule says of every face, by the cycle that bounds it.
+/// The result of the fill rule for every face, by the index of the cycle around it.
 pub(super) struct Fill {
+    /// Whether the face is bounded and inside.
     pub inside: Vec<bool>,
-    /// The name by the shapes that fill the face: that of the topmost one or, of `fragments`, those of all.
+    /// The name by the shapes that fill the face: that of the topmost one or, with `fragments`, those of all.
     pub painted: Vec<Option<NameId>>,
 }
 
 impl Fill {
+    /// Applies a fill rule to the faces of a domain, and adds its notes and the names of fragments to the domain.
     pub fn new(arrangement: &Arrangement, domain: &mut Domain, faces: &Faces, rule: FillRule, fragments: bool) -> Self {
         let is_bounded = |cycle: usize| faces.outer[faces.cycles[cycle].component] != cycle;
         let painted = painted(arrangement, faces, &mut domain.names, fragments);
@@ -38,23 +40,23 @@ impl Fill {
     }
 }
 
-/// How often the drawn curves go around every face (by the cycle that bounds it); 0 of the unbounded face.
+/// The winding number of every face (by the index of the cycle around it); 0 for the unbounded face.
 struct Windings<'a> {
     faces: &'a Faces,
     domain: &'a Domain,
     rule: FillRule,
-    /// How often each curve counts: in its own direction, or by the odd-even rule in any; 0 where the same face lies on
-    /// both sides, and of open lines.
+    /// The multiplicity of each curve: signed by direction, or by the odd-even rule without a sign; 0 for open lines,
+    /// and where the same face lies on both sides.
     weight: Vec<i32>,
     winding: Vec<Option<i32>>,
-    /// Curves that count once, however many drawn ones run along them.
+    /// Curves that count once, however many drawn curves run along them.
     once: Vec<bool>,
 }
 
-/// How often a curve counts that several drawn ones run along.
+/// How the multiplicity of an edge follows from the drawn curves along it.
 enum Count {
     Once,
-    /// As often as it is drawn, over the number of times that all is drawn.
+    /// As often as it is drawn, divided by how many times the whole component is drawn.
     Copies {
         divided_by: i32,
     },
@@ -68,7 +70,7 @@ fn is_inside(rule: FillRule, winding: i32) -> bool {
     }
 }
 
-/// Whether only odd and even are told apart, of how often outlines go around.
+/// Whether a fill rule reads only the parity of winding numbers.
 pub(super) fn by_parity(rule: FillRule) -> bool {
     match rule {
         FillRule::EvenOdd | FillRule::EvenOddAndShapes => true,
@@ -81,7 +83,7 @@ impl Windings<'_> {
         face.map_or(0, |f| self.winding[f].unwrap_or(0))
     }
 
-    /// Winding numbers of all faces, outer components first.
+    /// Computes the winding numbers of all faces, outer components first.
     fn settle(&mut self, counted: &[bool]) {
         let faces = self.faces;
         let mut inside = faces.components_by_face();
@@ -102,14 +104,16 @@ impl Windings<'_> {
         let around = self.of(self.faces.parent[component]);
         let outer = self.faces.outer[component];
         let sides = bounded.iter().chain([&outer]).flat_map(|&cycle| &self.faces.cycles[cycle].edges);
-        let closed = bounded.is_empty() || sides.clone().any(|half| counted[half.curve.index()]);
+        let closed = bounded.is_empty() || sides.clone().any(|directed| counted[directed.curve.index()]);
         if !closed {
-            // Nothing but open curves that enclose something by crossing: filled where nothing around them is.
+            // The component has only open curves, which enclose faces because they cross. These faces are inside: with
+            // the winding number around them if that is inside, else with one more.
             let within = if is_inside(self.rule, around) { around } else { around + 1 };
             bounded.iter().for_each(|&face| self.winding[face] = Some(within));
             return;
         }
-        let curves: Vec<CurveId> = sides.filter(|half| half.side == Side::Left).map(|half| half.curve).collect();
+        let curves: Vec<CurveId> =
+            sides.filter(|directed| directed.side == Side::Left).map(|directed| directed.curve).collect();
         match self.counts(&curves).into_iter().find(|count| self.is_balanced(&curves, count)) {
             Some(count) => {
                 if matches!(count, Count::Once) {
@@ -121,11 +125,18 @@ impl Windings<'_> {
         }
     }
 
-    /// The ways to count the curves of a component, the first one first that comes out even at every point.
+    /// The ways to count the curves of a component, in the order in which they are tried. The first that is balanced at
+    /// every point is used.
     ///
-    /// By the odd-even rule what is drawn several times at one place is one contour, and counts once. Where that leaves
-    /// an odd number of curves at some point, contours that share a wall were drawn each for itself (two rooms): then
-    /// every copy counts, but where all is drawn an even number of times half of them does.
+    /// By the odd-even rule, a stretch that is drawn several times is one contour and counts once. If that leaves an
+    /// odd number of curves at some point, contours with a common wall were each drawn whole (two rooms). Then every
+    /// copy counts; if everything is drawn an even number of times, the count is halved.
+    ///
+    /// ```text
+    ///   ╭─────┬─────╮      Two rooms, each drawn whole: the wall is drawn twice. Counted once, three curves would end
+    ///   │  1  ║  1  │      at each end of the wall, and no winding number would fit. Counted twice, both rooms are
+    ///   ╰─────┴─────╯      inside.
+    /// ```
     fn counts(&self, curves: &[CurveId]) -> Vec<Count> {
         if !by_parity(self.rule) {
             return vec![Count::Copies { divided_by: 1 }];
@@ -142,8 +153,8 @@ impl Windings<'_> {
         }
     }
 
-    /// Whether as many curves arrive as leave, at every point: only then is the winding number the same along every
-    /// way.
+    /// Whether at every point as many curves arrive as leave (by the odd-even rule: their number is even). Only then is
+    /// the winding number of a face the same along every way to it.
     fn is_balanced(&self, curves: &[CurveId], count: &Count) -> bool {
         let mut flow: Vec<(PointId, i32)> = Vec::new();
         for &id in curves {
@@ -158,18 +169,24 @@ impl Windings<'_> {
         })
     }
 
-    /// From the face around a component across its curves to all its faces.
+    /// Computes the winding numbers of a component's faces, from the face around it across one curve after another.
+    ///
+    /// ```text
+    ///                      ▲
+    ///     winding + weight │ winding       The winding number on the left of a curve is greater by the curve's weight.
+    ///                      │
+    /// ```
     fn spread(&mut self, outer: usize, around: i32, count: &Count) {
         let mut stack = vec![(outer, around)];
         while let Some((cycle, winding)) = stack.pop() {
-            for &half in &self.faces.cycles[cycle].edges {
-                let beyond = self.faces.cycle_of[half.twin().index()];
+            for &directed in &self.faces.cycles[cycle].edges {
+                let beyond = self.faces.cycle_of[directed.twin().index()];
                 if beyond == outer || beyond == cycle || self.winding[beyond].is_some() {
                     continue;
                 }
-                let weight = self.weight(half.curve, count);
-                // The left of a curve that counts once winds once more than its right.
-                let there = if half.side == Side::Left { winding - weight } else { winding + weight };
+                let weight = self.weight(directed.curve, count);
+                // The winding number on the left of a curve is greater by its weight than that on its right.
+                let there = if directed.side == Side::Left { winding - weight } else { winding + weight };
                 self.winding[beyond] = Some(there);
                 stack.push((beyond, there));
             }
@@ -177,9 +194,9 @@ impl Windings<'_> {
     }
 }
 
-/// Which drawn curves are parts of closed outlines: a curve at a free end is none, nor what is left free without it. An
-/// end is not free where another curve runs along: partly drawn twice, an outline goes on there. Outlines of shapes are
-/// closed, and close no others.
+/// By drawn curve: whether it is part of a closed outline. A curve at a free end is not, nor a curve whose end becomes
+/// free without it. An end is not free where another curve carries on: an outline that is drawn twice in part. Outlines
+/// of shapes are closed, and close no others.
 pub(super) fn closed_outlines(arrangement: &Arrangement) -> Vec<bool> {
     let is_line = |i: usize| arrangement.drawing.curves[i].shape.is_none();
     let mut ends: Vec<Vec<PointId>> =
@@ -207,16 +224,17 @@ pub(super) fn closed_outlines(arrangement: &Arrangement) -> Vec<bool> {
     closed
 }
 
-/// Ends of drawn lines that lie within another line which ends within the first, each with these others. A line that
-/// lies within another with both its ends is a copy of a part of it, and nothing goes on there.
+/// Ends of a drawn curve a that lie within another curve b which in turn ends within a, by node, with all such b. A
+/// curve that lies within another with both its ends copies a part of it, and is not carried on by it.
 ///
 /// ```text
-///   a ═══════╤═══════ b      a ends within b, and b within a: where one ends the other goes on
+///   ──────── a ────────●               a ends within b, and b ends within a: where one ends, the other carries on.
+///              ●──────── b ────────
 /// ```
 fn carried_on(arrangement: &Arrangement) -> BTreeMap<PointId, BTreeSet<usize>> {
     let ends_at =
         |source: usize, node: PointId| arrangement.drawn_ends[source].iter().flatten().any(|&end| end == node);
-    // The line that ends, and the one that passes, with the point.
+    // By the curve a that ends and the curve b that passes: the nodes where that is so.
     let mut ending: BTreeMap<(usize, usize), BTreeSet<PointId>> = BTreeMap::new();
     let overlaps = arrangement.edges.enumerate().filter(|(_, edge)| !edge.merged.is_empty());
     for (id, edge) in overlaps {
@@ -245,7 +263,7 @@ fn windings(arrangement: &Arrangement, domain: &mut Domain, faces: &Faces, rule:
         left == right
     };
     let drawn = |id: CurveId| arrangement.drawn_along(id);
-    // Outlines of shapes bound what they fill, and turn nothing inside out.
+    // Outlines of shapes bound only what they fill, and do not change the parity around them.
     let of_shapes =
         |source: u32| rule == FillRule::EvenOddAndShapes && arrangement.drawing.curves[source as usize].shape.is_some();
     let count = |(source, against): (u32, bool)| match closed[source as usize] && !of_shapes(source) {
@@ -270,7 +288,7 @@ fn windings(arrangement: &Arrangement, domain: &mut Domain, faces: &Faces, rule:
     winding.into_iter().map(|w| w.unwrap_or(0)).collect()
 }
 
-/// Says how many curves are drawn over others.
+/// The note on how many curves are drawn over others.
 fn tell_copies(count: usize) -> Option<String> {
     let curves = match count {
         0 => return None,

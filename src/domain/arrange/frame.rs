@@ -1,5 +1,5 @@
-//! The unit frame: the drawing at the power of two that brings it to a size of about 1, and the lengths below which
-//! things are one there.
+//! The unit frame: the drawing times the power of two that gives it a size of about 1, and the lengths below which
+//! features become one there.
 
 use super::ArrangeOptions;
 use super::error::ArrangeError;
@@ -7,26 +7,26 @@ use crate::curve::Curve;
 use crate::domain::{Drawing, DrawnPoint, SeedKind};
 use crate::geometry::{Point, Rect, extent, magnitude, scaled};
 
-/// A drawn point this many times as far from the origin as the curves reach is a mistake, and would take 20 of the 53
-/// bits of every coordinate.
+/// A drawn point this many times as far from the origin as the curves reach is refused as a mistake: it would take 20
+/// of the 53 bits of every coordinate.
 const STRAY: f64 = 1048576.0;
 
-/// Lengths below which things are one, in the unit frame.
+/// Lengths below which features become one, in the unit frame.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Tolerances {
     /// Ends nearer than this are one node.
     pub weld: f64,
     /// Free ends nearer than this are joined; 0: never.
     pub gap: f64,
-    /// Free ends as near as the last decimals explain are joined up to this; 0: never.
+    /// Free ends are joined up to this where the last decimals in the file explain the gap; 0: never.
     pub written: f64,
-    /// Free ends nearer than this are joined as the user asks for; 0: not asked for.
+    /// Free ends nearer than this are joined because the user asked for it; 0: not asked for.
     pub close: f64,
     /// Whether curves that part from each other slowly are one as long as they are within `weld`.
     pub zip: bool,
-    /// What rounding does to coordinates.
+    /// A bound of the rounding error of computed coordinates.
     pub rounding: f64,
-    /// The length, in the drawing's units, of one unit of the frame: for messages.
+    /// The length of one unit of the frame in the drawing's units: for messages.
     pub unit: f64,
 }
 
@@ -38,8 +38,8 @@ impl Tolerances {
 }
 
 impl Drawing {
-    /// Refuses a drawing without curves, with places that are no numbers, or whose extent leaves no digits to work
-    /// with.
+    /// The box around the curves. Refuses a drawing without curves, with coordinates that are not finite, or whose
+    /// extent is too small beside its distance from the origin to leave digits.
     pub(super) fn check_extent(&self) -> Result<Rect, ArrangeError> {
         let stray = |p: Point| !p.is_finite();
         let places = self.points.iter().map(|p| (p.at, &p.entity)).chain(self.seeds.iter().map(|s| (s.at, &s.entity)));
@@ -81,7 +81,7 @@ impl Drawing {
         ArrangeError::new("nothing to mesh: the drawing has no curves", Point::ORIGIN, help)
     }
 
-    /// The drawing times a power of two, with the box of `keep all`, and its tolerances.
+    /// The drawing times `factor`, a power of two, with the box of `keep all`, and its tolerances.
     pub(super) fn in_unit_frame(
         &self,
         factor: f64,
@@ -118,8 +118,9 @@ impl Drawing {
                 "give a welding distance of 0 or a small part of the drawing's size",
             ))
         };
-        // Sixteen units of rounding of the largest number that points are computed from, as in the search for meetings:
-        // arcs from their centers too, though of nearly straight ones no more than the default tolerance.
+        // Sixteen units of rounding of the largest number that points are computed from, as in the search for meetings.
+        // Points of arcs are computed from their centers; for nearly straight arcs the default tolerance is the upper
+        // limit.
         let carried = self.curves.iter().map(|c| carrier_magnitude(&c.curve)).fold(magnitude(bounds), f64::max);
         let coordinates = 16.0 * f64::EPSILON * magnitude(bounds);
         let rounding = (16.0 * f64::EPSILON * carried).min(1e-9 * diagonal).max(coordinates);
@@ -140,8 +141,8 @@ impl Drawing {
         let joins = if options.tolerance.is_none() || options.raised { [1e-6, 1e-3] } else { [0.0, 0.0] };
         let [gap, written] = joins.map(|part| part * diagonal);
         let close = options.close.unwrap_or(0.0) * factor;
-        // A tolerance that was asked for says what is one; else a contact of curves drawn to touch stays the point that
-        // it is.
+        // Only a tolerance that the user gave makes curves one along a slow contact. Otherwise a contact of curves
+        // drawn to touch stays one point.
         let zip = options.tolerance.is_some_and(|given| given > 0.0);
         Ok(Tolerances { weld: weld.max(rounding), gap, written, close, zip, rounding, unit: 1.0 / factor })
     }
@@ -164,7 +165,7 @@ fn carrier_magnitude(curve: &Curve) -> f64 {
     match curve {
         Curve::Arc(arc) => from(arc.center, arc.radius),
         Curve::Ellipse(ellipse) => from(ellipse.center, ellipse.u.hypot().max(ellipse.v.hypot())),
-        // What is run along it to a point may be much longer than it is across.
+        // The arc length up to a point may be much larger than the curve's extent.
         Curve::Clothoid(clothoid) => magnitude(curve.bounds()).max(clothoid.length()),
         Curve::Line(_) | Curve::Bezier(_) | Curve::Spline(_) => magnitude(curve.bounds()),
     }

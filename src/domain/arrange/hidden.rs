@@ -1,10 +1,19 @@
-//! What nobody sees: stretches of the outlines of a picture's shapes that later shapes cover. Where overlapping shapes
-//! are painted one over another, such a stretch bounds nothing, and the face that it runs through is one.
+//! Hidden stretches: parts of the outlines of a picture's shapes that later shapes occlude. Such a stretch bounds
+//! nothing, and the faces on its two sides become one.
 //!
-//! Likewise what a clip cuts away, and of the outline of a clip all but the part that bounds what it cuts.
+//! ```text
+//!   ╭──────────╮                ╭──────────╮           B is painted over A. On both sides of the stretch h the topmost
+//!   │ A    ╭───┼─────╮          │ A    ╭───┴─────╮     shape is B: h is hidden and left out. Across each other stretch
+//!   │      │   h  B  │    ▶     │      │      B  │     the topmost shape changes: it stays.
+//!   ╰──────┼─h─╯     │          ╰──────┤         │
+//!          ╰─────────╯                 ╰─────────╯
+//! ```
 //!
-//! What was split only where such stretches met it is made whole again: the same part of the drawn curve, not its
-//! fragments. The arrangement is settled once more after that, as what was split had been moved by up to a tolerance.
+//! Stretches that a clip cuts away are left out, too, and so is the outline of a clip, except where it bounds a clipped
+//! shape.
+//!
+//! A curve that was split only where hidden stretches met it is made whole again, as one part of the drawn curve. The
+//! fragments had been moved by up to a tolerance, so the arrangement is settled once more after that.
 
 use super::arrangement::{Arrangement, Edge, Part, is_spiral};
 use super::faces::Faces;
@@ -17,12 +26,14 @@ use crate::geometry::extent;
 use crate::ids::{CurveId, IdVec, NameId, PointId, SeenId};
 use std::collections::BTreeSet;
 
-/// Where the parts of a drawn curve before and after a node differ by more in direction (a sine), there is a corner.
+/// There is a corner at a node where the directions before and after it differ by more than this (the sine of the
+/// angle).
 const STRAIGHT_ON: f64 = 0.01;
 
 impl Arrangement<'_> {
-    /// Leaves out the hidden stretches and notes on the others which shapes are seen beside them; whether there were
-    /// any. `faces` are those of the settled arrangement. Of `all` shapes, not only of the topmost, the borders are kept.
+    /// Leaves out the hidden stretches, and notes on the other edges which shapes are visible beside them. Returns
+    /// whether anything changed. `faces` are those of the settled arrangement. With `all`, the borders of all shapes
+    /// are kept, not only those of the topmost.
     pub fn drop_hidden(&mut self, faces: &Faces, all: bool) -> bool {
         let (seen, painters) = painters(self, faces, all);
         let beside = |id: CurveId, side| faces.face(DirectedEdge { curve: id, side }).and_then(|face| painters[face]);
@@ -42,7 +53,7 @@ impl Arrangement<'_> {
         self.itemise_hidden(&hidden, &painters, faces);
         let painted = |(&id, paint)| Edge { paint: Some(paint), ..self.edges[id].clone() };
         let edges: Vec<Edge> = left.iter().zip(paint).map(painted).collect();
-        // Ends of outlines that are hidden are no nodes any more.
+        // The ends of hidden outlines are no longer nodes.
         self.drawn_ends.iter_mut().for_each(|ends| *ends = None);
         self.rejoin(edges.into());
         self.renumber();
@@ -50,12 +61,13 @@ impl Arrangement<'_> {
         true
     }
 
-    /// Once for every drawn curve of which something is hidden.
+    /// Lists a repair for every drawn curve that is hidden in part.
     fn itemise_hidden(&mut self, hidden: &[CurveId], painters: &[Option<SeenId>], faces: &Faces) {
         let mut known = BTreeSet::new();
         for &id in hidden {
             let edge = &self.edges[id];
-            // What is outside of a clip, and the clip's own outline, was never to be seen.
+            // Stretches outside of a clip, and the clip's own outline, were not meant to be visible: they are not
+            // listed.
             let over = faces.face(DirectedEdge { curve: id, side: Side::Left }).and_then(|face| painters[face]);
             let Some(over) = over.filter(|_| !self.is_of_clip(edge.source) && known.insert(edge.source)) else {
                 continue;
@@ -67,14 +79,14 @@ impl Arrangement<'_> {
         }
     }
 
-    /// Whether a drawn curve is of the outline of a clip.
+    /// Whether a drawn curve is part of the outline of a clip.
     fn is_of_clip(&self, source: u32) -> bool {
         let shape = self.drawing.curves[source as usize].shape;
         shape.is_some_and(|shape| self.drawing.shapes[shape].part_of.is_some())
     }
 
-    /// The name of the boundary along an edge: the drawn one, but of the outline of a clip that of the shape which it
-    /// cuts.
+    /// The name of the boundary along an edge: the drawn curve's name or, for the outline of a clip, that of the shape
+    /// it clips.
     pub fn boundary_name(&self, edge: &Edge) -> NameId {
         let drawn = self.drawing.curves[edge.source as usize].name;
         let cut = edge.paint.into_iter().flatten().flatten().map(|seen| self.seen.top(seen)).max();
@@ -84,11 +96,17 @@ impl Arrangement<'_> {
         }
     }
 
-    /// Takes the edges that are left, those in one where nothing but a hidden stretch had parted them.
+    /// Rebuilds the edges from those that are left. Runs of edges that only hidden stretches had separated become one.
+    ///
+    /// ```text
+    ///   ●──── a ────●──── b ────●            ●───────── ab ─────────●   h is left out. a and b are parts of one drawn
+    ///               │ h               ▶                                 curve, without a corner between them: they
+    ///                                                                   become one.
+    /// ```
     fn rejoin(&mut self, left: IdVec<CurveId, Edge>) {
         let mut at_node: IdVec<PointId, Vec<CurveId>> = vec![Vec::new(); self.nodes.len()].into();
         left.enumerate().for_each(|(id, edge)| edge.ends.into_iter().for_each(|end| at_node[end].push(id)));
-        // A drawn point stays.
+        // A drawn point stays a node.
         self.drawn_points.iter().for_each(|&node| at_node[node].clear());
         let next = |id: CurveId| match at_node[left[id].ends[1]][..] {
             [a, b] if a != b => Some(if a == id { b } else { a }).filter(|&next| self.goes_on(&left[id], &left[next])),
@@ -101,7 +119,7 @@ impl Arrangement<'_> {
         for first in left.ids().filter(|&id| is_first[id]) {
             let mut run = vec![first];
             while let Some(next) = follows[run[run.len() - 1]] {
-                // What closes up would have no ends.
+                // A closed run would have no ends: it is placed before it closes.
                 if left[next].ends[1] == left[run[0]].ends[0] {
                     self.place_run(&run, &left);
                     run.clear();
@@ -112,7 +130,7 @@ impl Arrangement<'_> {
         }
     }
 
-    /// Whether one edge goes on as another: along the same drawn curve, without a corner, between the same shapes.
+    /// Whether `next` continues `edge`: along the same drawn curve, without a corner, between the same shapes.
     fn goes_on(&self, edge: &Edge, next: &Edge) -> bool {
         let [from, to] = [edge.range[1], next.range[0]];
         if edge.source != next.source || edge.paint != next.paint || edge.ends[1] != next.ends[0] || from > to {
@@ -143,7 +161,7 @@ impl Arrangement<'_> {
         self.place_part(whole);
     }
 
-    /// Drops splits from the list at places where nothing is split any more.
+    /// Drops splits from the list of repairs at places where there is no node any more.
     pub fn forget_splits(&mut self) {
         let cells = Cells::wider_than(self.tolerances.weld);
         let nodes: BTreeSet<[i64; 2]> = self.nodes.iter().map(|node| cells.of([node.at.x, node.at.y])).collect();

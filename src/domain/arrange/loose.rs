@@ -1,12 +1,12 @@
-//! Free ends: which of them are joined, which outlines miss closing, and which lines are plainly open.
+//! Free ends: which of them are joined, which outlines miss closing, and which lines are open.
 //!
 //! A *free end* is a node at which a single edge ends; its *chain* leads from there to the next free end or branch.
 //!
 //! ```text
-//!   a ───────────────── b     b and c are each other's nearest free ends. They are joined at their corner where the last decimal of the file
-//!   │                   c     explains the gap, or within `close`. Else, where chains would close into a ring in this way and every gap is
-//!   │                   │     short beside the chains at it, the outline was meant to be closed, and the drawing is refused (`rings`).
-//!   └───────────────────┘     All other free ends are those of plainly open lines.
+//!   a ────────────── b     b and c are each other's nearest free ends. They are joined at the corner of their lines
+//!   │                c     where the last decimal of the file explains the gap, or within `close`. Otherwise, where
+//!   │                │     such gaps close chains into a ring and each gap is short compared with its chains, the
+//!   └────────────────┘     drawing is refused (`rings`). All other free ends are those of open lines.
 //! ```
 
 use super::Loose;
@@ -19,21 +19,22 @@ use crate::geometry::Point;
 use crate::ids::{CurveId, IdVec, PointId};
 use std::collections::BTreeSet;
 
-/// A gap is narrower than this part of the chains beside it: else it is no gap, but the length of a stub.
+/// A gap is narrower than this part of the chains beside it. Otherwise the shorter chain is a stub and no side of a
+/// gap.
 const NARROW: f64 = 0.5;
 
-/// Lines make a corner where the sine of the angle between them is larger.
+/// Two lines form a corner where the sine of the angle between them is at least this.
 const SQUARE: f64 = 0.1;
 
-/// The corner that two lines make lies within so many gaps of their ends.
+/// The corner of two lines lies within this many gap widths of their ends.
 const FARTHER: f64 = 2.0;
 
-/// Places that a note lists.
+/// The largest number of places that a note lists.
 const LISTED: usize = 3;
 
 impl Arrangement<'_> {
-    /// Joins free ends that are each other's nearest, within the gaps that the tolerances allow; whether there were
-    /// any.
+    /// Joins free ends that are each other's nearest, within the gaps that the tolerances allow. Returns whether there
+    /// were any.
     ///
     /// **Termination.** Every round but the last joins two ends or more.
     pub fn join_free_ends(&mut self) -> bool {
@@ -67,13 +68,13 @@ impl Arrangement<'_> {
             let units = gap.ends.map(|end| ends[end].last_decimal).into_iter().filter(|&unit| unit > 0.0);
             let written = 2.0 * units.reduce(f64::min).unwrap_or(0.0) + tolerances.rounding;
             let reach = tolerances.gap.max(written.min(tolerances.written)).max(tolerances.close);
-            // What is no longer than the gap beside it would be folded onto itself.
+            // A chain no longer than the gap beside it would be folded onto itself.
             is_mutual && gap.width <= reach && gap.width < NARROW * ends[i].chain.min(ends[j].chain)
         };
         nearest.into_iter().filter(is_gap).collect()
     }
 
-    /// Moves ends that stop short of open lines onto them, as far as was asked for; whether there were any.
+    /// Moves ends that stop short of open lines onto them, up to the distance `close`. Returns whether there were any.
     fn reach_open_lines(&mut self, ends: &[FreeEnd], left: &[usize]) -> bool {
         let close = self.tolerances.close;
         let mut shorts = if close > 0.0 { self.shorts(ends, left, |_| close.next_up()) } else { Vec::new() };
@@ -88,7 +89,7 @@ impl Arrangement<'_> {
         !shorts.is_empty()
     }
 
-    /// Moves both ends of a gap to where they meet, which becomes the place of the first.
+    /// Moves both ends of a gap to their [`meeting_place`].
     fn join(&mut self, ends: &[FreeEnd], gap: &Gap) {
         let [Owner::Node(kept), Owner::Node(moved)] = gap.ends.map(|end| ends[end].owner) else { return };
         let [a, b] = [kept, moved].map(|node| self.nodes[node].origin.text(self.drawing));
@@ -101,8 +102,8 @@ impl Arrangement<'_> {
         }
     }
 
-    /// Refuses outlines that miss closing, and leaves out or tells of what is open, as `loose` says; what is to be
-    /// told.
+    /// Refuses outlines that miss closing. Keeps, drops or refuses open lines as `loose` says. Returns notes for the
+    /// user.
     ///
     /// # Errors
     /// With the ends, the gaps, and the option that closes them.
@@ -118,7 +119,7 @@ impl Arrangement<'_> {
         {
             return Err(missed);
         }
-        let open = self.open_pieces();
+        let open = self.open_edges();
         let told = self.tell_open(&ends[..own], &open, loose);
         match loose {
             Loose::Error => Err(self.open_refused(&ends[..own])),
@@ -132,8 +133,15 @@ impl Arrangement<'_> {
         }
     }
 
-    /// Edges that lead to free ends and bound nothing.
-    fn open_pieces(&self) -> BTreeSet<CurveId> {
+    /// Edges on ways to free ends; they bound nothing. They are found by pruning: an edge at a free end is taken off,
+    /// and so on.
+    ///
+    /// ```text
+    ///   ┌─────┐ 3    2    1        1 is at a free end. When it is taken off, 2 is, then 3. The square stays.
+    ///   │     ├────●────●────
+    ///   └─────┘
+    /// ```
+    fn open_edges(&self) -> BTreeSet<CurveId> {
         let joints = Joints::new(self);
         let mut degree: IdVec<PointId, usize> = self.nodes.ids().map(|node| joints.degree(node)).collect();
         let mut free: Vec<PointId> = self.nodes.ids().filter(|&node| joints.is_free(node)).collect();
@@ -150,7 +158,7 @@ impl Arrangement<'_> {
         open
     }
 
-    /// How many lines are open, how long they are, and where.
+    /// A note: how many lines are open, how long they are, and where they end.
     fn tell_open(&self, ends: &[FreeEnd], open: &BTreeSet<CurveId>, loose: Loose) -> String {
         let drawn: BTreeSet<u32> = open.iter().map(|&id| self.edges[id].source).collect();
         let length: f64 = open.iter().map(|&id| self.edges[id].curve.length()).sum();
@@ -178,13 +186,14 @@ impl Arrangement<'_> {
     }
 }
 
-/// Where two free ends are joined: at the corner that their lines make a little farther on, so that neither turns;
-/// where they hardly make one, at the first.
+/// Where two free ends are joined: at the corner of their lines if it is near, so that neither line turns; else at the
+/// first end.
 ///
 /// ```text
-///      a ────── · corner
-///               │
-///               b
+///   ────────── a · · · corner       a, b: the free ends, with the directions of their lines. `width` is their
+///                      ·            distance.
+///                      b
+///                      │
 /// ```
 fn meeting_place([a, b]: [&FreeEnd; 2], width: f64) -> Point {
     let sine = a.direction.cross(b.direction);

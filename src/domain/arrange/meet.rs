@@ -1,5 +1,5 @@
-//! Where edges meet: nodes on edges, crossings of lines, meetings and contacts of curves. Each becomes a cut or a
-//! link of two nodes.
+//! Meetings of edges: nodes on edges, crossings of lines, meetings and contacts of curves. Each becomes a cut of an
+//! edge or a link of two nodes.
 
 use super::arrangement::{Arrangement, NodeOrigin};
 use super::candidates::{SLOW, too_many_cuts};
@@ -11,32 +11,39 @@ use crate::geometry::exact::{Orientation, orient};
 use crate::ids::{CurveId, PointId};
 use crate::watch::Watch;
 
-/// In the middle of such a contact they are within this part of their widest distance: less than straight lines would
-/// be.
+/// In the middle of a slow contact two curves are within this part of their widest distance. Straight lines at an angle
+/// would be within 1/2 of it.
 const BENT: f64 = 0.375;
 
-/// Edges that cross within the tolerance of a common end begin up to so many times as far from it, and no farther than
-/// this part of the tolerance.
+/// Edges that cross within the tolerance of a common end are cut up to `BEYOND` times as far from it, and no farther
+/// than `BEYOND_REACH` of the tolerance.
 const BEYOND: f64 = 16.0;
 const BEYOND_REACH: f64 = 0.9;
 
-/// A place at which an edge is to be cut.
+/// A place at which an edge will be cut.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Cut {
+    /// The edge.
     pub edge: CurveId,
+    /// The parameter on it.
     pub t: f64,
+    /// The place of that parameter.
     pub at: Point,
+    /// The node that both parts will end at.
     pub node: PointId,
 }
 
-/// Where edges meet: cuts, and nodes that are one.
+/// What one round finds: cuts, and nodes that become one.
 #[derive(Default, Debug)]
 pub(super) struct Found {
+    /// In the order in which they were found.
     pub cuts: Vec<Cut>,
+    /// Pairs of nodes that become one.
     pub links: Vec<[PointId; 2]>,
 }
 
 impl Found {
+    /// Whether nothing meets.
     pub fn is_empty(&self) -> bool {
         self.cuts.is_empty() && self.links.is_empty()
     }
@@ -51,7 +58,7 @@ enum Site {
     Inside(f64, Point),
 }
 
-/// Makes one of a node and a place on an edge: a link of two nodes, or a cut.
+/// Makes one node of `node` and a place on an edge: by a link of two nodes, or by a cut.
 fn join(found: &mut Found, (edge, site): (CurveId, Site), node: PointId) {
     match site {
         Site::End(end) if end != node => found.links.push([end, node]),
@@ -61,13 +68,18 @@ fn join(found: &mut Found, (edge, site): (CurveId, Site), node: PointId) {
 }
 
 impl Arrangement<'_> {
-    /// Every place where fresh edges and nodes meet others, as long as there are no more cuts than `most`.
+    /// Finds every place where fresh edges and nodes meet others.
+    ///
+    /// # Errors
+    ///
+    /// Where there are more than `most` cuts, where meetings are too near to tell apart, and where `watch` ends the
+    /// run.
     pub fn meet(&mut self, most: usize, watch: &mut Watch) -> Result<Found, Unarranged> {
         let mut found = Found::default();
         let known = self.nodes.len();
         let grown = self.edges.iter().map(|p| p.bounds.inflate(self.tolerances.weld, self.tolerances.weld));
         let boxes = BoxHierarchy::new(grown);
-        self.nodes_on_pieces(&boxes, &mut found, watch)?;
+        self.nodes_on_edges(&boxes, &mut found, watch)?;
         let pairs = self.fresh_pairs(&boxes, watch)?;
         let count = pairs.len();
         for (k, (a, b)) in pairs.into_iter().enumerate() {
@@ -81,15 +93,22 @@ impl Arrangement<'_> {
                 self.meet_curves(a, b, &mut found)?;
             }
         }
-        // New nodes are looked at in the next round, when edges end at them.
+        // New nodes stay fresh: they are searched in the next round, when edges end at them.
         self.nodes.iter_mut().take(known).for_each(|n| n.fresh = false);
         self.edges.iter_mut().for_each(|p| p.fresh = false);
         Ok(found)
     }
 
     /// Nodes that lie on edges without being their ends: T-junctions, collinear overlaps, drawn points on curves.
-    fn nodes_on_pieces(&self, boxes: &BoxHierarchy, found: &mut Found, watch: &mut Watch) -> Result<(), Unarranged> {
-        for (id, edge) in self.nodes_near_pieces(boxes, watch)? {
+    ///
+    /// ```text
+    ///               │               The node `id` lies within the tolerance of `edge` and is no end of it. t is the
+    ///               ● id            parameter nearest to it: the edge is cut at t, and both parts will end at `id`.
+    ///   ────────────t─────── edge   Where t lies within the tolerance of an end of the edge, that end and `id` are
+    ///                               linked instead.
+    /// ```
+    fn nodes_on_edges(&self, boxes: &BoxHierarchy, found: &mut Found, watch: &mut Watch) -> Result<(), Unarranged> {
+        for (id, edge) in self.nodes_near_edges(boxes, watch)? {
             let at = self.nodes[id].at;
             let (t, distance) = self.edges[edge].curve.nearest(at, 0.0, 1.0);
             if distance <= self.tolerances.weld {
@@ -100,8 +119,15 @@ impl Arrangement<'_> {
         Ok(())
     }
 
-    /// The proper crossing of two lines without a common end. All other ways in which lines meet have an end of one on
-    /// the other.
+    /// The proper crossing of two lines without a common end. Wherever lines meet otherwise, an end of one lies on the
+    /// other.
+    ///
+    /// ```text
+    ///    q0 ╲   ╱ p1        orient is exact: q0 and q1 lie on different sides of p0 p1, and p0 and p1 on different
+    ///        ╲ ╱            sides of q0 q1. The crossing is p0 + t (p1 − p0) = q0 + u (q1 − q0).
+    ///        ╱ ╲
+    ///    p0 ╱   ╲ q1
+    /// ```
     fn cross_lines(&mut self, a: CurveId, b: CurveId, found: &mut Found) {
         let [p, q] = [a, b].map(|id| &self.edges[id]);
         let (p0, p1, q0, q1) = (p.curve.start(), p.curve.end(), q.curve.start(), q.curve.end());
@@ -111,11 +137,11 @@ impl Arrangement<'_> {
         }
         let (dp, dq, between) = (p1 - p0, q1 - q0, q0 - p0);
         let det = dp.cross(dq);
-        // The signs above are exact: the lines do cross. Where rounding leaves nothing of the determinant, the middles
-        // will do.
+        // The signs above are exact: the lines do cross. Where the determinant rounds to 0, the middles serve as the
+        // crossing.
         let [t, u] = if det == 0.0 { [0.5, 0.5] } else { [between.cross(dq) / det, between.cross(dp) / det] };
         let (t, u) = (t.clamp(0.0, 1.0), u.clamp(0.0, 1.0));
-        self.join_pieces((a, t), (b, u), p0.lerp(p1, t), found);
+        self.join_edges((a, t), (b, u), p0.lerp(p1, t), found);
     }
 
     fn meet_curves(&mut self, a: CurveId, b: CurveId, found: &mut Found) -> Result<(), ArrangeError> {
@@ -133,7 +159,7 @@ impl Arrangement<'_> {
         }
         let before = [found.cuts.len(), found.links.len()];
         for (at, [t, u]) in places {
-            self.join_pieces((a, t), (b, u), at, found);
+            self.join_edges((a, t), (b, u), at, found);
         }
         if before == [found.cuts.len(), found.links.len()] {
             self.untangle([a, b], found)?;
@@ -141,9 +167,17 @@ impl Arrangement<'_> {
         Ok(())
     }
 
-    /// Whether two edges touch and part so slowly that what is between them, as long as that is within the tolerance,
-    /// would take more triangles than it is worth: they are one there. Straight lines at an angle are not made one, the
-    /// wedge would only begin elsewhere.
+    /// Whether two edges touch and part so slowly that the sliver between them would take too many triangles. Then they
+    /// become one as long as they are within the tolerance. Straight lines at an angle do not: the wedge would only
+    /// begin elsewhere.
+    ///
+    /// ```text
+    ///         t[0]              t[1]
+    ///   p ─────╮                 ╭─────       Between t[0] and t[1] the curve p lies within the tolerance of q. It
+    ///          ╰───╮         ╭───╯            bends away from q: in the middle the distance is at most BENT times the
+    ///              ╰─────────╯                widest one, which is at an end of the contact.
+    ///   q ─────────────────────────────
+    /// ```
     fn part_slowly(&self, ids: [CurveId; 2], meeting: &Meeting) -> bool {
         let Overlap { t, u } = meeting.contact;
         if meeting.kind == MeetingKind::Crossing || t[0] == t[1] || u[0] == u[1] {
@@ -159,16 +193,16 @@ impl Arrangement<'_> {
         within(0.5 * (t[0] + t[1])) <= BENT * widest
     }
 
-    /// Further meetings of two edges with a common end. Within the tolerance of it all is one contact, but the curves
-    /// may cross there once more: they are cut there. Where even that is within the tolerance of the end, both begin at
-    /// the crossing instead. Asked only of edges that meet nowhere else: those that repeat each other are cut and
-    /// become one first.
+    /// Further crossings of two edges with a common end. Within the tolerance of that end they are one contact, but the
+    /// curves may cross once more: they are cut there. Where the crossing itself lies within the tolerance of the end,
+    /// both edges begin at the crossing instead. This is tested only for edges that meet nowhere else: edges that
+    /// overlap are cut and become one first.
     ///
     /// ```text
     ///    p ╲   ╱ q
-    ///       ╲ ╱            p and q leave m, and cross once more at x. Where x is farther from m than the tolerance, they are cut there.
-    ///        x             Else what lies between x and m is left out, and what begins at x, or somewhat beyond, is moved to m.
-    ///       ╱ ╲
+    ///       ╲ ╱         p and q leave m, and cross once more at x. Where x is farther from m than the tolerance, they
+    ///        x          are cut there. Else the stretches from m to x are left out, and the ends of the rest, at x or
+    ///       ╱ ╲         somewhat beyond it, are moved to m.
     ///       ╲ ╱
     ///        m
     /// ```
@@ -180,9 +214,8 @@ impl Arrangement<'_> {
         let rounding = self.tolerances.rounding;
         for meeting in self.meetings_of(ids[0], ids[1], rounding)?.points {
             let ts = [meeting.t, meeting.u];
-            // Circles that were drawn to touch come out a few roundings deep in each other; a cut there, where they
-            // stay that near to each other for the square root of it, would leave an edge that nothing can be meshed
-            // beside.
+            // Circles that were drawn to touch overlap by a few roundings ε. They stay that near to each other over a
+            // length of about √ε; a cut there would leave an edge beside which no mesh can be made.
             if self.is_contact(ids, ts, 4.0 * rounding) {
                 continue;
             }
@@ -195,15 +228,15 @@ impl Arrangement<'_> {
                         found.cuts.push(Cut { edge, t, at, node: m });
                     }
                 }
-                _ => self.join_pieces((ids[0], ts[0]), (ids[1], ts[1]), meeting.at, found),
+                _ => self.join_edges((ids[0], ts[0]), (ids[1], ts[1]), meeting.at, found),
             }
         }
         Ok(())
     }
 
-    /// Where two edges that cross near a node are to begin: farther from it than where they cross, as far as the
-    /// tolerance goes. What is left of them turns a little as it is moved to the node, and so would cross again,
-    /// somewhat nearer; farther away they have parted.
+    /// The parameters at which two edges that cross near a node will begin: farther from it than the crossing, up to
+    /// the tolerance. When the rest of each edge is moved to the node, it turns a little; if it began at the crossing,
+    /// the two would cross again, somewhat nearer. Farther away they have parted.
     fn beyond(&self, ids: [CurveId; 2], ts: [f64; 2], node: PointId) -> [f64; 2] {
         let away = |k: usize, t: f64| self.edges[ids[k]].curve.point(t).distance(self.nodes[node].at);
         let reach = BEYOND_REACH * self.tolerances.weld;
@@ -225,8 +258,8 @@ impl Arrangement<'_> {
         })
     }
 
-    /// Whether a meeting of two edges is nothing but their contact at a common end: from there to the meeting they
-    /// stay within `slack` of each other.
+    /// Whether a meeting of two edges is only their contact at a common end: from that end to the meeting they stay
+    /// within `slack` of each other.
     fn is_contact(&self, ids: [CurveId; 2], ts: [f64; 2], slack: f64) -> bool {
         let [p, q] = ids.map(|id| &self.edges[id]);
         let within = |t: f64, end: usize, curve: &Curve, other: &Curve| {
@@ -241,7 +274,7 @@ impl Arrangement<'_> {
     }
 
     /// Makes one node of a place on one edge and a place on another.
-    fn join_pieces(&mut self, a: (CurveId, f64), b: (CurveId, f64), at: Point, found: &mut Found) {
+    fn join_edges(&mut self, a: (CurveId, f64), b: (CurveId, f64), at: Point, found: &mut Found) {
         let site =
             |arrangement: &Self, (id, t): (CurveId, f64)| arrangement.site(id, t, arrangement.edges[id].curve.point(t));
         let (on_a, on_b) = (site(self, a), site(self, b));
@@ -256,7 +289,7 @@ impl Arrangement<'_> {
         }
     }
 
-    /// A place on an edge: one of its ends, where it is that near.
+    /// A place on an edge: one of its ends if that lies within the tolerance, else the parameter.
     fn site(&self, id: CurveId, t: f64, at: Point) -> Site {
         let edge = &self.edges[id];
         let end = edge.ends.into_iter().min_by(|&m, &n| {

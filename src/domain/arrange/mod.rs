@@ -1,54 +1,56 @@
-//! Drawing → Domain: weld, meet, split, drop, trace, name. The only door to a [`Domain`].
+//! Drawing → Domain: weld, meet, split, drop, trace, name. [`Drawing::arrange`] is the only constructor of a
+//! [`Domain`].
 //!
-//! 0. `frame`: the drawing is brought to a size of about 1, and its tolerances are chosen.
+//! 0. `frame`: the drawing is scaled to a size of about 1, and its tolerances are chosen.
 //! 1. `cut`: drawn curves are cut at breaks (cusps, tangent jumps), at their meetings with themselves, and once where
-//!    they are closed. What comes of it are the nodes and edges of a `arrangement`.
+//!    they are closed. The result is the nodes and edges of an `arrangement`.
 //! 2. `candidates`, `meet`, `weld`: edges are cut where they meet, places within the tolerance become one node, and
-//!    edges are moved by a similarity to end at their nodes, bit for bit; again, until nothing meets but at common
-//!    ends. The node is the truth: a drawn end, where there is one, rather than a computed crossing. Edges that
-//!    coincide become one.
-//! 3. `ends`, `rings`, `loose`: free ends, the outlines that miss closing because of them, and what becomes of lines
-//!    that stay open.
+//!    edges are moved by a similarity to end at their nodes, bit for bit. This is repeated until edges meet only at
+//!    common ends. A node lies at a drawn end where there is one, else at a computed crossing. Edges that coincide
+//!    become one.
+//! 3. `ends`, `rings`, `loose`: free ends, the outlines that miss closing because of them, and how lines that stay open
+//!    are treated.
 //! 4. `star`: the curves around every point, in order.
-//! 5. `trace`, `faces`: cycles of curve sides, and how they lie in each other.
+//! 5. `trace`, `faces`: cycles of directed edges, and which face each component lies in.
 //! 6. `paint`, `fill`, `regions`: painted shapes, winding numbers, which faces are inside; hole and region seeds,
 //!    names.
-//! 7. `hidden`: stretches of outlines that later shapes of a picture cover, and what clips cut away, are left out, and
-//!    2, 4 and 5 repeated without them.
+//! 7. `hidden`: stretches of outlines that later shapes of a picture occlude, and what clips cut away, are left out.
+//!    Steps 2, 4 and 5 are repeated without them.
 //!
-//! `auxiliary` tells of frames and crossing layers; `repair` lists what was mended.
+//! `auxiliary` reports frames and crossing layers; `repair` lists what was repaired.
 //!
-//! **Invariant.** A drawn curve runs along edges in its order, or its loss is itemised; every edge ends at the places
-//! of its two nodes, bit for bit, and lies within the tolerance of its curve for every time that it was moved.
+//! **Invariant.** A drawn curve runs along edges in its order, or its loss is listed as a repair. Every edge ends at
+//! the places of its two nodes, bit for bit. Each time an edge is moved, it moves by at most the tolerance.
 //!
-//! **Result.** When a round finds nothing, no node lies within the tolerance of an edge but at its ends, and no two
-//! edges meet but at common ends (as far as [`meetings`](crate::curve::meetings) tells, which misses none by its own
-//! invariant). Such edges with their stars are a plane graph: the cycles of curve sides bound its faces, V − E + F =
-//! 1 + C, winding numbers follow from one face to the next. [`Domain::flaws`] holds all of that against the domain by
-//! other means: each pair met anew, Euler's formula, winding numbers by rays.
+//! **Result.** When a round finds nothing, a node lies within the tolerance of an edge only where it is its end, and
+//! two edges meet only at common ends (as far as [`meetings`](crate::curve::meetings) finds them; by its own invariant
+//! it misses none). Such edges with their stars are a plane graph: the cycles of directed edges bound its faces, V −
+//! E + F = 1 + C, and winding numbers follow from one face to the next. [`Domain::flaws`] checks all of that by other
+//! means: it meets each pair anew, and uses Euler's formula and winding numbers by rays.
 //!
-//! **Termination.** Each round welds two nodes or cuts an edge more than a tolerance from its ends; only moved edges
-//! can meet anew. Edges that cross beside a common end would settle by a steady factor only, and are cut farther away.
-//! Still no proof: rounds have a budget, and its end is an error with the place. Most drawings take four rounds, welds
-//! within 1e-4 of the diagonal up to a dozen.
+//! **Termination.** Each round welds two nodes or cuts an edge more than a tolerance from its ends. Only moved edges
+//! can meet anew. Edges that cross beside a common end would converge by a constant factor only, so they are cut
+//! farther away. This is no proof: rounds have a budget, and when it is spent the result is an error with the place.
+//! Most drawings take four rounds, those welded within 1e-4 of the diagonal up to a dozen.
 //!
-//! **What survives.** Of welded nodes a drawn end or break, of several the first drawn; computed crossings move to it.
-//! Of coincident curves the first drawn, which remembers the others. A gap is closed at the end that was drawn first.
+//! **What is kept.** Of welded nodes, a drawn end or break is kept, the first drawn of several; computed crossings move
+//! to it. Of coincident curves the first drawn is kept, with a list of the others. A gap is closed at the end that was
+//! drawn first.
 //!
-//! A tolerance acts feature by feature: what is wider than it keeps its shape and its side of the border, whatever its
-//! length; only what fits within it becomes a point or a line, and is itemised ([`RepairKind::Collapsed`]). A chain of
-//! shorter curves is thinned to steps of about a tolerance, so a loop of such is safe from three tolerances on.
+//! A tolerance acts feature by feature. A feature wider than the tolerance keeps its shape and its side of the border,
+//! whatever its length. A feature that fits within it becomes a point or a line, and is listed
+//! ([`RepairKind::Collapsed`]). A chain of shorter curves is thinned to steps of about a tolerance, so a loop of such
+//! curves is kept from a width of three tolerances on.
 //!
-//! Lines around one point, repeated ends and components in each other cost n log n. Compared each with each are still:
-//! edges whose boxes meet although they do not (rings in each other, fans of curves, long parallel slanted lines), and
-//! curves between the same two points.
+//! Lines around one point, repeated ends and nested components cost n log n. Two families are still compared each with
+//! each, at n²: edges whose boxes meet although they do not (nested rings, fans of curves, long parallel slanted
+//! lines), and curves between the same two points.
 //!
-//! Within a tolerance that was asked for, curves that part slowly (from a tangent contact, or from a common end) are
-//! one as long as they are within it: else the sliver between them, which begins at width 0, would stay at any
+//! Where the user gave a tolerance, curves that part slowly (from a tangent contact, or from a common end) are one as
+//! long as they are within it. Otherwise the sliver between them, which begins at width 0, would remain at any
 //! tolerance. Bends far narrower than the tolerance become corners.
 //!
-//! All of it happens in a frame scaled by a power of two, so that the same drawing at another such scale gives the same
-//! bits.
+//! All steps run in a frame scaled by a power of two, so the same drawing at another such scale gives the same bits.
 
 mod arrangement;
 mod auxiliary;
@@ -103,13 +105,13 @@ pub struct ArrangeOptions {
     /// Free ends that are each other's nearest, or that stop short of an open line, are joined up to this far, and
     /// nothing else is welded by it.
     pub close: Option<f64>,
-    /// What becomes of lines that bound no region.
+    /// How lines that bound no region are treated.
     pub loose: Loose,
     /// Whether `tolerance` was chosen for the user: ends that meet nothing else are joined as by default then.
     pub raised: bool,
 }
 
-/// What becomes of lines that bound nothing.
+/// How lines that bound nothing are treated.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Loose {
@@ -130,7 +132,7 @@ impl Drawing {
     /// # Errors
     ///
     /// Where there is nothing to mesh, a coordinate is not a finite number, or curves run so near to each other that
-    /// rounded arithmetic cannot tell how they lie: with the place and the way out.
+    /// rounded arithmetic cannot tell their order: with the place and a remedy.
     pub fn arrange(&self, options: &ArrangeOptions) -> Result<Domain, ArrangeError> {
         self.arrange_watched(options, &mut |_| true).map_err(|why| match why {
             Unarranged::Invalid(error) => error,
@@ -153,12 +155,13 @@ impl Drawing {
         }
     }
 
-    /// What [`Drawing::arrange`] mends by default and leaves alone within a tolerance of 0: every repair of the default
-    /// that is wider than the rounding of coordinates, or is not made within that.
+    /// The repairs that [`Drawing::arrange`] makes by default and does not make with a tolerance of 0: those wider than
+    /// the rounding of coordinates, and those that the exact run lacks.
     ///
     /// # Errors
     ///
-    /// Those of [`Drawing::arrange_watched`], but for what the fill rule says: which faces are inside is not asked.
+    /// Those of [`Drawing::arrange_watched`] except for those about the fill rule: which faces are inside is not
+    /// computed.
     pub fn unhealed(&self, watch: &mut Watch) -> Result<Vec<Repair>, Unarranged> {
         let factor = unit_scale(magnitude(self.check_extent()?));
         let (unit, tolerances) = self.in_unit_frame(factor, &ArrangeOptions::default())?;
@@ -170,7 +173,7 @@ impl Drawing {
         let exact = Tolerances { weld: tolerances.rounding, gap: 0.0, written: 0.0, ..tolerances };
         let made = match settled(exact, watch) {
             Ok(made) => made,
-            // What cannot be arranged so is healed of nothing.
+            // A drawing that cannot be arranged exactly has no repairs to compare with.
             Err(Unarranged::Invalid(_)) => Vec::new(),
             Err(stopped) => return Err(stopped),
         };
@@ -209,7 +212,7 @@ fn arrange_in_unit_frame(
 fn traced(arrangement: &Arrangement, watch: &mut Watch) -> Result<(Domain, Faces), Unarranged> {
     let domain = bare_domain(arrangement, watch)?;
     let cycles = Cycles::trace(&domain, watch)?;
-    // Level lines keep twice the rounding away from ends of curves.
+    // Level lines keep at least twice the rounding away from the ends of curves.
     let faces = Faces::new(cycles, &domain, 2.0 * arrangement.tolerances.rounding, watch)?;
     Ok((domain, faces))
 }

@@ -9,32 +9,32 @@ use crate::geometry::extent;
 use crate::ids::{ClipId, CurveId, IdVec, NameId, Names, SeenId, ShapeId};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// How often each shape goes around one face, and which shapes fill it. Held for one face at a time: a tour of all
-/// faces crosses one curve after another, and back, so that shapes nested a thousand deep cost no more than the curves
-/// they are made of.
+/// The winding number of each shape around one face, and the shapes that fill it. It is stored for one face at a time,
+/// and updated where a tour of all faces crosses a curve. So shapes nested a thousand deep cost no more than their
+/// curves.
 struct Paint<'a> {
     drawing: &'a Drawing,
     winding: BTreeMap<ShapeId, i32>,
-    /// Those that are painted, cut or not.
+    /// The painted shapes that fill the face, whether clipped or not.
     filled: BTreeSet<ShapeId>,
-    /// The parts of clips.
+    /// By clip: those of its parts that fill the face.
     open: BTreeMap<ClipId, BTreeSet<ShapeId>>,
 }
 
 impl<'a> Paint<'a> {
-    /// What fills the face around everything: nothing.
+    /// The paint of the unbounded face: none.
     fn nothing(drawing: &'a Drawing) -> Self {
         Self { drawing, winding: BTreeMap::new(), filled: BTreeSet::new(), open: BTreeMap::new() }
     }
 
-    /// Whether the face lies in a clip and all that it lies within.
+    /// Whether the face lies in a clip and in all clips around that one.
     fn lies_in(&self, clip: Option<ClipId>) -> bool {
         let shapes = &self.drawing.shapes;
         let mut chain = std::iter::successors(clip, |&clip| self.drawing.clips[clip].within);
         chain.all(|clip| self.open.get(&clip).is_some_and(|parts| parts.iter().any(|&p| self.lies_in(shapes[p].clip))))
     }
 
-    /// The shapes that are painted on the face, the topmost first.
+    /// The shapes that fill the face and are not clipped there, the topmost first.
     fn seen(&self) -> impl Iterator<Item = ShapeId> {
         self.filled.iter().rev().copied().filter(|&shape| self.lies_in(self.drawing.shapes[shape].clip))
     }
@@ -57,30 +57,30 @@ impl<'a> Paint<'a> {
         }
     }
 
-    /// Goes from the face of a curve's side to the face across the curve.
-    fn cross(&mut self, half: DirectedEdge, arrangement: &Arrangement) {
-        for (source, against) in arrangement.drawn_along(half.curve) {
+    /// Updates the paint from the face on the left of `half` to the face across its curve.
+    fn cross(&mut self, directed: DirectedEdge, arrangement: &Arrangement) {
+        for (source, against) in arrangement.drawn_along(directed.curve) {
             if let Some(shape) = arrangement.drawing.curves[source as usize].shape {
-                // The left of a curve that runs once around a shape winds once more than its right.
-                let leaves_left = (half.side == Side::Left) != against;
+                // The winding number on the left of a curve is greater by one than that on its right.
+                let leaves_left = (directed.side == Side::Left) != against;
                 self.add(shape, if leaves_left { -1 } else { 1 });
             }
         }
     }
 }
 
-/// Names of fragments list so many names of shapes, and as many as come to so many bytes: the topmost ones.
+/// The name of a fragment lists at most this many names of shapes, in about this many bytes: the topmost ones.
 const LISTED_MAX: usize = 8;
 
 const LISTED_BYTES: usize = 120;
 
-/// Shapes looked at for them: many may have one name.
+/// The largest number of shapes read for one name: many shapes may have the same name.
 const LOOKED_AT: usize = 64;
 
-/// Names of the sets of shapes that fill faces.
+/// Names for the sets of shapes that fill faces.
 struct FragmentNames<'a> {
     names: &'a mut Names,
-    /// By the names listed and the number of the shapes below that are not.
+    /// By the listed names and the number of further shapes below.
     known: BTreeMap<(Vec<NameId>, usize), NameId>,
 }
 
@@ -112,7 +112,7 @@ impl FragmentNames<'_> {
         let texts: Vec<&str> = key.0.iter().map(|&name| self.names.text(name)).collect();
         let more = if key.1 > 0 { format!("+{} more", key.1) } else { String::new() };
         let text = texts.join("+") + &more;
-        // A shape may itself be called so.
+        // A shape may already have this name.
         let others = (2..).map(|k| format!("{text}#{k}"));
         let free = std::iter::once(text.clone()).chain(others).find(|text| self.names.find(text).is_none());
         let name = self.names.intern(&free.unwrap_or(text));
@@ -121,7 +121,7 @@ impl FragmentNames<'_> {
     }
 }
 
-/// The name of each face by the shapes that fill it: the topmost one or, of `fragments`, all.
+/// The name of each face by the shapes that are visible on it: the topmost one or, with `fragments`, all.
 pub(super) fn painted(
     arrangement: &Arrangement,
     faces: &Faces,
@@ -145,7 +145,7 @@ pub(super) fn painted(
     painters.into_iter().map(|painter| painter.and_then(|id| named[id])).collect()
 }
 
-/// The topmost shape seen on each face, or all. All outlines must be there.
+/// The topmost shape on each face, or all shapes on it. All outlines must still be edges.
 pub(super) fn painters(arrangement: &Arrangement, faces: &Faces, all: bool) -> (Seen, Vec<Option<SeenId>>) {
     let mut seen = Seen::default();
     let most = if all { usize::MAX } else { 1 };
@@ -153,8 +153,8 @@ pub(super) fn painters(arrangement: &Arrangement, faces: &Faces, all: bool) -> (
     (seen, painters)
 }
 
-/// Whether each edge is one that curves of no shape run along, of which one lies in its clip or has none. All outlines
-/// must be there.
+/// By edge: whether a curve that belongs to no shape runs along it and is not clipped there. All outlines must still be
+/// edges.
 pub(super) fn lines_in_clips(arrangement: &Arrangement, faces: &Faces) -> IdVec<CurveId, bool> {
     let lines = |id: CurveId| {
         let drawn = arrangement.drawn_along(id).map(|(source, _)| &arrangement.drawing.curves[source as usize]);
@@ -164,8 +164,8 @@ pub(super) fn lines_in_clips(arrangement: &Arrangement, faces: &Faces) -> IdVec<
         arrangement.edges.ids().map(|id| lines(id).any(|clip| clip.is_none())).collect();
     if !arrangement.drawing.clips.is_empty() {
         by_paint(arrangement, faces, |cycles, paint| {
-            for half in cycles.iter().flat_map(|&cycle| &faces.cycles[cycle].edges) {
-                kept[half.curve] |= lines(half.curve).any(|clip| paint.lies_in(clip));
+            for directed in cycles.iter().flat_map(|&cycle| &faces.cycles[cycle].edges) {
+                kept[directed.curve] |= lines(directed.curve).any(|clip| paint.lies_in(clip));
             }
             None::<()>
         });
@@ -173,8 +173,8 @@ pub(super) fn lines_in_clips(arrangement: &Arrangement, faces: &Faces) -> IdVec<
     kept
 }
 
-/// What is seen in each face, as noted on the curves around it. They agree, but where a tolerance moved one over
-/// another: then most of the border says.
+/// The visible shapes of each face, as noted on the edges around it. The notes agree, except where a tolerance moved
+/// one edge over another: then the greatest length of border decides.
 fn painters_beside(arrangement: &Arrangement, faces: &Faces) -> Vec<Option<SeenId>> {
     let mut votes: Vec<BTreeMap<Option<SeenId>, f64>> = vec![BTreeMap::new(); faces.cycles.len()];
     for (id, edge) in arrangement.edges.enumerate() {
@@ -189,7 +189,15 @@ fn painters_beside(arrangement: &Arrangement, faces: &Faces) -> Vec<Option<SeenI
     votes.into_iter().map(|votes| most(votes).and_then(|(seen, _)| seen)).collect()
 }
 
-/// What is said of every bounded face by the cycles that bound it and the shapes that fill it.
+/// The result of `of` for every bounded face. It is called with the cycles that bound the face and the face's paint.
+///
+/// ```text
+///    ╭──── A ────────╮       A tour of the faces, by crossing edges and returning. From the unbounded face 1 into 2: A
+///    │ 2  ╭── B ──╮  │   1   is added. Into 3: B is added. Back into 2: B is taken off. Back into 1: A is taken off.
+///    │    │   3   │  │
+///    │    ╰───────╯  │
+///    ╰───────────────╯
+/// ```
 fn by_paint<T>(
     arrangement: &Arrangement,
     faces: &Faces,
@@ -214,13 +222,13 @@ fn by_paint<T>(
     let mut steps: Vec<Step> = sides(None).map(Step::Cross).collect();
     while let Some(step) = steps.pop() {
         match step {
-            Step::Return(half) => paint.cross(half.twin(), arrangement),
-            Step::Cross(half) => {
-                let Some(face) = faces.face(half.twin()).filter(|&face| !seen[face]) else { continue };
+            Step::Return(directed) => paint.cross(directed.twin(), arrangement),
+            Step::Cross(directed) => {
+                let Some(face) = faces.face(directed.twin()).filter(|&face| !seen[face]) else { continue };
                 seen[face] = true;
-                paint.cross(half, arrangement);
+                paint.cross(directed, arrangement);
                 said[face] = of(&cycles(Some(face)).collect::<Vec<usize>>(), &paint);
-                steps.push(Step::Return(half));
+                steps.push(Step::Return(directed));
                 steps.extend(sides(Some(face)).map(Step::Cross));
             }
         }

@@ -1,4 +1,12 @@
-//! Regions: which faces are kept, what seeds and labels say of them, and their names.
+//! Regions: which faces are kept, which seeds and labels lie in them, and their names.
+//!
+//! ```text
+//!   ╭──────────────────╮       A seed × belongs to the face in which it lies: the one on the visible side of a curve
+//!   │ × steel  ╭─────╮ │       next to it. × steel names the outer face; ○ makes the inner one a hole.
+//!   │          │  ○  │ │
+//!   │          ╰─────╯ │
+//!   ╰──────────────────╯
+//! ```
 
 use super::arrangement::Arrangement;
 use super::error::{ArrangeError, Unarranged};
@@ -14,15 +22,19 @@ use crate::ids::{LayerId, NameId, RegionId};
 use crate::watch::{Stopped, Watch};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// What the seeds say of a face.
+/// What a seed makes of the face in which it lies.
 #[derive(Clone, Copy, PartialEq, Debug)]
 enum Said {
     Hole,
     Region(NameId, Option<f64>),
 }
 
-/// Chooses the kept faces, names their regions and writes them on the sides of the curves. `arrangement` is what the domain
-/// was made of.
+/// Chooses the faces that are kept, names their regions and writes them on the sides of the curves. `domain` was made
+/// of `arrangement`.
+///
+/// # Errors
+///
+/// Where no face is kept, and where `watch` ends the run.
 pub(super) fn keep(
     arrangement: &Arrangement,
     domain: &mut Domain,
@@ -52,7 +64,7 @@ pub(super) fn keep(
         };
     }
     let region_of = name_regions(arrangement, domain, faces, &kept, |face| named[face], &areas);
-    let region = |half: DirectedEdge| faces.face(half).and_then(|face| region_of[face]);
+    let region = |directed: DirectedEdge| faces.face(directed).and_then(|face| region_of[face]);
     for id in domain.curves.ids() {
         let sides = [Side::Left, Side::Right].map(|side| region(DirectedEdge { curve: id, side }));
         domain.curves[id].sides = sides;
@@ -60,7 +72,7 @@ pub(super) fn keep(
     Ok(())
 }
 
-/// What the seeds say, by face. Holes win over region names; of several names the first.
+/// The seed that decides about each face. Holes take precedence over region names, and of several names the first.
 fn read_seeds(
     arrangement: &Arrangement,
     domain: &mut Domain,
@@ -101,7 +113,7 @@ fn read_seeds(
     Ok(said)
 }
 
-/// The text that stands in each face, where there is one only.
+/// The text in each face, where there is exactly one.
 fn read_labels<'a>(
     arrangement: &Arrangement<'a>,
     domain: &Domain,
@@ -121,7 +133,7 @@ fn read_labels<'a>(
     Ok(said.into_iter().map(|texts| texts.first().copied().filter(|_| texts.len() == 1)).collect())
 }
 
-/// The area of every bounded face: its own cycle less the outlines of the components in it.
+/// The area of every bounded face: the area of its own cycle minus those enclosed by the components in it.
 fn face_areas(faces: &Faces) -> Vec<f64> {
     let mut areas: Vec<f64> = faces.cycles.iter().map(|c| c.area).collect();
     for (component, parent) in faces.parent.iter().enumerate() {
@@ -132,8 +144,8 @@ fn face_areas(faces: &Faces) -> Vec<f64> {
     areas
 }
 
-/// One region for each name and area limit that is given, in order of the names; then one for each other kept face, the
-/// largest first, under a name that no other region has.
+/// Makes one region for each given name and area limit, in the order of the names. Then makes one for each other kept
+/// face, the largest first, under a name that no other region has. Returns the region of each face.
 fn name_regions(
     arrangement: &Arrangement,
     domain: &mut Domain,
@@ -177,13 +189,13 @@ fn name_regions(
     region_of
 }
 
-/// The layer that most of the outline of a face is drawn on; `None` where the file has no layers, or for the one that
+/// The layer with the greatest part of a face's outline. `None` where the file has no layers, and for layer 0, which
 /// every file has.
 fn layer_of_outline<'a>(arrangement: &Arrangement<'a>, faces: &Faces, face: usize) -> Option<&'a str> {
     let drawing = arrangement.drawing;
     let mut lengths: BTreeMap<LayerId, f64> = BTreeMap::new();
-    for half in &faces.cycles[face].edges {
-        let edge = &arrangement.edges[half.curve];
+    for directed in &faces.cycles[face].edges {
+        let edge = &arrangement.edges[directed.curve];
         if let Some(layer) = drawing.curves[edge.source as usize].layer {
             *lengths.entry(layer).or_default() += extent(edge.bounds);
         }
@@ -192,7 +204,7 @@ fn layer_of_outline<'a>(arrangement: &Arrangement<'a>, faces: &Faces, face: usiz
     Some(drawing.layers[layer].name.as_str()).filter(|name| !name.is_empty() && *name != "0")
 }
 
-/// Names that no region has yet: of the layer, or `region`; with a number where several would have one.
+/// Names that no region has yet: the layer's name, or `region`, with a number where several would be equal.
 fn numbered(domain: &Domain, outlines: &[Option<&str>]) -> Vec<String> {
     let mut taken: BTreeSet<String> = domain.regions.iter().map(|r| domain.name(r.name).to_owned()).collect();
     let bases: Vec<&str> = outlines.iter().map(|outline| outline.unwrap_or("region")).collect();
@@ -213,7 +225,7 @@ fn numbered(domain: &Domain, outlines: &[Option<&str>]) -> Vec<String> {
     names
 }
 
-/// Says why no face is kept, at the first free end if that is why.
+/// The error that says why no face is kept; at the first free end, if free ends are the reason.
 fn nothing_to_mesh(arrangement: &Arrangement, faces: &Faces, rule: FillRule) -> ArrangeError {
     let has_faces = faces.cycles.len() > faces.outer.len();
     let first = arrangement.drawing.curves.first().map_or(Point::ORIGIN, |c| c.curve.start());
@@ -235,7 +247,7 @@ fn nothing_to_mesh(arrangement: &Arrangement, faces: &Faces, rule: FillRule) -> 
     ArrangeError::new(what, end.at, format!("{away}close the outline by another curve"))
 }
 
-/// That clips leave nothing of the shapes, where all are cut.
+/// The error that clips cut away all shapes; `None` where some shape is not clipped.
 fn cut_away(drawing: &Drawing, rule: FillRule) -> Option<ArrangeError> {
     match rule {
         FillRule::Shapes | FillRule::EvenOddAndShapes => {}
@@ -255,7 +267,7 @@ fn cut_away(drawing: &Drawing, rule: FillRule) -> Option<ArrangeError> {
     Some(ArrangeError::new(what, at, "move the clip over what it cuts, or take it off"))
 }
 
-/// Why no face of a drawing that has some is kept.
+/// The error that says why none of a drawing's faces is kept.
 fn all_outside(rule: FillRule, at: Point) -> ArrangeError {
     let error = |what: &str, help: &str| ArrangeError::new(format!("nothing to mesh: {what}"), at, help);
     match rule {

@@ -1,12 +1,12 @@
-//! What was mended on the way in, and where.
+//! What was repaired when a drawing was arranged, and where.
 
 use std::collections::BTreeMap;
 
-/// Something that was mended on the way in, with its place and size (a length, in units of the drawing): how far ends
-/// moved, how wide the gap between curves was that became one, how large what was lost; 0 where nothing moved.
+/// A repair, with its place and its size. The size is a length in units of the drawing: how far ends moved, how wide
+/// the gap was between curves that became one, or how large the lost feature was; 0 where nothing moved.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, schemars::JsonSchema)]
 pub struct Repair {
-    /// What was mended.
+    /// What was repaired.
     pub kind: RepairKind,
     /// The place, in the drawing's coordinates: [x, y].
     pub at: [f64; 2],
@@ -48,7 +48,7 @@ pub enum RepairKind {
 }
 
 impl RepairKind {
-    /// What it is called, of one and of several.
+    /// Its name in messages: singular and plural.
     pub fn words(self) -> [&'static str; 2] {
         match self {
             Self::ToleranceRaised => ["tolerance raised", "tolerances raised"],
@@ -68,56 +68,59 @@ impl RepairKind {
 }
 
 impl Repair {
-    /// Place and size times a factor.
+    /// Multiplies place and size by a factor.
     pub(in crate::domain) fn scale(&mut self, factor: f64) {
         self.at = self.at.map(|x| x * factor);
         self.size *= factor;
     }
 }
 
-/// Square cells. What lies so far out that its cell has no number, as a drawn point may, is put into the last.
+/// A grid of square cells, numbered from the origin. Places too far out for a number, as a drawn point may be, belong
+/// to the last cell.
 #[derive(Clone, Copy)]
 pub(super) struct Cells {
     width: f64,
 }
 
 impl Cells {
+    /// Cells as wide as a tolerance.
     pub fn as_wide_as(tolerance: f64) -> Self {
         Self { width: tolerance }
     }
 
-    /// Wider than a repair moves anything.
+    /// Cells four times as wide as a tolerance: wider than a repair moves anything.
     pub fn wider_than(tolerance: f64) -> Self {
         Self { width: 4.0 * tolerance }
     }
 
+    /// The cell of a place.
     pub fn of(self, at: [f64; 2]) -> [i64; 2] {
         const LAST: f64 = (1u64 << 62) as f64;
         at.map(|x| (x / self.width).floor().clamp(-LAST, LAST) as i64)
     }
 
-    /// The cell of a place and the ones around it.
+    /// The cell of a place and the eight cells around it.
     pub fn around(self, at: [f64; 2]) -> impl Iterator<Item = [i64; 2]> {
         let [i, j] = self.of(at);
         (-1..=1).flat_map(move |di| (-1..=1).map(move |dj| [i + di, j + dj]))
     }
 }
 
-/// How many repairs of a kind were made about each place: by square cells.
+/// The number of repairs of each kind in each cell.
 pub(super) struct Places {
     cells: Cells,
     counts: BTreeMap<(RepairKind, [i64; 2]), usize>,
 }
 
 impl Places {
+    /// Counts repairs by kind and cell.
     pub fn of(repairs: &[Repair], cells: Cells) -> Self {
         let mut counts = BTreeMap::new();
         repairs.iter().for_each(|repair| *counts.entry((repair.kind, cells.of(repair.at))).or_default() += 1);
         Self { cells, counts }
     }
 
-    /// Whether there is a repair of the same kind in the same cell or the ones around it, which then is there no
-    /// longer.
+    /// Whether a repair of the same kind is left in the same cell or the eight around it; if so, takes one away.
     pub fn take(&mut self, repair: &Repair) -> bool {
         for cell in self.cells.around(repair.at) {
             if let Some(count) = self.counts.get_mut(&(repair.kind, cell)).filter(|count| **count > 0) {

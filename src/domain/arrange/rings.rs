@@ -1,15 +1,15 @@
 //! Outlines that miss closing: rings of chains whose free ends are nearest to each other, with gaps that are short
-//! beside the chains.
+//! compared with the chains.
 //!
 //! ```text
-//!    ┌──────────┐          Each free end is linked with its nearest one where the gap is below a twentieth of both chains. A link between
-//!    │          │          parts that are connected already closes a ring: the way from one end to the other along edges and earlier
-//!    └─────── ──┘          links. A ring that is hardly wider than its gaps is a pair of parallel lines.
-//!           gap
+//!    ┌──────────┐       Each free end is linked with its nearest one where the gap is below a twentieth of both
+//!    │          │       chains. A link between places that are already connected closes a ring: the way from one end
+//!    └─────── ──┘       to the other, along edges and earlier links. A ring hardly wider than its gaps is a pair of
+//!           gap         parallel lines, and no outline.
 //! ```
 //!
-//! A free end without such a link may stop short of the inside of another open line, which goes on beyond the corner:
-//! it is linked with the nearest point there, under the same limits.
+//! A free end without such a link may stop short of the inside of another open line, which goes on beyond that point.
+//! It is linked with the nearest point of the line, under the same limits.
 
 use super::arrangement::Arrangement;
 use super::ends::{FreeEnd, Gap, Owner, Short, nearest_ends};
@@ -21,19 +21,19 @@ use std::collections::{BTreeSet, VecDeque};
 /// An outline misses closing where each gap is below this part of the shorter chain at it.
 const MISSED: f64 = 1.0 / 20.0;
 
-/// A ring is at least so many times as wide as its widest gap.
+/// A ring is more than this many times as wide as its widest gap.
 const WIDE: f64 = 2.0;
 
-/// Places that are looked at, for all rings together: some seconds.
+/// The budget of search steps for all rings together: some seconds.
 const STEPS_MAX: usize = 1 << 24;
 
-/// Gaps that a message lists.
+/// The largest number of gaps that a message lists.
 const LISTED: usize = 4;
 
-/// Shorter lengths are written with an exponent.
+/// Lengths below this are written with an exponent.
 const PLAIN: f64 = 1e-4;
 
-/// Along what a ring goes from one place to the next.
+/// What connects one place of a ring with the next.
 #[derive(Clone, Copy)]
 enum Via {
     Edge(CurveId),
@@ -41,26 +41,26 @@ enum Via {
     Gap(Gap),
     /// From a free end to the inside of an open line.
     Short(Short),
-    /// From one parameter of a line to another: between its ends and the points that ends stop short of.
+    /// A line between two of its parameters: its ends, and the feet of free ends that stop short of it.
     Part(CurveId, [f64; 2]),
 }
 
-/// Chains that close up where each gap is bridged.
+/// A closed way of chains and of the gaps between them.
 struct Ring {
     gaps: Vec<Gap>,
     shorts: Vec<Short>,
     off_plane: BTreeSet<usize>,
 }
 
-/// Nodes, then both ends of each entity that leaves the plane, then the points that free ends stop short of; what leads
-/// from each to others.
+/// The graph in which rings are searched. Its places are numbered: the nodes, then both ends of each entity that leaves
+/// the plane, then the feet of free ends that stop short of lines.
 struct Ways<'n, 'a> {
     arrangement: &'n Arrangement<'a>,
     ends: &'n [FreeEnd],
     shorts: &'n [Short],
     from: Vec<Vec<(usize, Via)>>,
     steps_left: usize,
-    /// By place: the search that reached it last, and from where.
+    /// By place: the search that reached it last, and the place and connection from which it did.
     reached: Vec<(usize, usize, Via)>,
     searches: usize,
 }
@@ -89,7 +89,7 @@ impl<'n, 'a> Ways<'n, 'a> {
         ways
     }
 
-    /// Lines that ends stop short of, in parts from one such point to the next.
+    /// Adds the lines that ends stop short of, in parts from one foot to the next.
     fn add_parts(&mut self) {
         let mut feet: Vec<(CurveId, f64, usize)> =
             self.shorts.iter().enumerate().map(|(k, short)| (short.onto, short.t, self.foot(k))).collect();
@@ -113,7 +113,7 @@ impl<'n, 'a> Ways<'n, 'a> {
         }
     }
 
-    /// The place of the point that an end stops short of.
+    /// The place of the foot of short `k`.
     fn foot(&self, k: usize) -> usize {
         self.from.len() - self.shorts.len() + k
     }
@@ -131,7 +131,7 @@ impl<'n, 'a> Ways<'n, 'a> {
         self.from[b].push((a, via));
     }
 
-    /// What may close a ring: across gaps, then from ends to their feet on lines.
+    /// The links that may close a ring: those across gaps, then those from ends to their feet on lines.
     fn links(&self, gaps: &[Gap]) -> Vec<([usize; 2], Via)> {
         let place = |end: usize| self.place_of(self.ends[end].owner);
         let across = gaps.iter().map(|gap| (gap.ends.map(place), Via::Gap(*gap)));
@@ -139,8 +139,8 @@ impl<'n, 'a> Ways<'n, 'a> {
         across.chain(self.shorts.iter().enumerate().map(onto)).collect()
     }
 
-    /// The ring that a link from one place to another closes: by the way of the fewest steps. `None` where it is too
-    /// narrow, or not found within the budget.
+    /// The ring that a link between two places closes, by the way of the fewest steps. `None` where it is too narrow,
+    /// or not found within the budget.
     fn ring(&mut self, [start, goal]: [usize; 2], link: Via) -> Option<Ring> {
         let mut via = self.way(start, goal)?;
         via.push((goal, start, link));
@@ -159,7 +159,8 @@ impl<'n, 'a> Ways<'n, 'a> {
         (width > WIDE * widest).then_some(ring)
     }
 
-    /// The steps from one place to another, each with where it begins and ends.
+    /// The shortest way from one place to another by breadth-first search: steps, each with the places where it begins
+    /// and ends.
     fn way(&mut self, start: usize, goal: usize) -> Option<Vec<(usize, usize, Via)>> {
         self.searches += 1;
         let mut queue = VecDeque::from([start]);
@@ -190,7 +191,7 @@ impl<'n, 'a> Ways<'n, 'a> {
         Some(steps)
     }
 
-    /// Twice the area within a closed way over its length: the width of a long strip.
+    /// Twice the area within a closed way, over its length: for a long strip, its width.
     fn width(&self, way: &[(usize, usize, Via)]) -> f64 {
         let origin = self.at(way[0].0);
         let (mut area, mut length) = (0.0, 0.0);
@@ -221,16 +222,16 @@ impl<'n, 'a> Ways<'n, 'a> {
     }
 }
 
-/// Why a drawing is refused whose outlines miss closing; `None` where none do.
+/// The error of a drawing whose outlines miss closing; `None` where none do.
 ///
 /// ```text
-///   ╭──── · 1 ─────╮        Links are added one after the other, the narrowest gaps first. Link 1 joins two parts. Link 2 is between places
-///   │              │        that are connected by then: it closes a ring, by the way around through 1, and both gaps are missing.
-///   ╰──── · 2 ─────╯
+///   ╭──── · 1 ─────╮      Links are added one after the other, the narrowest gaps first. Link 1 joins two parts. Link
+///   │              │      2 is between places that are connected by then, so it closes a ring, by the way through 1.
+///   ╰──── · 2 ─────╯      Both gaps are reported.
 ///
-///   ╭──────────────╮        Link 3 is from an end that stops short of an open line to its foot, the nearest point there. The line up to the
-///   │              · 3      foot is part of the ring; what goes on beyond it is not.
-///   ╰──────────────·──────
+///   ╭──────────────╮           Link 3 is from an end that stops short of an open line to its foot, the nearest point
+///   │              · 3         there. The part of the line up to the foot belongs to the ring; the part beyond it does
+///   ╰──────────────·──────     not.
 /// ```
 pub(super) fn missed_rings(arrangement: &Arrangement, ends: &[FreeEnd]) -> Option<ArrangeError> {
     let gaps = missed_gaps(ends);
@@ -242,7 +243,7 @@ pub(super) fn missed_rings(arrangement: &Arrangement, ends: &[FreeEnd]) -> Optio
     leaves_plane(arrangement, &rings).or_else(|| misses_closing(arrangement, ends, &rings))
 }
 
-/// Gaps between nearest free ends that are short beside both chains, each once, the narrowest first.
+/// Gaps between nearest free ends that are short compared with both chains, each once, the narrowest first.
 fn missed_gaps(ends: &[FreeEnd]) -> Vec<Gap> {
     let all: Vec<usize> = (0..ends.len()).collect();
     let mut gaps = nearest_ends(ends, &all, |i| MISSED * ends[i].chain);
@@ -253,7 +254,7 @@ fn missed_gaps(ends: &[FreeEnd]) -> Vec<Gap> {
     gaps
 }
 
-/// Free ends without such a gap that stop short of open lines, under the same limits.
+/// The free ends in none of `gaps` that stop short of open lines, under the same limits.
 fn missed_lines(arrangement: &Arrangement, ends: &[FreeEnd], gaps: &[Gap]) -> Vec<Short> {
     let linked: BTreeSet<usize> = gaps.iter().flat_map(|gap| gap.ends).collect();
     let left: Vec<usize> = (0..ends.len()).filter(|i| !linked.contains(i)).collect();
@@ -262,7 +263,7 @@ fn missed_lines(arrangement: &Arrangement, ends: &[FreeEnd], gaps: &[Gap]) -> Ve
     shorts
 }
 
-/// The rings that links across gaps, then those onto lines, close one after the other.
+/// The rings that the links close, when they are added one after the other.
 fn closed_by(gaps: &[Gap], mut ways: Ways) -> Vec<Ring> {
     let mut parts = Forest::new(ways.from.len());
     for (here, ways) in ways.from.iter().enumerate() {
@@ -280,7 +281,7 @@ fn closed_by(gaps: &[Gap], mut ways: Ways) -> Vec<Ring> {
     rings
 }
 
-/// A ring that an entity which is left out would close.
+/// The error of a ring that runs along an entity which leaves the plane and is left out.
 fn leaves_plane(arrangement: &Arrangement, rings: &[Ring]) -> Option<ArrangeError> {
     let &k = rings.iter().find_map(|ring| ring.off_plane.first())?;
     let entity = &arrangement.drawing.off_plane[k];
@@ -288,15 +289,15 @@ fn leaves_plane(arrangement: &Arrangement, rings: &[Ring]) -> Option<ArrangeErro
     Some(ArrangeError::new(what, entity.ends[0], "--flatten-z projects it onto the plane"))
 }
 
-/// What a ring lacks to be closed.
+/// A gap that keeps a ring from closing.
 struct Missing {
     width: f64,
     at: Point,
-    /// What lies how far apart.
+    /// Says which ends are how far apart.
     text: String,
 }
 
-/// All that rings lack: gaps, then ends that stop short of lines, in the order of the ends, each once.
+/// The gaps of all rings: those between free ends, then those from ends to lines, in the order of the ends, each once.
 fn missing(arrangement: &Arrangement, ends: &[FreeEnd], rings: &[Ring]) -> Vec<Missing> {
     let mut gaps: Vec<Gap> = rings.iter().flat_map(|ring| ring.gaps.iter().copied()).collect();
     gaps.sort_by_key(|gap| gap.ends);
@@ -316,7 +317,7 @@ fn missing(arrangement: &Arrangement, ends: &[FreeEnd], rings: &[Ring]) -> Vec<M
     across.chain(onto).collect()
 }
 
-/// Lists what is missing, with the option that closes it.
+/// The error that lists the gaps, with the option that closes them.
 fn misses_closing(arrangement: &Arrangement, ends: &[FreeEnd], rings: &[Ring]) -> Option<ArrangeError> {
     let missing = missing(arrangement, ends, rings);
     let widest = missing.iter().map(|missing| missing.width).reduce(f64::max)?;
@@ -335,7 +336,7 @@ fn misses_closing(arrangement: &Arrangement, ends: &[FreeEnd], rings: &[Ring]) -
     Some(ArrangeError { also_at, ..ArrangeError::new(what, missing[0].at, help) })
 }
 
-/// A little more than a positive length, in two digits.
+/// A positive length, rounded up to two digits.
 fn rounded_up(length: f64) -> String {
     let unit = libm::pow(10.0, libm::floor(libm::log10(length)) - 1.0);
     let digits = libm::ceil(length * (1.0 + 1e-9) / unit);

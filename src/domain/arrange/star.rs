@@ -1,5 +1,5 @@
-//! Stars: the curves at every point, counter-clockwise. The order is topological: where tangents do not tell, it is
-//! read off a circle.
+//! Stars: the curves at every point, counter-clockwise. Where tangents do not decide the order, it is read off a circle
+//! around the point.
 
 use super::error::{ArrangeError, Unarranged};
 use crate::curve::{Curve, End};
@@ -13,10 +13,14 @@ use std::cmp::Ordering;
 use std::f64::consts::PI;
 use std::ops::Range;
 
-/// Circles that are tried around a point, each half the one before.
+/// The number of circles that are tried around a point, each with half the radius of the one before.
 const CIRCLES: usize = 24;
 
-/// The star of every point.
+/// The star of every point: its curves, counter-clockwise.
+///
+/// # Errors
+///
+/// Where curves run so near to each other that rounding hides their order, and where `watch` ends the run.
 pub(super) fn stars(
     points: &IdVec<PointId, Point>,
     curves: &IdVec<CurveId, DomainCurve>,
@@ -45,10 +49,10 @@ fn order(at: Point, star: &mut Vec<Incident>, curves: &IdVec<CurveId, DomainCurv
     }
     let mut leaving: Vec<(Vec2, Incident)> = star.iter().map(|i| (curve(i).direction_at(i.end), *i)).collect();
     leaving.sort_by(|a, b| angle(a.0).total_cmp(&angle(b.0)).then(a.1.curve.cmp(&b.1.curve)));
-    // Two curves that leave at an angle θ may bend towards each other and cross at once, θ²/κ deep; at 1e-3 that is
-    // more than rounding (1e-14) for radii of curvature down to 1e-8.
+    // Two curves that leave at an angle θ may bend towards each other and cross at once, at a depth of θ²/κ. At 1e-3
+    // that is more than rounding (1e-14) for radii of curvature down to 1e-8.
     let are_tied = |a: &(Vec2, Incident), b: &(Vec2, Incident)| turn_from(a.0, b.0).abs() <= TANGENTS_TELL;
-    // Begin between two that are not tied, so that no group of tied ones straddles the beginning.
+    // Begin between two that are not tied, so that no group of tied ones is split between beginning and end.
     let n = leaving.len();
     let begin = (0..n).find(|&k| !are_tied(&leaving[(k + n - 1) % n], &leaving[k])).unwrap_or(0);
     leaving.rotate_left(begin);
@@ -63,9 +67,9 @@ fn order(at: Point, star: &mut Vec<Incident>, curves: &IdVec<CurveId, DomainCurv
     Ok(())
 }
 
-/// Sorts curves that leave in one direction, from right to left. A circle may part some of them only: a short curve
-/// allows none that is large enough for two long ones beside it. Those that it leaves together are parted by circles of
-/// their own.
+/// Sorts curves that leave in one direction, from right to left. One circle may separate only some of them: beside a
+/// short curve no circle is large enough for two long ones. The curves that it leaves together are separated by circles
+/// of their own.
 fn order_tied(
     at: Point,
     ahead: Vec2,
@@ -81,9 +85,18 @@ fn order_tied(
     Ok(())
 }
 
-/// Sorts curves by where they first leave a circle around the point, and tells which of them, next to each other, it
-/// did not part. Curves that meet nowhere inside it and keep to the half plane ahead leave it in the order in which
-/// they lie, whatever its radius: the largest circle that all of them reach so tells them apart best.
+/// Sorts curves by where they first leave a circle around the point. Returns the runs of neighbours that the circle
+/// does not separate. Curves that meet nowhere inside the circle and stay in the half plane ahead leave it in the order
+/// in which they lie, whatever its radius. The largest circle that all of them leave separates them best.
+///
+/// ```text
+///    ╭───c────b────a───╮      a, b and c leave the point `at` in the direction `ahead`, here upwards. On the circle of
+///    │    ╲   │   ╱    │      `radius` they are apart: their exits, from right to left, are a, b, c.
+///    │     ╲  │  ╱     │
+///    │      ╰╮│╭╯      │
+///    │        │        │
+///    ╰────── at ───────╯
+/// ```
 fn part(
     at: Point,
     ahead: Vec2,
@@ -94,15 +107,15 @@ fn part(
         let curve = &curves[i.curve].curve;
         (0..=8).map(|k| curve.point(f64::from(k) / 8.0).distance(at)).fold(0.0, f64::max)
     };
-    // Half as far as the curve with the shortest reach: two curves that share both ends are widest apart about there.
+    // Half the shortest reach: two curves that share both ends are about widest apart there.
     let mut radius = tied.iter().map(reach).fold(f64::INFINITY, f64::min) / 2.0;
     for _ in 0..CIRCLES {
         let exits: Option<Vec<Point>> = tied.iter().map(|i| exit(at, ahead, curves, i, radius)).collect();
         if let Some(exits) = exits {
             let mut around: Vec<(Point, Incident)> = exits.into_iter().zip(tied.iter().copied()).collect();
             around.sort_by(|a, b| turn_from(b.0 - at, a.0 - at).total_cmp(&0.0).then(a.1.curve.cmp(&b.1.curve)));
-            // Rounding cannot have swapped neighbours that are 16 units in the last place apart; curves that run nearer
-            // than that are one.
+            // Rounding cannot swap neighbours that are more than 16 units in the last place apart. Nearer neighbours
+            // are not separated.
             let noise = 16.0 * f64::EPSILON * at.x.abs().max(at.y.abs()).max(radius);
             let mut from = 0;
             let runs = around.chunk_by(|a, b| a.0.distance(b.0) <= noise).map(|run| {
@@ -120,7 +133,8 @@ fn part(
     Err(undecided(at, tied, curves))
 }
 
-/// Where a curve first leaves a circle; `None` where it does not, or has turned out of the half plane ahead by then.
+/// Where a curve first leaves the circle. `None` where it does not, or where it may have left the half plane ahead
+/// before.
 fn exit(at: Point, ahead: Vec2, curves: &IdVec<CurveId, DomainCurve>, i: &Incident, radius: f64) -> Option<Point> {
     let curve = &curves[i.curve].curve;
     let t = curve.leaves_ball(i.end, radius, 0.0, 1.0)?;
@@ -129,7 +143,7 @@ fn exit(at: Point, ahead: Vec2, curves: &IdVec<CurveId, DomainCurve>, i: &Incide
         End::Finish => curve.turning(t, 1.0),
     };
     let point = curve.point(t);
-    // Less than 2π/5 keeps well clear of the half plane's border.
+    // A turning below 2π/5 is well below the π/2 of the half plane's border.
     (turning < 0.4 * PI && ahead.dot(point - at) > 0.0).then_some(point)
 }
 

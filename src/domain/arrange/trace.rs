@@ -1,8 +1,8 @@
-//! Cycles of curve sides, and the components that they go around.
+//! Cycles of directed edges, and the components that they go around.
 //!
 //! ```text
-//!    q ◀───────── p        A side is a curve travelled in one of its two directions, with a face on its left. The side p → q goes on with
-//!    │╲  face              the first curve clockwise of it in the star of q: b, not a.
+//!    q ◀───────── p      A directed edge is a curve travelled in one of its two directions, with a face on its left.
+//!    │╲  face            Its cycle goes on with the next curve clockwise in the star of q: after p → q comes b, not a.
 //!  a │  ╲ b
 //!    │    ╲
 //! ```
@@ -12,23 +12,28 @@ use crate::domain::locate::{Side, left_of};
 use crate::ids::{CurveId, Id, IdVec, PointId};
 use crate::watch::{Progress, Stopped, Watch};
 
-/// A curve side: the curve travelled forward has its face on the left, travelled backward the one on its right.
+/// A curve travelled in one of its directions: forward with the face on the curve's left, backward with the face on its
+/// right. In both cases the face lies on the left of the travel.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct DirectedEdge {
+    /// The curve.
     pub curve: CurveId,
+    /// The side of the curve on which the face lies: left of it where it is travelled forward.
     pub side: Side,
 }
 
 impl DirectedEdge {
+    /// A number below twice the number of curves, for tables by directed edge.
     pub fn index(self) -> usize {
         2 * self.curve.index() + self.side.index()
     }
 
+    /// The same curve travelled the other way.
     pub fn twin(self) -> Self {
         DirectedEdge { side: self.side.other(), ..self }
     }
 
-    /// The point from which this side is travelled.
+    /// The point at which it begins.
     pub fn tail(self, domain: &Domain) -> PointId {
         let [start, end] = domain.curves[self.curve].ends;
         match self.side {
@@ -38,34 +43,35 @@ impl DirectedEdge {
     }
 }
 
-/// Sides one after the other, each with the same face on its left.
+/// A closed sequence of directed edges with the same face on their left.
 pub(super) struct Cycle {
+    /// In the order of travel.
     pub edges: Vec<DirectedEdge>,
-    /// The signed area that it goes around: negative where the face lies outside of it.
+    /// The signed area that it encloses: negative where the face lies outside of the cycle.
     pub area: f64,
-    /// What it is connected with.
+    /// The connected component of its curves.
     pub component: usize,
 }
 
-/// The cycles of all sides, and their components.
+/// The cycles of all directed edges, and their components.
 pub(super) struct Cycles {
     /// By [`DirectedEdge::index`].
     pub cycle_of: Vec<usize>,
+    /// The cycles, in the order of their first curves.
     pub cycles: Vec<Cycle>,
-    /// By component: the cycle that sees the component from outside.
+    /// By component: its outer cycle, which has the face around the component on its left.
     pub outer: Vec<usize>,
 }
 
 impl Cycles {
-    /// Traces the cycles of a domain whose points, curves and stars stand.
+    /// Traces the cycles of a domain whose points, curves and stars are complete.
     pub fn trace(domain: &Domain, watch: &mut Watch) -> Result<Self, Stopped> {
         let component_of = components(domain);
         let (cycle_of, cycles) = cycles(domain, &component_of, watch)?;
         let count = cycles.iter().map(|c| c.component + 1).max().unwrap_or(0);
         let mut outer: Vec<Option<usize>> = vec![None; count];
         for (i, cycle) in cycles.iter().enumerate() {
-            // The signed areas of a component's cycles add up to nothing, and the one around it is the only negative
-            // one.
+            // The signed areas of a component's cycles add up to 0, and only that of the outer cycle is negative.
             let best = &mut outer[cycle.component];
             if best.is_none_or(|b| cycle.area < cycles[b].area) {
                 *best = Some(i);
@@ -74,22 +80,23 @@ impl Cycles {
         Ok(Self { cycle_of, cycles, outer: outer.into_iter().flatten().collect() })
     }
 
-    /// Whether a cycle is what is seen of its component from outside.
+    /// Whether a cycle is the outer one of its component.
     pub fn is_outer(&self, cycle: usize) -> bool {
         self.outer[self.cycles[cycle].component] == cycle
     }
 
-    /// The cycle of a side.
+    /// The cycle of a directed edge.
     pub fn of(&self, edge: DirectedEdge) -> &Cycle {
         &self.cycles[self.cycle_of[edge.index()]]
     }
 }
 
+/// The progress of tracing, with `queued` steps left.
 pub(super) fn tracing(domain: &Domain, queued: usize) -> Progress {
     Progress { phase: "tracing", vertices: domain.points.len(), queued }
 }
 
-/// The connected component of every point, numbered in order of their first curves.
+/// The connected component of every point. Components are numbered in the order of their first curves.
 fn components(domain: &Domain) -> IdVec<PointId, usize> {
     let mut component: IdVec<PointId, usize> = vec![usize::MAX; domain.points.len()].into();
     let mut count = 0;
@@ -112,13 +119,13 @@ fn components(domain: &Domain) -> IdVec<PointId, usize> {
     component
 }
 
-/// The cycle of every side, and the cycles.
+/// The cycle of every directed edge, and the cycles.
 fn cycles(
     domain: &Domain,
     component_of: &IdVec<PointId, usize>,
     watch: &mut Watch,
 ) -> Result<(Vec<usize>, Vec<Cycle>), Stopped> {
-    // Where each side's tail stands in the star of its point.
+    // The place of each directed edge in the star of its tail.
     let mut place = vec![0; 2 * domain.curves.len()];
     for star in domain.stars.iter() {
         for (k, &i) in star.iter().enumerate() {
@@ -152,7 +159,8 @@ fn cycles(
     Ok((cycle_of, cycles))
 }
 
-/// The signed area that a cycle goes around, by Green about one of its points; summed with Neumaier's compensation.
+/// The signed area that a cycle encloses, by Green's theorem about one of its points; summed with Neumaier's
+/// compensation.
 fn area(domain: &Domain, edges: &[DirectedEdge]) -> f64 {
     let Some(&first) = edges.first() else { return 0.0 };
     let origin = domain.points[first.tail(domain)];

@@ -1,5 +1,5 @@
-//! Welding: nodes within the tolerance become one, edges are cut and moved to end at their nodes, repeated edges
-//! become one.
+//! Welding: nodes within the tolerance become one, edges are cut and moved to end at their nodes, repeated edges become
+//! one.
 
 use super::arrangement::{Arrangement, Edge, NodeOrigin};
 use super::candidates::CUTS_MAX;
@@ -12,26 +12,30 @@ use crate::ids::{CurveId, Forest, Id, IdVec, PointId};
 use crate::watch::Watch;
 use std::collections::BTreeMap;
 
-/// Rounds of meeting and welding. Each round moves what it welds by a tolerance at most, which seldom makes a new
-/// meeting; a drawing that needs more rounds is one whose features lie as near to each other as its tolerance.
+/// Rounds of meeting and welding. Each round moves what it welds by at most a tolerance, which seldom makes a new
+/// meeting. In a drawing that needs more rounds, features lie as near to each other as its tolerance.
 const ROUNDS: usize = 48;
 
-/// After the first round edges meet where they were moved to, seldom twice on an edge. Where it is so often in the
-/// mean, whole bundles of curves lie within the tolerance of each other, and each round finds more of them.
+/// After the first round edges meet only because they were moved, seldom twice on one edge. If the mean is this many
+/// cuts an edge, whole bundles of curves lie within the tolerance of each other, and each round finds more of them.
 const CROWDED: usize = 32;
 
 impl Arrangement<'_> {
-    /// Meets and welds until nothing meets but at common ends.
+    /// Meets and welds until edges meet only at common ends.
     ///
-    /// **Invariant.** After every round each edge ends at the places of its two nodes, bit for bit; the nodes that
-    /// drawn ends and drawn points became are known; and every drawn curve that had a size either runs along some
-    /// edges (as source or as merged), or its loss is itemised at the end. On success the last round found nothing: no
-    /// node lies within the tolerance of an edge but at its ends, and no two edges meet but at common ends.
+    /// **Invariant.** After every round each edge ends at the places of its two nodes, bit for bit. The nodes of all
+    /// drawn ends and drawn points are recorded. Every drawn curve that had a size either runs along some edges (as
+    /// source or as merged), or its loss is listed at the end. On success the last round found nothing: a node lies
+    /// within the tolerance of an edge only where it is its end, and two edges meet only at common ends.
     ///
-    /// **Termination.** A round does one of two things to the nodes: it makes one of two, which lessens them; or it
-    /// cuts an edge at a place more than a tolerance from its ends, which the length of the drawing allows only so
-    /// often as long as edges stay where they are. Edges that move, by up to a tolerance, may meet others anew, so
-    /// this is no proof: the rounds have a budget, and its end is an error with the place.
+    /// **Termination.** A round does one of two things to the nodes. It makes one node of two, so there are fewer. Or
+    /// it cuts an edge more than a tolerance from its ends; as long as edges do not move, the length of the drawing
+    /// bounds the number of such cuts. Edges that move, by up to a tolerance, may meet others anew, so this is no
+    /// proof: the rounds have a budget, and when it is spent the result is an error with the place.
+    ///
+    /// # Errors
+    ///
+    /// Where the rounds do not suffice, where edges meet too often or too near to tell, and where `watch` ends the run.
     pub fn settle(&mut self, watch: &mut Watch) -> Result<(), Unarranged> {
         self.weld(Found::default());
         let mut at = Point::ORIGIN;
@@ -49,16 +53,17 @@ impl Arrangement<'_> {
         Err(ArrangeError::near(what, at, help).into())
     }
 
-    /// One round: clusters the nodes, cuts the edges, moves their ends to the clusters, and drops what is repeated or
-    /// of no length.
+    /// One round: clusters the nodes, cuts the edges, moves their ends to the clusters, and drops edges that are
+    /// repeated or have no length.
     ///
     /// ```text
-    ///   p ─────── a   b ─────── q           p ──────╲ ╱────── q       a and b are nearer to each other than the tolerance, and so is r. They
-    ///   r ───────────────────────     →              a                become one node, the one drawn first, at which r is cut, and to which
-    ///                                      r₁ ──────╱ ╲────── r₂      all edges are moved.
+    ///   p ────── a  b ────── q          p ─────╲ ╱───── q    a and b lie within the tolerance of each other, and so
+    ///                             ▶             a            does r. They become one node, the one that was drawn
+    ///  r₀ ────────────────── r₁        r₀ ─────╱ ╲───── r₁   first. r is cut there, and the ends of all edges are
+    ///                                                        moved to it.
     /// ```
     fn weld(&mut self, found: Found) {
-        let cuts = self.cuts_by_piece(found.cuts);
+        let cuts = self.cuts_by_edge(found.cuts);
         let clusters = self.clusters(&found.links, &cuts);
         self.replace_nodes(&clusters);
         self.rebuild(&clusters, cuts);
@@ -66,24 +71,25 @@ impl Arrangement<'_> {
     }
 
     /// Cuts sorted along each edge; ascending by edge.
-    fn cuts_by_piece(&self, mut cuts: Vec<Cut>) -> Vec<Cut> {
+    fn cuts_by_edge(&self, mut cuts: Vec<Cut>) -> Vec<Cut> {
         cuts.sort_by(|a, b| a.edge.cmp(&b.edge).then(a.t.total_cmp(&b.t)).then(a.node.cmp(&b.node)));
         cuts
     }
 
-    /// The node that stands for each node.
+    /// By node: the node of its cluster that is kept.
     fn clusters(&self, links: &[[PointId; 2]], cuts: &[Cut]) -> IdVec<PointId, PointId> {
         let mut forest = Forest::new(self.nodes.len());
         links.iter().for_each(|&[a, b]| forest.join(a.index(), b.index()));
         for pair in cuts.windows(2) {
-            // Cuts next to each other on one edge and in space are one, lest an edge falls between them.
+            // Neighbouring cuts on an edge that are also near in the plane become one, so that no tiny edge is left
+            // between them.
             if pair[0].edge == pair[1].edge && pair[0].at.distance(pair[1].at) <= self.tolerances.weld {
                 forest.join(pair[0].node.index(), pair[1].node.index());
             }
         }
         let order = self.by_rank();
         self.join_near(&order, &mut forest);
-        // The first by rank in each cluster stands for it.
+        // The first by rank in each cluster is kept.
         let mut standing: Vec<Option<PointId>> = vec![None; self.nodes.len()];
         for &id in &order {
             standing[forest.root(id.index())].get_or_insert(id);
@@ -98,11 +104,17 @@ impl Arrangement<'_> {
         order
     }
 
-    /// Joins every node to the nearest leader within the tolerance; a node that finds none becomes a leader. So no
-    /// cluster is wider than two tolerances, however close its neighbours stand.
+    /// Joins every node to the nearest leader within the tolerance. A node without such a leader becomes one. So no
+    /// cluster is wider than two tolerances, however near its neighbours are.
+    ///
+    /// ```text
+    ///       ╭───────╮ ╭───────╮       Leaders ● are more than `weld` apart, so a square cell as wide as `weld` holds
+    ///       │ ∘ ● ∘ │ │   ●  ∘│       at most four. Nodes ∘ join the nearest leader; a chain of near nodes makes
+    ///       ╰───────╯ ╰───────╯       several clusters.
+    /// ```
     fn join_near(&self, order: &[PointId], forest: &mut Forest) {
         let weld = self.tolerances.weld;
-        // The leaders by square cells as wide as the tolerance: none holds more than four, however many nodes crowd
+        // The leaders by square cells as wide as the tolerance. A cell holds at most four, however many nodes lie
         // there.
         let mut leaders: BTreeMap<[i64; 2], Vec<PointId>> = BTreeMap::new();
         let cells = Cells::as_wide_as(weld);
@@ -118,7 +130,7 @@ impl Arrangement<'_> {
         }
     }
 
-    /// Itemises drawn ends that move.
+    /// Lists drawn ends that move, and replaces the nodes of drawn ends and points by those of their clusters.
     fn replace_nodes(&mut self, clusters: &IdVec<PointId, PointId>) {
         for id in self.nodes.ids() {
             let (node, kept) = (self.nodes[id], self.nodes[clusters[id]]);
@@ -132,7 +144,7 @@ impl Arrangement<'_> {
         self.drawn_points.iter_mut().for_each(|node| *node = clusters[*node]);
     }
 
-    /// Cuts the edges and moves their ends; renumbers the nodes that are left.
+    /// Cuts the edges, moves their ends, and renumbers the nodes that are left.
     fn rebuild(&mut self, clusters: &IdVec<PointId, PointId>, cuts: Vec<Cut>) {
         let edges = std::mem::take(&mut self.edges);
         let mut rest = cuts.as_slice();
@@ -141,13 +153,13 @@ impl Arrangement<'_> {
             let (cuts, others) = rest.split_at(mine);
             rest = others;
             edge.ends = edge.ends.map(|end| clusters[end]);
-            self.cut_piece(edge, cuts, clusters);
+            self.cut_edge(edge, cuts, clusters);
         }
         self.renumber();
     }
 
-    /// The parts of an edge between its cuts.
-    fn cut_piece(&mut self, edge: Edge, cuts: &[Cut], clusters: &IdVec<PointId, PointId>) {
+    /// Places the parts of an edge between its cuts.
+    fn cut_edge(&mut self, edge: Edge, cuts: &[Cut], clusters: &IdVec<PointId, PointId>) {
         let inner: Vec<(Cut, PointId)> = cuts.iter().map(|cut| (*cut, clusters[cut.node])).collect();
         if inner.is_empty() {
             return self.place_part(edge);
@@ -179,8 +191,15 @@ impl Arrangement<'_> {
         }
     }
 
-    /// Moves the ends of a part to its nodes; drops it where nothing is left, and halves it first where that would bend
-    /// it out of shape.
+    /// Adds a part as an edge, with its ends moved to its nodes. Drops it where nothing is left. Halves it first where
+    /// the move would distort it.
+    ///
+    /// ```text
+    ///           ╭────╮                 A part whose chord ab is short beside its size: to move a or b by `moved` turns
+    ///           │    │                 and stretches the whole loop, by moved · size / chord. Halved at m, each half
+    ///           │    m                 has a long chord, and is hardly distorted.
+    ///           a b──╯
+    /// ```
     pub fn place_part(&mut self, part: Edge) {
         let weld = self.tolerances.weld;
         let [from, to] = part.ends.map(|end| self.nodes[end].at);
@@ -198,7 +217,8 @@ impl Arrangement<'_> {
         }
         let chord = start.distance(end);
         let moved = start.distance(from).max(end.distance(to));
-        // A similarity that moves the ends of a chord by `moved` moves what lies off it by `moved · size / chord`.
+        // A similarity that moves the ends of a chord by `moved` moves points off the chord by up to `moved · size /
+        // chord`.
         let bends = 4.0 * chord < size && moved * size > weld * chord;
         if part.ends[0] == part.ends[1] || bends {
             let middle = self.add_node(part.curve.point(0.5), NodeOrigin::Meeting(part.source));
@@ -210,7 +230,7 @@ impl Arrangement<'_> {
         }
     }
 
-    /// A whole drawn curve became one point.
+    /// Lists that a whole drawn curve became one point.
     fn itemise_lost(&mut self, part: &Edge, at: Point, size: f64) {
         let closed = part.curve.start().distance(part.curve.end()) < size / 2.0;
         let kind = if closed { RepairKind::Collapsed } else { RepairKind::ZeroLength };
@@ -221,7 +241,8 @@ impl Arrangement<'_> {
 
     fn move_ends(&mut self, mut part: Edge) {
         let [from, to] = part.ends.map(|end| self.nodes[end].at);
-        // What fits within the tolerance has no shape; all else keeps its own, however coarse the tolerance.
+        // A part that fits within the tolerance becomes its chord. Every other part keeps its shape, however coarse the
+        // tolerance.
         let shapeless = extent(part.bounds) <= self.tolerances.weld;
         part.curve = match Curve::line(from, to) {
             Ok(chord) if shapeless => chord,
@@ -232,7 +253,8 @@ impl Arrangement<'_> {
         self.edges.push(part);
     }
 
-    /// Edges between the same nodes that coincide become one, the first; it remembers which drawn curves ran along it.
+    /// Makes one edge of those that coincide between the same nodes: the first, which lists the drawn curves of the
+    /// others.
     fn merge_repeated(&mut self) {
         let mut order: Vec<([PointId; 2], CurveId)> = Vec::with_capacity(self.edges.len());
         order.extend(self.edges.enumerate().map(|(id, p)| ([p.ends[0].min(p.ends[1]), p.ends[0].max(p.ends[1])], id)));
@@ -258,9 +280,9 @@ impl Arrangement<'_> {
         self.edges = edges.enumerate().filter(|&(id, _)| !dropped[id]).map(|(_, p)| p.clone()).collect();
     }
 
-    /// The widest gap between two edges with the same ends, where they coincide: where neither is farther than the
-    /// tolerance from the other, nor the face between them wider. They do not cross in between, or will be split there,
-    /// so a few samples tell.
+    /// The widest gap between two edges with the same ends if they coincide: if neither is farther than the tolerance
+    /// from the other, and the face between them is nowhere wider. They do not cross in between, or will be split
+    /// there, so a few samples suffice.
     fn gap_of_coincident(&self, a: CurveId, b: CurveId) -> Option<f64> {
         let [p, q] = [a, b].map(|id| &self.edges[id].curve);
         if matches!((p, q), (Curve::Line(_), Curve::Line(_))) {
@@ -299,7 +321,8 @@ impl Arrangement<'_> {
         edge.merged.extend(gone.merged.iter().map(|&(source, reversed)| (source, reversed != against)));
     }
 
-    /// Makes one side of a loop that became a line straight, where it was cut beside the loop's tip and so folds back.
+    /// Makes an edge straight that is one side of a collapsed loop, where it was cut beside the loop's tip and folds
+    /// back.
     fn straighten(&mut self, id: CurveId) {
         let edge = &mut self.edges[id];
         if !edge.curve.breaks().is_empty()
@@ -309,7 +332,7 @@ impl Arrangement<'_> {
         }
     }
 
-    /// Itemises drawn curves of which nothing is left although they had a size, and loops of others that became lines.
+    /// Lists drawn curves of which nothing is left although they had a size, and loops of others that became lines.
     pub fn itemise_collapsed(&mut self) {
         let mut left = vec![false; self.drawing.curves.len()];
         for edge in self.edges.iter() {
@@ -329,11 +352,18 @@ impl Arrangement<'_> {
     }
 }
 
-/// Samples that tell whether two edges coincide are this part of them apart.
+/// Whether two edges coincide is tested at this many even steps of the parameter.
 const SAMPLES: usize = 8;
 
-/// The width of the face between two curves at a place on the first: along its normal there. Where the normal passes
-/// the second, the distance to it. Around a small disc every point is near the ends, but the other side is not.
+/// The width of the face between two curves, along the normal of the first at `t`. Where that normal misses the second
+/// curve, the distance to it. (The distance alone is not enough: around a small disk every point is near the ends, but
+/// the opposite side is not.)
+///
+/// ```text
+///     ╭───── from ──at───────╮
+///   ──●              │ gap   ●──
+///     ╰───────── to ─┴───────╯
+/// ```
 fn gap_across(from: &Curve, t: f64, to: &Curve) -> f64 {
     let at = from.point(t);
     let tangent = from.tangent(t, End::Start);

@@ -9,15 +9,16 @@ use crate::import::ImportError;
 /// Which columns of a table are coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Columns {
-    /// Abscissa and ordinate, of a contour or of surface after surface.
+    /// Abscissa and ordinate, of a contour or of one surface after the other.
     Pair(usize, usize),
-    /// One abscissa, with the ordinates of both surfaces.
+    /// One abscissa with the ordinates of both surfaces.
     Shared { x: usize, upper: usize, lower: usize },
-    /// Abscissa and ordinate of either surface side by side.
+    /// Abscissa and ordinate of each surface, side by side.
     Beside { upper: [usize; 2], lower: [usize; 2] },
 }
 
 impl Columns {
+    /// The columns of a table, from its numbers.
     pub fn of(elements: &[Vec<Gathered>], notes: &mut Vec<String>) -> Result<Self, ImportError> {
         let rows: Vec<&Gathered> = elements.iter().flatten().collect();
         let count = rows.iter().map(|row| row.numbers.count).min().unwrap_or(0);
@@ -62,6 +63,7 @@ impl Columns {
         }
     }
 
+    /// The points of each element.
     pub fn elements(self, gathered: &[Vec<Gathered>]) -> Result<Vec<Vec<Sample>>, ImportError> {
         Ok(match self {
             Self::Pair(x, y) => {
@@ -80,7 +82,7 @@ impl Gathered {
     }
 }
 
-/// Two surfaces given side by side, as one after the other.
+/// Two surfaces that stand side by side, as one after the other.
 fn around(rows: &[Gathered], upper: [usize; 2], lower: [usize; 2]) -> Vec<Sample> {
     let plain = |columns: [usize; 2]| {
         rows.iter().map(move |row| Sample { text_before: None, gap_before: false, ..row.sample(columns) })
@@ -89,8 +91,8 @@ fn around(rows: &[Gathered], upper: [usize; 2], lower: [usize; 2]) -> Vec<Sample
     plain(upper).chain(second).collect()
 }
 
-/// Whether the first column counts from 0 or 1, anew for every surface or element, and the second is an abscissa: of a
-/// table with the ordinates of both surfaces the two after the first are alike at its ends.
+/// Whether the first column counts the points, from 0 or 1 in each surface or element, and the second is an abscissa.
+/// In a table with the ordinates of both surfaces, the second and third column are equal at its ends.
 fn is_index(rows: &[&Gathered]) -> bool {
     let first = |i: usize| rows[i].numbers.first;
     let starts = |v: f64| v == 0.0 || v == 1.0;
@@ -104,8 +106,7 @@ fn is_index(rows: &[&Gathered]) -> bool {
         && !(is_table && is_monotone((0..rows.len()).map(|i| first(i)[0])) && crosses_once(rows))
 }
 
-/// Whether the numbers after the first never change which of them is the larger: those of an upper and a lower surface
-/// do not.
+/// Whether the numbers after the first keep their order. The ordinates of an upper and a lower surface do.
 fn crosses_once(rows: &[&Gathered]) -> bool {
     let above = |row: &&&Gathered| row.numbers.first[1] > row.numbers.first[2];
     let below = |row: &&&Gathered| row.numbers.first[1] < row.numbers.first[2];
@@ -122,7 +123,7 @@ fn is_constant(mut values: impl Iterator<Item = f64>) -> bool {
     values.all(|v| Some(v) == first)
 }
 
-/// Whether two columns cover the same range to a twentieth.
+/// Whether two columns cover the same range, to a twentieth.
 fn spans_alike(a: impl Iterator<Item = f64>, b: impl Iterator<Item = f64>) -> bool {
     let span = |values: &mut dyn Iterator<Item = f64>| {
         values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)))
@@ -132,8 +133,8 @@ fn spans_alike(a: impl Iterator<Item = f64>, b: impl Iterator<Item = f64>) -> bo
     slack > 0.0 && (a.0 - b.0).abs() <= slack && (a.1 - b.1).abs() <= slack
 }
 
-/// Ordinates of two surfaces lie on either side of the nose beside it. Of camber and thickness, or of another table,
-/// they do not.
+/// Refuses columns that are not ordinates of two surfaces: those lie on both sides of the nose near it. Camber and
+/// thickness, or other tables, do not.
 fn refuse_not_around(rows: &[&Gathered], x: usize) -> Result<(), ImportError> {
     let ordinates = |i: usize| (rows[i].numbers.first[x + 1], rows[i].numbers.first[x + 2]);
     let around = |end: usize, beside: usize| {
@@ -145,6 +146,6 @@ fn refuse_not_around(rows: &[&Gathered], x: usize) -> Result<(), ImportError> {
     if around(0, 1) || around(n - 1, n - 2) {
         return Ok(());
     }
-    let what = "the columns are no ordinates of an upper and a lower surface: both run to the same side of the nose";
+    let what = "the columns are not ordinates of an upper and a lower surface: both run to the same side of the nose";
     Err(ImportError::at(rows[1].line, what, HELP))
 }

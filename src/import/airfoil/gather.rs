@@ -1,11 +1,24 @@
-//! Where the coordinates of a file are, and the lines that hold them.
+//! Finds the lines of coordinates in a file.
+//!
+//! ```text
+//!    Selig: one run around the section         Lednicer: counts, then one surface after the other
+//!
+//!    NACA 4412           title                 NACA 4412            title
+//!    1.000   0.001       trailing edge          61.   61.           counts of the two surfaces
+//!    0.950   0.015       upper surface          0.000  0.000        nose
+//!    0.000   0.000       nose                   1.000  0.001        upper surface, to the trailing edge
+//!    0.950  -0.002       lower surface                              blank line
+//!    1.000  -0.001       trailing edge          0.000  0.000        nose
+//!                                               1.000 -0.001        lower surface, to the trailing edge
+//!    `999. 999.` separates elements in both.
+//! ```
 
 use super::HELP;
 use super::rows::{Dress, Numbers, Row, decode, lines};
 use crate::geometry::Point;
 use crate::import::ImportError;
 
-/// Whether there are two neighbouring lines of numbers.
+/// Whether two neighbouring lines hold numbers.
 pub fn has_coordinates(bytes: &[u8]) -> bool {
     let text = decode(bytes, &mut Vec::new());
     let rows: Vec<Row> = lines(&text).iter().map(|line| Row::of(line, &mut Dress::default())).collect();
@@ -29,9 +42,9 @@ pub fn first_data(rows: &[Row]) -> Option<usize> {
 }
 
 const LOST: &str = "the line lies amid coordinates, but does not hold two numbers";
-const MEND: &str = "mend the line, or remove it";
+const MEND: &str = "correct the line, or remove it";
 
-/// A point that is no number may be the first of all, or the first but one.
+/// Refuses a file whose first or second point is not a number.
 pub fn refuse_lost_start(rows: &[Row], start: usize) -> Result<(), ImportError> {
     match rows[..start].iter().rposition(|row| *row == Row::Lost) {
         Some(lost) => Err(ImportError::at(lost + 1, LOST, MEND)),
@@ -39,11 +52,11 @@ pub fn refuse_lost_start(rows: &[Row], start: usize) -> Result<(), ImportError> 
     }
 }
 
-/// Steps over the four-number line of MSES and XFOIL, over counts and over names of two numbers; gives Lednicer's
-/// counts.
+/// Skips the four-number line of MSES and XFOIL, counts, and names of two numbers. Returns the new start, and
+/// Lednicer's counts.
 pub fn skip_special(rows: &[Row], mut start: usize, notes: &mut Vec<String>) -> (usize, Option<[usize; 2]>) {
     let mut counts = None;
-    // A name of numbers, a box and counts: three such lines at most.
+    // At most three such lines: a name of numbers, a box and counts.
     for _ in 0..3 {
         let Some(numbers) = rows[start].numbers() else { break };
         let Some(next) = (start + 1..rows.len()).find(|&i| rows[i].numbers().is_some()) else { break };
@@ -60,7 +73,7 @@ pub fn skip_special(rows: &[Row], mut start: usize, notes: &mut Vec<String>) -> 
     (start, counts)
 }
 
-/// Two whole numbers that fit the points after them as counts, or that lie far off them.
+/// Two integers that fit the points after them as counts, or that lie far from them.
 pub fn as_counts(numbers: Numbers, after: &[Row]) -> Option<[usize; 2]> {
     let count = |v: f64| (v == v.trunc() && (2.0..1e9).contains(&v)).then_some(v as usize);
     let counts = [count(numbers.first[0])?, count(numbers.first[1])?];
@@ -69,7 +82,7 @@ pub fn as_counts(numbers: Numbers, after: &[Row]) -> Option<[usize; 2]> {
     (numbers.count == 2 && (counts[0] + counts[1] == n || numbers.first[0] > 2.0 * widest)).then_some(counts)
 }
 
-/// `999. 999.`, the line between elements.
+/// Whether a point is `999. 999.`, the separator of elements.
 pub fn is_separator(p: Point) -> bool {
     p.x == p.y && (999.0..1000.0).contains(&p.x)
 }
@@ -77,9 +90,13 @@ pub fn is_separator(p: Point) -> bool {
 /// The numbers of a line of coordinates.
 #[derive(Clone, Copy)]
 pub struct Gathered {
+    /// The numbers of the line.
     pub numbers: Numbers,
+    /// The line, from 1.
     pub line: usize,
+    /// The line of text before it.
     pub text_before: Option<usize>,
+    /// Whether a blank or text line stands before it.
     pub gap_before: bool,
 }
 
@@ -87,7 +104,7 @@ pub struct Gathered {
 pub fn gather(rows: &[Row], start: usize, notes: &mut Vec<String>) -> Result<Vec<Vec<Gathered>>, ImportError> {
     let mut elements: Vec<Vec<Gathered>> = vec![Vec::new()];
     let (mut gap, mut text) = (false, None);
-    // Points of the current element before the last line of text.
+    // Number of points of the element before the last line of text.
     let mut before_text: Option<usize> = None;
     let (mut words_behind, mut text_lines, mut dotted) = (false, Vec::new(), Vec::new());
     let is_point = |i: usize| rows.get(i).is_some_and(|row| row.numbers().is_some());
@@ -137,7 +154,7 @@ pub fn gather(rows: &[Row], start: usize, notes: &mut Vec<String>) -> Result<Vec
     if elements.is_empty() { Err(ImportError::new("no coordinates were found", HELP)) } else { Ok(elements) }
 }
 
-/// "12, 40 and 7 more".
+/// The first numbers of a list, and the count of the rest: "12, 40 and 7 more".
 pub fn few(lines: &[usize]) -> String {
     const SHOWN: usize = 5;
     let shown: Vec<String> = lines.iter().take(SHOWN).map(usize::to_string).collect();
@@ -145,14 +162,14 @@ pub fn few(lines: &[usize]) -> String {
     if more > 0 { format!("{} and {more} more", shown.join(", ")) } else { shown.join(", ") }
 }
 
-/// Fewer than three points behind a line of text make no surface: they are numbers in the text.
+/// Removes numbers within text: fewer than three points after a line of text.
 pub fn drop_numbers_in_text(element: &mut Vec<Gathered>, before_text: Option<usize>) {
     if let Some(cut) = before_text.filter(|&cut| cut > 0 && element.len() - cut < 3) {
         element.truncate(cut);
     }
 }
 
-/// Numbers among the header that no run of coordinates follows.
+/// Notes numbers in the header without coordinates after them.
 pub fn tell_numbers_before(header: &[Row], notes: &mut Vec<String>) {
     let alone = |i: &usize| header[*i].numbers().is_some_and(|n| n.count == 2);
     let lines: Vec<usize> = (0..header.len()).filter(alone).map(|i| i + 1).collect();

@@ -1,9 +1,10 @@
-//! What a line of a coordinate file is.
+//! Classifies the lines of a coordinate file.
 
 use crate::geometry::Point;
 use crate::geometry::written::number;
 use std::borrow::Cow;
 
+/// The text of a file, with a note where it is not UTF-8.
 pub fn decode<'a>(bytes: &'a [u8], notes: &mut Vec<String>) -> Cow<'a, str> {
     match std::str::from_utf8(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)) {
         Ok(text) => Cow::Borrowed(text),
@@ -14,7 +15,7 @@ pub fn decode<'a>(bytes: &'a [u8], notes: &mut Vec<String>) -> Cow<'a, str> {
     }
 }
 
-/// Runs of blanks and tabs as one blank each.
+/// A text with each run of blanks and tabs as one blank.
 pub fn one_line(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
@@ -24,36 +25,38 @@ pub fn lines(text: &str) -> Vec<&str> {
     if text.contains('\n') { text.lines().collect() } else { text.split('\r').collect() }
 }
 
-/// Numbers of a line that are looked at: an index and two pairs.
+/// Number of columns that are read: an index and two pairs.
 pub const COLUMNS: usize = 5;
 
 /// The first numbers of a line, and how many there are.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Numbers {
+    /// The first numbers.
     pub first: [f64; COLUMNS],
+    /// Number of numbers in the line.
     pub count: usize,
 }
 
-/// What a line of the file is.
+/// The kind of a line.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Row {
     Blank,
-    /// Two numbers or more, and whether words follow them.
+    /// Two numbers or more. `words`: text follows them.
     Point {
         numbers: Numbers,
         words: bool,
     },
-    /// A number, then something else.
+    /// A number, then other text.
     Half,
-    /// Words that programs write where a number is missing, for one number or more: `nan`, `inf`, `****`.
+    /// Words that programs write for a missing number: `nan`, `inf`, `****`.
     Lost,
-    /// A number and dots: tables that leave an ordinate out print them in its place.
+    /// A number and dots. Some tables print dots in place of an ordinate.
     Dotted,
     Comment,
     Text,
 }
 
-/// How numbers are written that no computer writes by itself, where a file has any such.
+/// Unusual forms of numbers that a file has.
 #[derive(Default)]
 pub struct Dress {
     decimal_commas: bool,
@@ -62,6 +65,7 @@ pub struct Dress {
 }
 
 impl Dress {
+    /// Notes these forms.
     pub fn tell(&self, notes: &mut Vec<String>) {
         let said = [
             (self.decimal_commas, "Commas were read as decimal points."),
@@ -73,8 +77,9 @@ impl Dress {
 }
 
 impl Row {
+    /// Classifies a line.
     pub fn of(line: &str, dress: &mut Dress) -> Self {
-        // Minus sign, en dash, and the hyphens that do not break.
+        // Minus sign, en dash, and the non-breaking hyphens.
         const MINUS: [char; 4] = ['\u{2212}', '\u{2013}', '\u{2010}', '\u{2011}'];
         let minus = line.contains(MINUS);
         let line = if minus { Cow::Owned(line.replace(MINUS, "-")) } else { Cow::Borrowed(line) };
@@ -103,6 +108,7 @@ impl Row {
         if is_dotted && row == Self::Half { Self::Dotted } else { row }
     }
 
+    /// The numbers of a line of coordinates.
     pub fn numbers(self) -> Option<Numbers> {
         match self {
             Self::Point { numbers, words: false } => Some(numbers),
@@ -112,17 +118,18 @@ impl Row {
         }
     }
 
+    /// The first two numbers of a line of coordinates.
     pub fn point(self) -> Option<Point> {
         self.numbers().map(|n| Point::new(n.first[0], n.first[1]))
     }
 }
 
-/// The fields of a line as far as they were read.
+/// The fields of a line that were read so far.
 #[derive(Default)]
 struct Taken {
     first: [f64; COLUMNS],
     count: usize,
-    /// Of the first two fields those that stand for a missing number.
+    /// Number of words for missing numbers among the first two fields.
     lost: usize,
     words: bool,
     run_together: bool,
@@ -159,7 +166,7 @@ impl Taken {
     }
 }
 
-/// The numbers of columns that run together: `0.500000-0.041000`. Fortran writes a point in each.
+/// The numbers of columns that run together: `0.500000-0.041000`. Fortran writes a point in each number.
 fn apart(field: &str) -> Option<Vec<f64>> {
     let bytes = field.as_bytes();
     let is_cut = |&i: &usize| matches!(bytes[i], b'-' | b'+') && matches!(bytes[i - 1], b'0'..=b'9' | b'.');
@@ -173,7 +180,7 @@ fn apart(field: &str) -> Option<Vec<f64>> {
     (values.len() > 1).then_some(values)
 }
 
-/// What C, Fortran and spreadsheets write where there is no number.
+/// Whether a word is one that C, Fortran or spreadsheets write for a missing number.
 fn is_lost(field: &str) -> bool {
     let word = field.trim_start_matches(['+', '-']).to_ascii_lowercase();
     let words =
@@ -186,7 +193,7 @@ fn is_lost(field: &str) -> bool {
         || is_number_too_large()
 }
 
-/// Whether the commas of a line stand for decimal points: two fields or more, no point, and a comma between digits.
+/// Whether the commas of a line are decimal points: there are two fields or more, no point, and a comma between digits.
 fn is_decimal_comma<'a>(fields: impl Iterator<Item = &'a str>) -> bool {
     let (mut n, mut inside) = (0, false);
     for field in fields {

@@ -1,4 +1,4 @@
-//! The file as a title and elements of points: headers, units and gaps between.
+//! The file as a title and elements of points: headers, units and gaps.
 
 use super::columns::Columns;
 use super::gather::{first_data, gather, refuse_lost_start, skip_special, tell_numbers_before};
@@ -7,10 +7,10 @@ use super::{HELP, SAME, Sample};
 use crate::geometry::{Point, Vec2, bounds_of};
 use crate::import::ImportError;
 
-/// The title, Lednicer's counts of the two surfaces where they fit the points, and the points of every element.
+/// The title, Lednicer's counts where they fit the points, and the points of each element.
 type Scanned = (Option<String>, Option<[usize; 2]>, Vec<Vec<Sample>>);
 
-/// Takes a file apart, and tells what was met.
+/// Reads the parts of a file, and notes what it met.
 pub fn scan(bytes: &[u8], notes: &mut Vec<String>) -> Result<Scanned, ImportError> {
     let text = decode(bytes, notes);
     let lines: Vec<&str> = lines(&text);
@@ -47,25 +47,25 @@ fn fitting(counts: [usize; 2], elements: &[Vec<Sample>], notes: &mut Vec<String>
     fits.then_some(counts)
 }
 
-// ---- numbers that are no point ----
+// ---- numbers that are not a point ----
 
-/// Drops numbers of a header (chord and thickness, a reference point) from the head of the points.
+/// Removes numbers of a header (chord and thickness, a reference point) from the beginning of the points.
 fn skip_numbers_of_header(samples: &mut Vec<Sample>, notes: &mut Vec<String>) {
-    // A header of more than two such lines has a word in it.
+    // A header with more than two such lines contains a word.
     for _ in 0..2 {
         if !starts_beside(samples) {
             return;
         }
         let Sample { at, line, .. } = samples.remove(0);
         let place = format!("{} and {} on line {line}", at.x, at.y);
-        notes.push(format!("The numbers {place} are no point of the section and were passed over."));
+        notes.push(format!("The numbers {place} are not a point of the section and were passed over."));
         if let Some(first) = samples.first_mut() {
             (first.gap_before, first.text_before) = (false, None);
         }
     }
 }
 
-/// Whether the first point is none: the section is whole without it, and worse with it.
+/// Whether the first point is not of the section: the section is complete without it, and worse with it.
 ///
 /// ```text
 ///      header ·            p₁ … pₙ close without p₀, or nearly, and p₀ lies inside, or upright beside p₁;
@@ -74,7 +74,7 @@ fn skip_numbers_of_header(samples: &mut Vec<Sample>, notes: &mut Vec<String>) {
 ///   ───────pₙ
 /// ```
 fn starts_beside(samples: &[Sample]) -> bool {
-    // The fewest points of which the rest is still told to be a section.
+    // Least number of points by which a section is recognised.
     const FEWEST: usize = 8;
     let [p0, p1, p2, .., last] = samples else { return false };
     let (p0, p1, p2, last) = (p0.at, p1.at, p2.at, last.at);
@@ -96,7 +96,7 @@ fn starts_beside(samples: &[Sample]) -> bool {
         || p0.y < rest.y0 - 0.5 * wide
         || p0.y > rest.y1 + 0.5 * wide;
     let turns_back = step.x * (p2.x - p1.x) < 0.0 && step.x.abs() > 0.05 * wide;
-    // A base runs from the last point to the first, not past either and back.
+    // A base runs from the last point to the first, and does not run back past either.
     let opposite = |a: Vec2, b: Vec2| a.dot(b) < -0.9 * a.hypot() * b.hypot();
     let folds = step.x.abs() <= 1e-3 * step.y.abs()
         && with > 0.02 * wide
@@ -106,9 +106,9 @@ fn starts_beside(samples: &[Sample]) -> bool {
 
 // ---- units, elements ----
 
-/// Sections about as wide as 100 are in percent of chord, unless the header speaks of a unit of length.
+/// Divides by 100 if a section is about 100 wide, unless the header names a unit of length.
 fn unscale_percent(elements: &mut [Vec<Sample>], header: &[&str], notes: &mut Vec<String>) {
-    // The nose of a cambered section, a rotor blade's tab and an end that was cut off lie that far from the ends of the
+    // The nose of a cambered section, the tab of a rotor blade and a cut end lie up to this far from the ends of the
     // chord.
     const PERCENT: std::ops::RangeInclusive<f64> = 98.5..=101.5;
     const UNITS: [&str; 8] = ["mm", "cm", "millimetre", "millimetres", "millimeter", "millimeters", "inch", "inches"];
@@ -123,7 +123,7 @@ fn unscale_percent(elements: &mut [Vec<Sample>], header: &[&str], notes: &mut Ve
     }
 }
 
-/// Several whole contours with blank or text lines between, but without `999.` lines, are several elements.
+/// Splits contours at blank or text lines into elements, where there are no `999.` lines.
 fn split_loops(samples: Vec<Sample>, notes: &mut Vec<String>) -> Vec<Vec<Sample>> {
     let parts: Vec<&[Sample]> = samples.chunk_by(|_, b| !b.gap_before).collect();
     if parts.len() < 2 || !parts.iter().all(|part| part.len() >= 5 && is_loop(part)) {
@@ -134,7 +134,7 @@ fn split_loops(samples: Vec<Sample>, notes: &mut Vec<String>) -> Vec<Vec<Sample>
     parts.into_iter().map(|part| [&[first_of(part)], &part[1..]].concat()).collect()
 }
 
-/// Whether a run of points comes back to where it began, to a quarter of its width: a surface alone does not.
+/// Whether a run of points returns to its beginning, to a quarter of its width. A single surface does not.
 fn is_loop(samples: &[Sample]) -> bool {
     let [first, .., last] = samples else { return false };
     let wide = bounds_of(samples.iter().map(|s| s.at)).map_or(0.0, |b| b.width());

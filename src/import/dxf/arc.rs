@@ -7,13 +7,13 @@ use crate::curve::Curve;
 use crate::geometry::{Point, Vec2};
 use std::f64::consts::TAU;
 
-/// The share of a turn that may be missing of a full one: 2π with six decimals.
+/// Largest missing part of a full turn: 2π written with six decimals.
 const CLOSING: f64 = 1e-7;
-/// And the most that may be missing where the angles have few digits.
+/// Largest missing part where the angles have few digits.
 const LARGEST_CLOSING: f64 = 1e-3;
 
-/// A way counter-clockwise from one angle to another, as a positive part of a full turn; all of it where they are the
-/// same, or where what is missing of it is within two units of the last decimal in which they are written.
+/// The counter-clockwise sweep from one angle to another, as a positive part of a turn. It is a full turn where the
+/// angles are equal, or where the missing part is within two units of the last decimal of the angles.
 pub(super) fn sweep(from: f64, to: f64, turn: f64, last_decimal: f64, notices: &mut Notices) -> f64 {
     let sweep = (to - from).rem_euclid(turn);
     let is_whole = |missing: f64| sweep > turn - missing || sweep == 0.0 || (to - from).abs() >= turn - missing;
@@ -27,6 +27,7 @@ pub(super) fn sweep(from: f64, to: f64, turn: f64, last_decimal: f64, notices: &
     sweep
 }
 
+/// An ARC or CIRCLE.
 pub(super) fn arc(record: &Record, notices: &mut Notices) -> Result<Figure<'static>, Refusal> {
     let plane = Plane::of(record)?;
     let [x, y, z] = record.point(10)?;
@@ -38,14 +39,14 @@ pub(super) fn arc(record: &Record, notices: &mut Notices) -> Result<Figure<'stat
         let sweep = sweep(from, to, 360.0, record.last_decimal(&[50, 51]), notices);
         Curve::arc(center, radius, from.to_radians(), sweep.to_radians())
     };
-    // The ends lie at the angles as they were rounded.
+    // The ends lie at the rounded angles.
     let angle = radius * record.last_decimal(&[50, 51]).to_radians();
     let last_decimal = record.last_decimal(&[10, 20, 40]).max(angle);
     Ok(single(plane.place(built(record, curve)?, z), plane.level(z), last_decimal))
 }
 
-/// Center and axis of an ellipse are coordinates of the drawing; its extrusion direction says where the minor axis
-/// points.
+/// An ELLIPSE. Its center and axis are coordinates of the drawing; the extrusion direction only gives the sense of the
+/// minor axis.
 pub(super) fn ellipse(record: &Record, notices: &mut Notices) -> Result<Figure<'static>, Refusal> {
     let plane = Plane::of(record)?;
     let ([x, y, z], axis) = (record.point(10)?, record.point(11)?);

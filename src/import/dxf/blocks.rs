@@ -1,4 +1,4 @@
-//! Entities put where they belong: on layers that are seen or not, and in blocks, as often as these are inserted.
+//! Places entities: on visible layers, and in blocks, once for each insertion.
 
 use super::DxfOptions;
 use super::entities::figure;
@@ -18,17 +18,17 @@ use kurbo::Affine;
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
-/// How much blocks may unfold to: instances, entities, and control points of splines together.
+/// Largest number of instances, entities and spline control points after expansion, together.
 const UNFOLDED: usize = 1_000_000;
-/// How deep blocks may stand in blocks.
+/// Largest nesting of blocks in blocks.
 const DEPTH: usize = 32;
-/// A longer way through blocks is not told in full.
+/// A longer path through blocks is cut in messages.
 const LONGEST_PATH: usize = 200;
-/// The scales of an insertion that leave numbers to work with.
+/// The scales of an insertion whose products remain finite.
 const SCALES: std::ops::Range<f64> = 1e-150..1e150;
 
-/// An entity, read once and drawn as often as its block. Layers and blocks are places in their tables: names may be
-/// long.
+/// An entity, read once and drawn once for each instance of its block. Layers and blocks are indices, because names may
+/// be long.
 struct Entity<'a> {
     kind: String,
     label: String,
@@ -40,34 +40,34 @@ struct Entity<'a> {
     figure: Result<Figure<'a>, &'static str>,
 }
 
-/// Where and how the entities of a block are drawn.
+/// The place where the entities of a block are drawn.
 struct Setting {
     map: Option<Affine>,
     z: f64,
     z_scale: f64,
-    /// What a length in the block counts, at most.
+    /// Largest factor from a length in the block to the drawing.
     scale: f64,
-    /// The layer that entities on layer 0 take.
+    /// The layer of entities on layer 0.
     layer: Option<LayerId>,
-    /// What entities of the block's line type take.
+    /// The line type of entities with the line type BYBLOCK.
     line_type: Rc<str>,
     /// `INSERT "BOLT" (line 12) > `
     path: String,
-    /// Blocks that it stands in, to tell a block that holds itself.
+    /// The blocks around it. They tell whether a block contains itself.
     within: Vec<usize>,
 }
 
-/// An entity that is drawn: on what layer, with what line type, under what name, and where.
+/// The attributes of an entity that is drawn: layer, line type, name and place.
 struct Pen<'e, 'a> {
     entity: &'e Entity<'a>,
     layer: LayerId,
     line_type: Rc<str>,
-    /// The entity with the way to its block, for messages.
+    /// The entity with the path to its block, for messages.
     label: String,
     setting: &'e Setting,
 }
 
-/// A drawing in the making.
+/// A drawing while it is read.
 pub(super) struct Sketch<'f, 'a> {
     file: &'f Sections<'a>,
     header: &'f Header,
@@ -75,19 +75,20 @@ pub(super) struct Sketch<'f, 'a> {
     drawing: &'f mut Drawing,
     layers: Layers<'f>,
     block_of: BTreeMap<String, usize>,
-    /// Entities of the blocks that were drawn already.
+    /// The entities of blocks that were read already.
     read: BTreeMap<usize, Rc<Vec<Entity<'a>>>>,
     fills: Vec<Fill>,
     skipped: BTreeMap<(String, &'static str), usize>,
     notices: Notices,
-    /// Lowest and highest height of what is drawn.
+    /// Lowest and highest z of the drawn entities.
     heights: Option<[f64; 2]>,
-    /// How many entities were projected onto the plane.
+    /// Number of entities projected onto the plane.
     flattened: usize,
     left: usize,
 }
 
 impl<'f, 'a> Sketch<'f, 'a> {
+    /// An empty drawing for the blocks of a file.
     pub fn new(
         file: &'f Sections<'a>,
         header: &'f Header,
@@ -114,7 +115,7 @@ impl<'f, 'a> Sketch<'f, 'a> {
         }
     }
 
-    /// Draws the entities of model space; hands back their hatches.
+    /// Draws the entities of model space, and returns their hatches.
     pub fn draw(mut self) -> Result<Vec<Fill>, ImportError> {
         let setting = Setting {
             map: None,
@@ -153,7 +154,7 @@ impl<'f, 'a> Sketch<'f, 'a> {
 
     // ---- reading ----
 
-    /// The entities of a block or of the drawing, each with the vertices and attributes that follow it.
+    /// The entities of a block or of the drawing, each with its vertices and attributes.
     fn entities(&mut self, records: &[Record<'a>]) -> Result<Vec<Entity<'a>>, ImportError> {
         let mut entities = Vec::new();
         let mut rest = records;
@@ -178,8 +179,8 @@ impl<'f, 'a> Sketch<'f, 'a> {
         let figure = match self.layers.why_not(layer) {
             _ if is_set(67) => Err("in paper space"),
             _ if is_set(60) => Err("invisible"),
-            // On layer 0 of a block an entity is as visible as the block, and a block may hold what is not on its
-            // layer.
+            // On layer 0 of a block an entity is as visible as the block. A block may contain entities of other layers
+            // than its own.
             Some(why) if layer != LAYER_0 && record.kind != "INSERT" => Err(why),
             _ => match figure(record, followers, &mut self.notices) {
                 Ok(figure) => Ok(figure),
@@ -229,10 +230,10 @@ impl<'f, 'a> Sketch<'f, 'a> {
         }
     }
 
-    /// Why a figure on a layer, of a line type, is left out; `None`: it is drawn.
+    /// Why a figure of this layer and line type is left out; `None`: it is drawn.
     fn why_not_drawn(&self, figure: &Figure, layer: LayerId, line_type: &str) -> Option<&'static str> {
         match figure {
-            // A block may hold what is on other layers: only a frozen one hides these, too.
+            // A block may contain entities of other layers. Only a frozen layer makes these invisible, too.
             Figure::Insert(_) => self.layers.hidden(layer).filter(|h| *h == Hidden::Frozen).map(Hidden::why),
             Figure::Curves { .. } | Figure::Point { .. } | Figure::Fill { .. } | Figure::Text { .. } => {
                 let auxiliary = || self.layers.is_auxiliary(line_type).then_some(AUXILIARY);
@@ -313,7 +314,7 @@ impl<'f, 'a> Sketch<'f, 'a> {
         Ok(())
     }
 
-    /// A text draws nothing, but may name a region.
+    /// A text draws no curve, but may name a region.
     fn draw_text(&mut self, at: Point, bytes: &[u8], pen: &Pen) -> Result<(), ImportError> {
         self.skip(&pen.entity.kind, NO_OUTLINE);
         if let Some(text) = text::name(&self.header.name(bytes)) {
@@ -324,7 +325,7 @@ impl<'f, 'a> Sketch<'f, 'a> {
         Ok(())
     }
 
-    /// A curve where the setting puts it; `None` where it shrinks to nothing.
+    /// A curve mapped to its place; `None` where it shrinks to a point.
     fn placed(&mut self, curve: &Curve, setting: &Setting, label: &str) -> Result<Option<Curve>, ImportError> {
         let curve = match setting.map {
             None => curve.clone(),
@@ -342,7 +343,7 @@ impl<'f, 'a> Sketch<'f, 'a> {
         Ok(is_sound.then_some(curve))
     }
 
-    /// Takes note of an entity that is left out because it leaves the plane.
+    /// Counts an entity that is left out because it leaves the plane.
     fn leave_out(&mut self, entity: String, curves: &[Option<Curve>]) {
         let (mut drawn, mut from_end) = (curves.iter().flatten(), curves.iter().flatten().rev());
         if let (Some(first), Some(last)) = (drawn.next(), from_end.next()) {
@@ -350,7 +351,7 @@ impl<'f, 'a> Sketch<'f, 'a> {
         }
     }
 
-    /// Takes note of a height.
+    /// Records a height.
     fn rise(&mut self, setting: &Setting, z: f64) {
         let z = setting.z + setting.z_scale * z;
         let [low, high] = self.heights.unwrap_or([z, z]);
@@ -360,12 +361,12 @@ impl<'f, 'a> Sketch<'f, 'a> {
     fn spend(&mut self, cost: usize, label: &str) -> Result<(), ImportError> {
         self.left = self.left.checked_sub(cost).ok_or_else(|| {
             let what = format!("{label}: blocks unfold to more than {UNFOLDED} curves");
-            ImportError::new(what, "leave out blocks that are no part of the outline, or explode and purge them")
+            ImportError::new(what, "leave out blocks that are not part of the outline, or explode and purge them")
         })?;
         Ok(())
     }
 
-    /// Draws a block, in all rows and columns, if it can be.
+    /// Draws a block in all rows and columns, if the file defines it.
     fn draw_insert(&mut self, insert: &Insert<'a>, pen: Pen<'_, 'a>) -> Result<(), ImportError> {
         let (entity, setting) = (pen.entity, pen.setting);
         let Some(place) = entity.block else {
@@ -400,7 +401,20 @@ impl<'f, 'a> Sketch<'f, 'a> {
         self.draw_block(place, insert, setting.map.unwrap_or_default(), inner)
     }
 
-    /// Draws a block once for every row and column. `outer` leads from where it is inserted to the drawing.
+    /// Draws a block once for each row and column. `outer` maps the coordinates around the insertion to the drawing.
+    ///
+    /// ```text
+    ///    block "B"      map = outer · T(offset) · insert.map · T(−base), applied from right to left:
+    ///      ┌──┐
+    ///      │  │         T(−base)    moves the base point to the origin
+    ///      ●──┘         insert.map  scales, rotates, and moves to the insertion point
+    ///    base           T(offset)   moves by column·steps[0] + row·steps[1], which are rotated but not scaled
+    ///                   outer       is the map of the insertion of the block around it
+    ///     ┌─┐ ┌─┐ ┌─┐   row 1
+    ///     ●─┘ ●─┘ ●─┘
+    ///     ┌─┐ ┌─┐ ┌─┐   row 0
+    ///     ●─┘ ●─┘ ●─┘
+    /// ```
     fn draw_block(
         &mut self,
         place: usize,
@@ -429,7 +443,7 @@ impl<'f, 'a> Sketch<'f, 'a> {
         Ok(())
     }
 
-    /// The way to the entities of a block, for messages.
+    /// The path to the entities of a block, for messages.
     fn path(&self, insert: &Insert, entity: &Entity, setting: &Setting) -> String {
         if setting.path.len() >= LONGEST_PATH {
             return setting.path.clone();
@@ -450,7 +464,7 @@ impl<'f, 'a> Sketch<'f, 'a> {
     }
 }
 
-/// What the map makes of the unit lengths along both axes.
+/// The lengths of the mapped unit vectors of both axes.
 fn columns(map: Affine) -> [f64; 2] {
     let [a, b, c, d, _, _] = map.as_coeffs();
     [libm::hypot(a, b), libm::hypot(c, d)]

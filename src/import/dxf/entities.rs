@@ -1,4 +1,4 @@
-//! One entity → its curves, in the coordinates of the drawing or of the block that it stands in.
+//! One entity → its curves, in the coordinates of the drawing or of the block around it.
 
 use super::arc::{arc, ellipse};
 use super::figure::{Figure, Insert, NO_OUTLINE, Notices, Refusal, built, single};
@@ -13,7 +13,7 @@ use crate::curve::Curve;
 use crate::geometry::{Point, Vec2};
 use kurbo::Affine;
 
-/// What the entity that starts with `record` draws; `followers` are its vertices.
+/// The figure of the entity that begins with `record`. `followers` are its vertices.
 pub(super) fn figure<'a>(
     record: &Record<'a>,
     followers: &[Record],
@@ -63,10 +63,10 @@ fn why_not(kind: &str) -> &'static str {
         "RAY" | "XLINE" => "a construction line without end",
         "REGION" | "3DSOLID" | "BODY" | "SURFACE" | "PLANESURFACE" | "EXTRUDEDSURFACE" | "LOFTEDSURFACE"
         | "REVOLVEDSURFACE" | "SWEPTSURFACE" | "NURBSURFACE" => "an ACIS body (explode it into curves)",
-        "IMAGE" | "WIPEOUT" | "OLEFRAME" | "OLE2FRAME" | "PDFUNDERLAY" | "DWFUNDERLAY" | "DGNUNDERLAY" => "a picture",
+        "IMAGE" | "WIPEOUT" | "OLEFRAME" | "OLE2FRAME" | "PDFUNDERLAY" | "DWFUNDERLAY" | "DGNUNDERLAY" => "an image",
         "VIEWPORT" => "a view",
         "MESH" => "a surface in space",
-        _ => "no entity that is read here",
+        _ => "an entity of a kind that is not read",
     }
 }
 
@@ -85,7 +85,7 @@ fn insert<'a>(record: &Record<'a>) -> Result<Figure<'a>, Refusal> {
     }
     let turn = turn(record.real(50, 0.0)?);
     let map = plane.affine(0.0) * Affine::translate((x, y)) * turn * Affine::scale_non_uniform(scale[0], scale[1]);
-    // Rows and columns run along the turned axes, and are not scaled.
+    // Rows and columns run along the rotated axes. They are not scaled.
     let step = |v: Vec2| {
         let [a, b, c, d, _, _] = (plane.affine(0.0) * turn).as_coeffs();
         Vec2::new(a * v.x + c * v.y, b * v.x + d * v.y)

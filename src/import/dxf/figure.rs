@@ -1,4 +1,4 @@
-//! What an entity draws, or why it draws nothing.
+//! The figure of an entity, or the reason why it has none.
 
 use super::sections::Record;
 use crate::curve::{Curve, CurveError};
@@ -7,19 +7,21 @@ use crate::import::ImportError;
 use kurbo::Affine;
 use std::collections::BTreeSet;
 
-/// Why a text draws nothing.
+/// Why a text has no curves.
 pub(super) const NO_OUTLINE: &str = "glyphs of a font, no outline";
+/// Why an entity in another plane is left out.
 pub(super) const TILTED: &str = "not parallel to the XY plane";
+/// Why an entity without extent is left out.
 pub(super) const DEGENERATE: &str = "of no extent";
 
-/// Why an entity becomes no curve.
+/// Why an entity does not become a curve.
 #[derive(Debug)]
 pub(super) enum Refusal {
     /// It is left out and counted, for this reason.
     Skip(&'static str),
-    /// Nothing is left of it.
+    /// It has no extent.
     Degenerate,
-    /// The file is wrong here.
+    /// The file is wrong at this place.
     Broken(ImportError),
 }
 
@@ -29,10 +31,10 @@ impl From<ImportError> for Refusal {
     }
 }
 
-/// What an entity draws.
+/// The figure of an entity.
 #[derive(Debug)]
 pub(super) enum Figure<'a> {
-    /// `parts` names what each curve is where there are several: "segment".
+    /// Curves. `parts` names each of several curves: "segment".
     Curves {
         curves: Vec<Curve>,
         level: Level,
@@ -44,7 +46,7 @@ pub(super) enum Figure<'a> {
         at: Point,
         z: f64,
     },
-    /// A filled area within closed outlines, by the odd-even rule.
+    /// A filled area between closed outlines, by the even-odd rule.
     Fill {
         loops: Vec<Vec<Curve>>,
         last_decimal: f64,
@@ -57,36 +59,41 @@ pub(super) enum Figure<'a> {
     Insert(Insert<'a>),
 }
 
-/// How an entity lies to the XY plane.
+/// The position of an entity relative to the XY plane.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Level {
     /// Parallel to it, at this height.
     At(f64),
-    /// It leaves the plane; what it draws is its image on it.
+    /// It leaves the plane. Its curves are its projection.
     Leaves,
 }
 
-/// A block to be drawn, once or in rows and columns.
+/// An insertion of a block, once or in rows and columns.
 #[derive(Debug)]
 pub(super) struct Insert<'a> {
+    /// The name of the block, as the file encodes it.
     pub block: &'a [u8],
-    /// Of the block, its base point at the origin, to where its first instance is drawn.
+    /// From the block, its base point at the origin, to its first instance.
     pub map: Affine,
-    /// Height of the insertion point, and what a height in the block counts.
+    /// Height of the insertion point.
     pub z: f64,
+    /// Factor from a height in the block to one in the drawing.
     pub z_scale: f64,
+    /// Number of columns.
     pub columns: i64,
+    /// Number of rows.
     pub rows: i64,
-    /// From a column to the next, and from a row to the next.
+    /// The steps from a column to the next, and from a row to the next.
     pub steps: [Vec2; 2],
 }
 
+/// A figure of one curve.
 pub(super) fn single(curve: Curve, level: Level, last_decimal: f64) -> Figure<'static> {
     Figure::Curves { curves: vec![curve], level, parts: "", last_decimal }
 }
 
-/// A curve that its entity describes in full: nothing to draw where it has no extent, an error where its data
-/// contradict each other.
+/// A curve that its entity defines completely. It is left out where it has no extent. Data that contradict each other
+/// are an error.
 pub(super) fn built(record: &Record, curve: Result<Curve, CurveError>) -> Result<Curve, Refusal> {
     curve.map_err(|error| match error {
         CurveError::Radius { .. } | CurveError::Sweep { .. } => Refusal::Degenerate,
@@ -94,15 +101,17 @@ pub(super) fn built(record: &Record, curve: Result<Curve, CurveError>) -> Result
     })
 }
 
-/// What is noticed about entities of a drawing, each told once.
+/// Facts about the entities of a drawing, each reported once.
 #[derive(Debug, Default)]
 pub(super) struct Notices(BTreeSet<&'static str>);
 
 impl Notices {
+    /// Adds a fact, as one sentence.
     pub fn add(&mut self, sentence: &'static str) {
         self.0.insert(sentence);
     }
 
+    /// The facts as notes.
     pub fn into_notes(self) -> impl Iterator<Item = String> {
         self.0.into_iter().map(str::to_owned)
     }

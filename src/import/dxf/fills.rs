@@ -1,5 +1,5 @@
-//! What the hatches of a drawing are: pictures of filled shapes where nothing else is drawn; else names, outlines or
-//! regions.
+//! The meaning of the hatches of a drawing. Where nothing else is drawn, they are filled shapes. Otherwise each is a
+//! name of a region, an outline, or a region.
 
 use crate::curve::Curve;
 use crate::domain::{Drawing, DrawnCurve, FillRule, Seed, SeedKind, Shape};
@@ -8,24 +8,28 @@ use crate::geometry::{Point, Rect, Vec2};
 use crate::ids::{LayerId, NameId};
 use std::collections::BTreeSet;
 
-/// Outlines nearer to each other than this share of their extent are copies, whatever the digits: no part is made so.
+/// Outlines nearer to each other than this part of their extent are copies, whatever their digits.
 const COPY: f64 = 1e-4;
-/// And no farther than this, whatever the digits.
+/// Outlines farther apart than this part are not copies, whatever their digits.
 const FARTHEST_COPY: f64 = 1e-2;
-/// A polygon that stands for a curve, its corners on it, leaves it by no more than this share of its sides: one of six
-/// sides for a circle does. LibreCAD writes hatched circles with seven; a part whose outlines touch at corner after
-/// corner would fall apart.
+/// Largest distance of a curve from a polygon that stands for it, as a part of the polygon's sides. The corners of the
+/// polygon lie on the curve. A hexagon for a circle has this distance; LibreCAD writes hatched circles with seven
+/// sides. If such a polygon counted as an outline, it would cut the part at each corner.
 const SAGITTA: f64 = 0.15;
 
 /// The hatched area of one entity.
 pub(super) struct Fill {
+    /// The name of its layer.
     pub name: NameId,
+    /// Its layer.
     pub layer: LayerId,
+    /// The handle of the entity.
     pub handle: Option<u64>,
     /// See [`DrawnCurve::last_decimal`].
     pub last_decimal: f64,
-    /// Closed outlines between which it lies, by the odd-even rule.
+    /// Closed outlines; the area lies between them by the even-odd rule.
     pub loops: Vec<Vec<Curve>>,
+    /// The entity, for messages.
     pub entity: String,
 }
 
@@ -57,7 +61,7 @@ impl Fill {
     }
 }
 
-/// Adds the hatches to a drawing that holds all other curves.
+/// Adds the hatches to a drawing that has all other curves.
 pub(super) fn add(fills: &[Fill], drawing: &mut Drawing) {
     if fills.is_empty() {
         return;
@@ -89,8 +93,8 @@ pub(super) fn add(fills: &[Fill], drawing: &mut Drawing) {
     for ((fill, place), is_region) in fills.iter().zip(places).zip(regions) {
         match place {
             Some(Place::Inside(at) | Place::Unknown(at)) if !is_region => fill.name(at, drawing),
-            // What is hatched is there, even if the outlines alone would make a hole of it; on a layer of outlines they
-            // decide.
+            // A hatched region exists, even if the outlines alone would make it a hole. On a layer of outlines the
+            // outlines decide.
             Some(_) if is_region || is_alone(fill) => {
                 told.regions += 1;
                 fill.paint(drawing);
@@ -104,7 +108,7 @@ pub(super) fn add(fills: &[Fill], drawing: &mut Drawing) {
     drawing.notes.extend(told.notes());
 }
 
-/// How many hatches became what.
+/// Counts of what hatches became.
 #[derive(Default)]
 struct Told {
     copies: usize,
@@ -123,22 +127,22 @@ impl Told {
     }
 }
 
-/// Where a hatch lies, with a place well within it.
+/// The position of a hatch, with a place well within it.
 enum Place {
-    /// Also inside by the outlines.
+    /// Inside of the outlines, too.
     Inside(Point),
-    /// Outside of the outlines, or in holes of them, all over.
+    /// Outside of the outlines or in their holes, everywhere.
     Outside,
-    /// Lines that are open hide what the outlines say.
+    /// Open lines leave the position unknown.
     Unknown(Point),
 }
 
-/// The outlines of a drawing, to be asked for what lies near.
+/// The outlines of a drawing, indexed by place.
 struct Outlines<'a> {
     curves: Vec<&'a DrawnCurve>,
     tree: BoxHierarchy,
     bounds: Rect,
-    /// Curves that may still be looked at for the places of hatches: some seconds.
+    /// Number of curves that may still be examined for the places of hatches: some seconds.
     left: usize,
 }
 
@@ -153,8 +157,7 @@ impl<'a> Outlines<'a> {
         Self { curves, tree, bounds, left: LOOKED_AT }
     }
 
-    /// Whether an outline runs along these all the way, up to the digits in which both are written, or as a polygon
-    /// that stands for them.
+    /// Whether outlines run along these curves all the way, up to the digits of both, or as a polygon on them.
     fn repeat(&self, outline: &[Curve], last_decimal: f64) -> bool {
         let bounds = outline.iter().map(Curve::bounds).reduce(|a, b| a.union(b)).unwrap_or_default();
         let extent = bounds.width().max(bounds.height());
@@ -162,7 +165,7 @@ impl<'a> Outlines<'a> {
     }
 
     fn run_along(&self, curve: &Curve, extent: f64, last_decimal: f64) -> bool {
-        /// Places that are looked at, shares that no curve has its joints at.
+        /// Parameters that are examined. Curves seldom have joints there.
         const SAMPLES: [f64; 7] = [0.0, 0.137, 0.319, 0.5, 0.687, 0.871, 1.0];
         let reach = (FARTHEST_COPY * extent).max(SAGITTA * curve.length());
         SAMPLES.into_iter().all(|t| {
@@ -181,17 +184,17 @@ impl<'a> Outlines<'a> {
         })
     }
 
-    /// Where a hatch lies: the middle of its longest stretch on a few lines across, rather of one that is also inside
-    /// by the outlines.
+    /// The position of a hatch: the middle of its longest stretch on a few horizontal lines, preferably of one that is
+    /// inside of the outlines.
     fn place(&mut self, fill: &Fill) -> Option<Place> {
-        /// Heights of the lines, shares of the whole that no drawing has its corners at.
+        /// Heights of the lines, as parts of the whole. Drawings seldom have corners there.
         const LINES: [f64; 5] = [0.5037, 0.2963, 0.7193, 0.1043, 0.8989];
         let bounds = fill.curves().map(Curve::bounds).reduce(|a, b| a.union(b))?;
         let (mut inside, mut outside, mut unknown) = (Widest::default(), Widest::default(), Widest::default());
         for share in LINES {
             let y = bounds.y0 + share * bounds.height();
             let hatched = crossings(fill.curves(), y);
-            // A line that passes through a joint may miss it, and cannot tell inside from outside.
+            // A line through a joint may miss it. Then it does not tell inside from outside.
             if !hatched.len().is_multiple_of(2) {
                 continue;
             }
@@ -212,7 +215,7 @@ impl<'a> Outlines<'a> {
                 }
             }
         }
-        // Stretches within the digits of the file are none.
+        // Stretches within the digits of the file do not count.
         let least = COPY * bounds.width();
         let wide = |widest: Widest| widest.0.filter(|(width, _)| *width > least).map(|(_, at)| at);
         let places =
@@ -220,7 +223,7 @@ impl<'a> Outlines<'a> {
         places.into_iter().flatten().next()
     }
 
-    /// Where the outlines cross a height, from left to right; copies once.
+    /// The x of the outlines at a height, from left to right. Copies count once.
     fn crossings(&mut self, y: f64) -> Vec<f64> {
         let mut met = Vec::new();
         let across = Rect::new(self.bounds.x0, y, self.bounds.x1, y);
@@ -236,7 +239,7 @@ impl<'a> Outlines<'a> {
     }
 }
 
-/// Where curves cross a height, from left to right.
+/// The x of some curves at a height, from left to right.
 fn crossings<'c>(curves: impl IntoIterator<Item = &'c Curve>, y: f64) -> Vec<f64> {
     let (from, right) = (Point::new(0.0, y), Vec2::new(1.0, 0.0));
     let places = |curve: &'c Curve| curve.line_crossings(from, right, 0.0, 1.0).into_iter().map(|t| curve.point(t).x);

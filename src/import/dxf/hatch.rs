@@ -1,4 +1,16 @@
-//! The boundary of a HATCH: paths of polylines or of lines, arcs, elliptic arcs and splines.
+//! The boundary of a HATCH: paths of polylines, or of lines, arcs, elliptic arcs and splines.
+//!
+//! ```text
+//!    91 ── number of paths
+//!    92 ── path: its flags                      edge types (72), each with its own groups:
+//!    │     polyline: 10 20 42 of each vertex      1  line       10 20 to 11 21
+//!    │     else: 93, then edges                   2  arc        10 20 center, 40 radius, 50 51 angles, 73 sense
+//!    │       72 ── edge ● ── 72 ── edge ● ──      3  ellipse    10 20 center, 11 21 major axis, 40 ratio, 50 51, 73
+//!    92 ── next path …                            4  spline     94 degree, 40 knots, 10 20 42 control points
+//!    75 ── hatch style
+//!
+//!    Clockwise edges (73 = 0) measure their angles clockwise. Edges are joined into loops; a line closes each gap.
+//! ```
 
 use super::arc::sweep;
 use super::figure::{Notices, Refusal};
@@ -11,32 +23,36 @@ use crate::geometry::{Point, Rect, Vec2, direction};
 use crate::import::ImportError;
 use std::f64::consts::TAU;
 
-/// Bits of group 92, what a path is for.
+/// Bits of group 92: the use of a path.
 mod flag {
+    /// An outer boundary.
     pub const EXTERNAL: i64 = 1;
+    /// The path is a polyline.
     pub const POLYLINE: i64 = 2;
+    /// A box around text.
     pub const TEXT_BOX: i64 = 8;
+    /// The outermost boundary.
     pub const OUTERMOST: i64 = 16;
 }
 
-/// Paths times pairs of a hatch up to which loops are compared each with each, to see which lie in which. The flags
-/// tell that, too, but many a writer has all paths external, or none; those of larger hatches are believed.
+/// Largest product of paths and pairs for which loops are compared with each other to find their nesting. The flags
+/// give the nesting, too, but many writers set all paths to external, or none. Flags of larger hatches are used.
 const COMPARED: usize = 1 << 22;
 
-/// A path with the pairs that describe it.
+/// A path with the pairs of its description.
 struct Path<'r, 'a> {
     flags: i64,
     pairs: &'r [Pair<'a>],
 }
 
-/// The closed outlines between which the hatch lies, by the odd-even rule.
+/// The closed outlines of the hatch. It lies between them by the even-odd rule.
 pub(super) fn outlines(record: &Record, notices: &mut Notices) -> Result<Vec<Vec<Curve>>, Refusal> {
     let mut paths = paths(record)?;
     if paths.iter().any(|p| p.flags & flag::TEXT_BOX != 0) {
         notices.add("Boxes that keep hatches clear of text were left out.");
         paths.retain(|p| p.flags & flag::TEXT_BOX == 0);
     }
-    // Islands: 0 hatches every other area, 1 ends at the second, 2 looks at none.
+    // Style of islands: 0 hatches every other area, 1 stops at the second, 2 ignores islands.
     let (most, counted) = match record.integer(75, 0)? {
         1 => (1, flag::EXTERNAL | flag::OUTERMOST),
         2 => (0, flag::EXTERNAL),
@@ -49,7 +65,7 @@ pub(super) fn outlines(record: &Record, notices: &mut Notices) -> Result<Vec<Vec
     }
     let mut loops: Vec<Vec<Curve>> = Vec::new();
     for path in &paths {
-        // A polygon has no other paths.
+        // An MPOLYGON has polylines only.
         if path.flags & flag::POLYLINE != 0 || record.kind == "MPOLYGON" {
             let vertices = bulged_vertices(record, &mut path.pairs.iter().copied())?;
             loops.push(segments(record, &vertices, true)?);
@@ -64,7 +80,7 @@ pub(super) fn outlines(record: &Record, notices: &mut Notices) -> Result<Vec<Vec
     if loops.is_empty() { Err(Refusal::Skip("of no boundary")) } else { Ok(loops) }
 }
 
-/// Leaves out what lies within more than `most` other loops.
+/// Removes the loops inside of more than `most` other loops.
 fn retain_depth(loops: &mut Vec<Vec<Curve>>, most: usize) {
     let bounds: Vec<Rect> = loops
         .iter()
@@ -80,7 +96,7 @@ fn retain_depth(loops: &mut Vec<Vec<Curve>>, most: usize) {
     loops.retain(|_| depths.next().is_some_and(|depth| depth <= most));
 }
 
-/// Whether a closed outline goes around a point, by the first of a few lines through it that meets no joint.
+/// Whether a point lies inside of a closed outline, by the first of a few lines through the point that meets no joint.
 fn is_within(outline: &[Curve], at: Point) -> bool {
     const ANGLES_RAD: [f64; 4] = [0.0, 0.37, 1.13, 2.41];
     for angle in ANGLES_RAD {
@@ -97,7 +113,7 @@ fn is_within(outline: &[Curve], at: Point) -> bool {
     false
 }
 
-/// The paths, each from its flags to the next one's; the last to the hatch style, which follows it.
+/// The paths. Each ends where the next one's flags begin, the last where the hatch style begins.
 fn paths<'r, 'a>(record: &'r Record<'a>) -> Result<Vec<Path<'r, 'a>>, ImportError> {
     let start = record.pairs.iter().position(|p| p.code == 91).unwrap_or(record.pairs.len());
     let within = &record.pairs[start..];
@@ -110,7 +126,7 @@ fn paths<'r, 'a>(record: &'r Record<'a>) -> Result<Vec<Path<'r, 'a>>, ImportErro
     starts.iter().zip(ends).map(path).collect()
 }
 
-/// The edges of a path, each from its type, group 72, to the next one's.
+/// The edges of a path. Each ends where the type of the next one, group 72, begins.
 fn edges(record: &Record, pairs: &[Pair], notices: &mut Notices) -> Result<Vec<Curve>, Refusal> {
     let starts: Vec<usize> = (0..pairs.len()).filter(|&i| pairs[i].code == 72).collect();
     let ends = starts.iter().skip(1).copied().chain([pairs.len()]);
@@ -130,7 +146,7 @@ fn edges(record: &Record, pairs: &[Pair], notices: &mut Notices) -> Result<Vec<C
         };
         match curve {
             Ok(curve) => curves.push(curve),
-            // An arc of no extent leaves no gap.
+            // An arc without extent leaves no gap.
             Err(CurveError::Radius { .. } | CurveError::Sweep { .. }) => {}
             Err(error) => return Err(record.broken(error).into()),
         }
@@ -155,7 +171,7 @@ fn arc(edge: &Record, notices: &mut Notices) -> Result<Result<Curve, CurveError>
     Ok(Curve::arc(at(edge, 10)?, edge.required(40)?, start.to_radians(), sweep.to_radians()))
 }
 
-/// Unlike those of an ELLIPSE, the angles are those of the rays to the ends, not parameters.
+/// The angles are those of the rays to the ends. Those of an ELLIPSE are parameters.
 fn ellipse(edge: &Record, notices: &mut Notices) -> Result<Result<Curve, CurveError>, ImportError> {
     let (major, ratio) = (at(edge, 11)?.to_vec2(), edge.required(40)?);
     let (start, sweep) = angles(edge, notices)?;
@@ -174,11 +190,16 @@ fn ellipse(edge: &Record, notices: &mut Notices) -> Result<Result<Curve, CurveEr
     Ok(Curve::ellipse(at(edge, 10)?, major, minor, from, turn))
 }
 
-/// A gap in a boundary wider than this share of its size is drawn: arranging heals up to the same share of the whole
-/// drawing.
+/// A wider gap in a boundary, as a part of its size, is closed by a line. The arrangement heals gaps up to the same
+/// part of the whole drawing.
 const GAP: f64 = 1e-6;
 
-/// The loops of a path: its edges turned to follow each other, with a line in every gap.
+/// The loops of a path. Edges are reversed so that each follows the one before, and a line closes each gap.
+///
+/// ```text
+///    edges as found:  a ──▶ b    c ◀── b'   c' ──▶ a'          b, b' etc. are one place, up to `gap`
+///    loop:            a ──▶ b ─▶ b' ──▶ c ─▶ c' ──▶ a' ─▶ a    ─▶ line in a gap wider than `gap`
+/// ```
 fn closed(edges: Vec<Curve>, notices: &mut Notices) -> Vec<Vec<Curve>> {
     let bounds = edges.iter().map(|e| Rect::from_points(e.start(), e.end())).reduce(|a, b| a.union(b));
     let gap = GAP * bounds.map_or(0.0, |b| b.width().max(b.height()));
@@ -193,7 +214,7 @@ fn closed(edges: Vec<Curve>, notices: &mut Notices) -> Vec<Vec<Curve>> {
             following.push(line);
         }
     };
-    // Start and end of the loop that is being followed.
+    // Start and end of the current loop.
     let mut open: Option<[Point; 2]> = None;
     let mut edges = edges.into_iter().peekable();
     while let Some(edge) = edges.next() {

@@ -1,4 +1,4 @@
-//! What the header says of the whole drawing: version, unit, and how names are encoded.
+//! The header: version, unit, and encoding of names.
 
 use super::pairs::{Pair, shown};
 use super::sections::Sections;
@@ -11,6 +11,7 @@ const UNITS: [&str; 25] = [
     "au", "ly", "parsec", "us-ft", "us-in", "us-yd", "us-mi",
 ];
 
+/// The header of a file.
 pub(super) struct Header {
     /// "AC1015", or "no version".
     pub version: String,
@@ -20,6 +21,7 @@ pub(super) struct Header {
 }
 
 impl Header {
+    /// Reads the header.
     pub fn read(file: &Sections) -> Self {
         let text = |name: &str| file.header.get(name.as_bytes()).map(|pair| shown(pair.text()));
         let whole = |name: &str| file.header.get(name.as_bytes()).and_then(Pair::integer);
@@ -31,7 +33,7 @@ impl Header {
         }
     }
 
-    /// A name as people read it. UTF-8 is what R2007 and later files hold, and many an older one against its code page.
+    /// A name as text. Files from R2007 on are UTF-8, and so are many older ones, whatever their code page.
     pub fn name(&self, bytes: &[u8]) -> String {
         let text = match std::str::from_utf8(bytes) {
             Ok(text) => text.into(),
@@ -40,6 +42,7 @@ impl Header {
         unescaped(&text)
     }
 
+    /// Sets the unit of the drawing, with a note where the file gives none.
     pub fn tell_unit(&self, drawing: &mut Drawing) {
         let by_number = |n: i64| usize::try_from(n).ok().and_then(|n| UNITS.get(n)).filter(|unit| !unit.is_empty());
         if let Some((n, unit)) = self.insunits.and_then(|n| Some((n, by_number(n)?))) {
@@ -61,7 +64,7 @@ impl Header {
     }
 }
 
-/// The encoding of a code page by the name that `$DWGCODEPAGE` has for it.
+/// The encoding of a code page of `$DWGCODEPAGE`.
 fn encoding(code_page: &str) -> &'static Encoding {
     let number: String = code_page.chars().filter(char::is_ascii_digit).collect();
     match number.as_str() {

@@ -1,4 +1,4 @@
-//! Layers: which are seen, which were asked for, and what is drawn on them in which line types.
+//! Layers: which are visible and selected, and the line types drawn on them.
 
 use super::LineTypes;
 use super::header::Header;
@@ -9,20 +9,20 @@ use crate::import::selection::{Chooser, Selection};
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
-/// Layer 0, whose entities in a block take the layer of the block. Every file has it.
+/// Layer 0. Its entities in a block take the layer of the block. Every file has it.
 pub(super) const LAYER_0: LayerId = LayerId(0);
 
-/// The line type of what says nothing of it.
+/// The default line type.
 pub(super) const CONTINUOUS: &str = "CONTINUOUS";
 
 const FROZEN: &str = "on a frozen layer";
 const OFF: &str = "on a layer that is off";
 const DEFPOINTS: &str = "on the layer Defpoints, of construction points";
-/// Why what is drawn in a line type of drafting standards is left out.
+/// Why lines of certain line types are left out.
 pub(super) const AUXILIARY: &str = "of a line type that draws no edge (--line-types all keeps it)";
 const NOT_SELECTED: &str = "on a layer that --layers or --skip-layers leaves out";
 
-/// Why nothing on a layer is seen.
+/// Why a layer is invisible.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Hidden {
     Frozen,
@@ -31,6 +31,7 @@ pub(super) enum Hidden {
 }
 
 impl Hidden {
+    /// The reason in words.
     pub fn why(self) -> &'static str {
         match self {
             Self::Frozen => FROZEN,
@@ -40,17 +41,18 @@ impl Hidden {
     }
 }
 
-/// The line type of an entity, as its group 6 gives it.
+/// The line type of an entity, from group 6.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum LineType {
     OfLayer,
-    /// That of the INSERT which draws the block.
+    /// That of the INSERT that draws the block.
     OfBlock,
     /// In upper case.
     Named(Rc<str>),
 }
 
 impl LineType {
+    /// The line type of a record.
     pub fn of(record: &Record, header: &Header) -> Self {
         let name = header.name(record.text(6).unwrap_or_default()).to_uppercase();
         match name.as_str() {
@@ -62,29 +64,30 @@ impl LineType {
 }
 
 struct Row {
-    /// As the file spells it first.
+    /// The name in the spelling that the file uses first.
     text: String,
-    /// Once something is drawn on it.
+    /// The name in the drawing, once something is drawn on the layer.
     name: Option<NameId>,
     hidden: Option<Hidden>,
-    /// Asked for, or at least not excluded.
+    /// Whether the layer is selected.
     selected: bool,
     line_type: Rc<str>,
-    /// How many entities are drawn, by line type.
+    /// Number of drawn entities, by line type.
     drawn: BTreeMap<Rc<str>, usize>,
 }
 
-/// The layers of a file, those that its table lists and those that it only uses.
+/// The layers of a file: those of its table, and those that entities name.
 pub(super) struct Layers<'s> {
     rows: IdVec<LayerId, Row>,
     id_of: BTreeMap<String, LayerId>,
     chooser: Chooser<'s>,
     line_types: LineTypes,
-    /// Line types of the file that are known by their patterns, in upper case.
+    /// Line types that are chain lines by their patterns, in upper case.
     chained: BTreeSet<String>,
 }
 
 impl<'s> Layers<'s> {
+    /// The layers and line types of the tables of a file.
     pub fn new(file: &Sections, header: &Header, selection: &'s Selection, line_types: LineTypes) -> Self {
         let chained = file.line_types.iter().filter(|record| is_chained(record));
         let mut layers = Self {
@@ -118,7 +121,7 @@ impl<'s> Layers<'s> {
         }
     }
 
-    /// The layer of this name, in the table from now on.
+    /// The layer of this name, added to the table if it is new.
     pub fn id(&mut self, name: &str) -> LayerId {
         let key = key(name);
         if let Some(&layer) = self.id_of.get(&key) {
@@ -138,17 +141,18 @@ impl<'s> Layers<'s> {
         layer
     }
 
+    /// Why the layer is invisible, if it is.
     pub fn hidden(&self, layer: LayerId) -> Option<Hidden> {
         self.rows[layer].hidden
     }
 
-    /// Why what is drawn on this layer is left out, if it is.
+    /// Why entities of this layer are left out, if they are.
     pub fn why_not(&self, layer: LayerId) -> Option<&'static str> {
         let row = &self.rows[layer];
         row.hidden.map(Hidden::why).or((!row.selected).then_some(NOT_SELECTED))
     }
 
-    /// The line type of an entity on this layer, where its block is drawn in another.
+    /// The line type of an entity on this layer, in a block drawn with line type `of_block`.
     pub fn line_type(&self, line_type: &LineType, layer: LayerId, of_block: &Rc<str>) -> Rc<str> {
         match line_type {
             LineType::OfLayer => Rc::clone(&self.rows[layer].line_type),
@@ -157,23 +161,23 @@ impl<'s> Layers<'s> {
         }
     }
 
-    /// Whether what is drawn in this line type is no edge, and is left out.
+    /// Whether lines of this type are no edges, and are left out.
     pub fn is_auxiliary(&self, line_type: &str) -> bool {
         self.line_types == LineTypes::Edges && (is_auxiliary(line_type) || self.chained.contains(line_type))
     }
 
-    /// Counts an entity that is drawn.
+    /// Counts a drawn entity.
     pub fn count(&mut self, layer: LayerId, line_type: Rc<str>) {
         *self.rows[layer].drawn.entry(line_type).or_insert(0) += 1;
     }
 
-    /// The name of what is drawn on the layer.
+    /// The name of curves on the layer.
     pub fn name(&mut self, layer: LayerId, drawing: &mut Drawing) -> NameId {
         let Row { text, name, .. } = &mut self.rows[layer];
         *name.get_or_insert_with(|| drawing.names.intern(text))
     }
 
-    /// Hands the layers to the drawing, with what was asked for and does not exist.
+    /// Adds the layers to the drawing, and the names that were asked for and do not exist.
     pub fn hand_over(self, drawing: &mut Drawing) {
         let line_types = |row: &Row| row.drawn.iter().map(|(name, &count)| (name.to_string(), count)).collect();
         let layer = |row: &Row| Layer { name: row.text.clone(), line_types: line_types(row) };
@@ -182,11 +186,10 @@ impl<'s> Layers<'s> {
     }
 }
 
-/// Whether the pattern of a line type mixes dashes with dots, or long dashes with short ones, as chain lines do under
-/// any name (SLD-Center of SolidWorks, AM_ISO08W050, Strichpunkt). Patterns with letters or symbols in them are pipes
-/// and fences.
+/// Whether a line type is a chain line by its pattern: dashes with dots, or long dashes with short ones. Names vary
+/// (SLD-Center of SolidWorks, AM_ISO08W050, Strichpunkt). Patterns with letters or symbols are pipes and fences.
 fn is_chained(record: &Record) -> bool {
-    /// Dashes are as long as each other up to this share.
+    /// Dashes count as equally long if the shorter one has this part of the longer one.
     const ALIKE: f64 = 0.9;
     let reals = |code: i32| record.reals(code).unwrap_or_default();
     let dashes: Vec<f64> = reals(49).into_iter().filter(|&length| length >= 0.0).collect();
@@ -194,12 +197,11 @@ fn is_chained(record: &Record) -> bool {
     shortest < ALIKE * longest && reals(74).iter().all(|&symbol| symbol == 0.0)
 }
 
-/// Whether a line type, in upper case, is one that drafting standards use for centre lines, for what is hidden, or for
-/// borders.
+/// Whether drafting standards use a line type, in upper case, for centre lines, hidden lines or borders.
 ///
-/// The names are those of `acad.lin` and `acadiso.lin`: groups of the standard types, of which `CENTER2` and `CENTERX2`
-/// are finer and coarser ones, and those of ISO 128 by their numbers, 02 dashed, 03 dashed spaced, 04 to 15 with dots
-/// or double dashes; of JIS 08 are centre lines and 09 phantom lines.
+/// The names are those of `acad.lin` and `acadiso.lin`. The standard types come in groups: `CENTER2` is finer and
+/// `CENTERX2` is coarser than `CENTER`. Types of ISO 128 have numbers: 02 dashed, 03 dashed spaced, 04 to 15 with dots
+/// or double dashes. Of JIS, 08 are centre lines and 09 phantom lines.
 fn is_auxiliary(line_type: &str) -> bool {
     const GROUPS: [&str; 9] =
         ["CENTER", "CENTRE", "PHANTOM", "HIDDEN", "DASHDOT", "DIVIDE", "BORDER", "JIS_08", "JIS_09"];
@@ -213,7 +215,7 @@ fn is_auxiliary(line_type: &str) -> bool {
         || ISO.iter().filter_map(|iso| line_type.strip_prefix(iso)).any(is_iso)
 }
 
-/// Names of layers and blocks are the same in upper and lower case.
+/// The key of a layer or block. Names are equal in upper and lower case.
 pub(super) fn key(name: &str) -> String {
     name.to_lowercase()
 }

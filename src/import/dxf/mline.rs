@@ -1,5 +1,4 @@
-//! MLINE: parallel lines along a polyline. The entity itself tells how far each line lies from every vertex, along the
-//! miter there.
+//! MLINE: parallel lines along a polyline. The entity gives the distance of each line from each vertex along the miter.
 
 use super::figure::{Figure, Notices, Refusal};
 use super::plane::flat;
@@ -8,16 +7,17 @@ use super::sections::Record;
 use crate::curve::Curve;
 use crate::geometry::{Point, Vec2};
 
-/// Bit of group 71.
+/// Bit of group 71: closed.
 const CLOSED: i64 = 2;
 
-/// A vertex with the direction in which the lines are offset there, and by how much each.
+/// A vertex, with the direction of its miter and the offset of each line along it.
 struct Corner {
     at: Point,
     miter: Vec2,
     offsets: Vec<f64>,
 }
 
+/// The lines of an MLINE.
 pub(super) fn mline(record: &Record, notices: &mut Notices) -> Result<Figure<'static>, Refusal> {
     let corners = corners(record)?;
     let lines = corners.iter().map(|corner| corner.offsets.len()).min().unwrap_or(0);
@@ -38,8 +38,8 @@ pub(super) fn mline(record: &Record, notices: &mut Notices) -> Result<Figure<'st
     Ok(Figure::Curves { curves, level, parts: "segment", last_decimal: record.last_decimal(&[11, 21]) })
 }
 
-/// Vertices are groups 11 and 21, miters 13 and 23. Of each line follow a count, group 74, and as many numbers, group
-/// 41: the first is its offset, a second where it starts, more where it is broken.
+/// Reads vertices (groups 11 and 21) and miters (13 and 23). For each line a count follows (group 74), then as many
+/// numbers (group 41): its offset, the start of the line, and the breaks of the line.
 fn corners(record: &Record) -> Result<Vec<Corner>, Refusal> {
     const BROKEN: i64 = 2;
     let mut corners: Vec<Corner> = Vec::new();

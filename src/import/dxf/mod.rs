@@ -4,13 +4,13 @@
 //!   SOLID, TRACE and 3DFACE and flat meshes, and all of these in blocks, as INSERT draws them. A curve's name is its
 //!   layer. POINT is a point.
 //! - *Regions*: closed outlines are filled by the odd-even rule, so that an outline within an outline is a hole.
-//! - *Hatches* (and MPOLYGON): a drawing of nothing else is a picture of filled shapes, whose regions are named after
-//!   their layers. Beside other curves, a boundary that repeats what they draw, rounded or as a polygon, is no curve:
-//!   the layer of the hatch names the region in which it lies. A boundary that repeats nothing is an outline like the
-//!   others of its layer. A hatch on a layer without other curves is a region of that name and of its own extent.
-//! - *Left out and counted*: what is not in model space, not visible (layers that are off or frozen, and `Defpoints`),
-//!   not on a layer that is asked for, not of a line type for edges, not parallel to the XY plane, and every entity
-//!   that is no curve. Heights are dropped.
+//! - *Hatches* (and MPOLYGON): where nothing else is drawn, hatches are filled shapes, whose regions are named after
+//!   their layers. Otherwise, a hatch whose boundary repeats other curves, rounded or as a polygon, adds no curve: its
+//!   layer names the region in which it lies. A boundary that repeats no curve is an outline of its layer. A hatch on a
+//!   layer without other curves is a region of its own, named after the layer.
+//! - *Left out and counted*: entities outside of model space, on layers that are off or frozen, on `Defpoints`, on
+//!   layers that are not selected, with line types that draw no edges, not parallel to the XY plane, and all that are
+//!   no curves. Heights are dropped.
 //! - *Unit*: `$INSUNITS`, else what `$MEASUREMENT` suggests, else none.
 //!
 //! The format: Autodesk, *DXF Reference*, with the arbitrary axis algorithm of its chapter "Object Coordinate Systems".
@@ -40,6 +40,7 @@ use schemars::JsonSchema;
 use sections::Sections;
 use serde::{Deserialize, Serialize};
 
+/// The facts of DXF.
 pub(super) const FACTS: Facts = Facts {
     name: "dxf",
     suffixes: &["dxf"],
@@ -52,14 +53,15 @@ pub(super) const FACTS: Facts = Facts {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum LineTypes {
-    /// Not those that drafting standards use for what is no edge, as centre lines; where nothing else is drawn, all.
+    /// Not those that drafting standards use for lines that are no edges, as centre lines. Where nothing else is drawn,
+    /// all.
     #[default]
     Edges,
     /// All that are drawn.
     All,
 }
 
-/// How a drawing is read.
+/// How DXF is read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case", default)]
 pub struct DxfOptions {
@@ -78,12 +80,11 @@ impl Default for DxfOptions {
     }
 }
 
-/// Reads a drawing, of the layers that `selection` asks for; `stem` is its title.
+/// Reads the layers of a drawing that `selection` selects. `stem` is its title.
 ///
 /// # Errors
-/// With the line and the entity: where the file is no DXF file or is cut short before the end of its entities, where a
-/// number of a drawn entity is none or its data contradict each other, and where blocks unfold to more than a million
-/// curves.
+/// With the line and the entity: where the file is not DXF or ends before its entities do, where a number of a drawn
+/// entity is invalid or its data contradict each other, and where blocks expand to more than a million curves.
 pub fn read(bytes: &[u8], stem: &str, options: &DxfOptions, selection: &Selection) -> Result<Drawing, ImportError> {
     let file = Sections::read(bytes)?;
     let header = Header::read(&file);

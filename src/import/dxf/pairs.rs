@@ -1,13 +1,13 @@
-//! The stream of group codes and values that a DXF file is, as text and as bytes.
+//! The group codes and values of a DXF file, text or binary.
 
 use crate::import::{ImportError, number};
 use std::fmt;
 
-/// What a binary file starts with; some were sent as text on their way, and have lost the CR.
+/// The first bytes of a binary file. Some files were sent as text and have lost the CR.
 const SENTINELS: [&[u8]; 2] = [b"AutoCAD Binary DXF\r\n\x1a\0", b"AutoCAD Binary DXF\n\x1a\0"];
-const DAMAGED: &str = "the file is damaged here, or is no DXF file: export it again";
+const DAMAGED: &str = "the file is damaged here, or is not a DXF file: export it again";
 
-/// Where something stands in the file.
+/// A place in the file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Place {
     /// Of a text file, from 1.
@@ -26,6 +26,7 @@ impl fmt::Display for Place {
 }
 
 impl Place {
+    /// An error at this place.
     pub fn error(self, what: impl fmt::Display, help: &str) -> ImportError {
         match self {
             Self::Line(line) => ImportError::at(line, what.to_string(), help),
@@ -34,6 +35,7 @@ impl Place {
     }
 }
 
+/// The value of a pair.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Value<'a> {
     Text(&'a [u8]),
@@ -41,16 +43,19 @@ pub(super) enum Value<'a> {
     Integer(i64),
 }
 
+/// A group code with its value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Pair<'a> {
+    /// The group code.
     pub code: i32,
+    /// The value.
     pub value: Value<'a>,
-    /// Of the value in a text file, of the code in a binary one.
+    /// The place of the value in a text file, of the code in a binary one.
     pub place: Place,
 }
 
 impl<'a> Pair<'a> {
-    /// The value as text without the blanks around it; empty where it is a number of a binary file.
+    /// The value as text without the blanks around it; empty for a number of a binary file.
     pub fn text(&self) -> &'a [u8] {
         match self.value {
             Value::Text(text) => text.trim_ascii(),
@@ -72,8 +77,8 @@ impl<'a> Pair<'a> {
         }
     }
 
-    /// One unit of the last decimal that a text writes, 0.001 of `80.000`; 0 of whole numbers and of the numbers of a
-    /// binary file. One zero behind the point stands there only because some writers put no number without.
+    /// The unit of the last decimal of a text: 0.001 for `80.000`. It is 0 for whole numbers and for numbers of a
+    /// binary file. A single zero after the point does not count, because some writers always add one.
     pub fn last_decimal(&self) -> f64 {
         let Value::Text(text) = self.value else { return 0.0 };
         let text = text.trim_ascii();
@@ -92,7 +97,7 @@ impl<'a> Pair<'a> {
     pub fn integer(&self) -> Option<i64> {
         match self.value {
             Value::Integer(integer) => Some(integer),
-            // Some writers put a point behind whole numbers.
+            // Some writers add a point to whole numbers.
             _ => self.real().filter(|r| *r == r.trunc() && r.abs() < 9e15).map(|r| r as i64),
         }
     }
@@ -108,7 +113,7 @@ impl fmt::Display for Pair<'_> {
     }
 }
 
-/// A text of the file, as much of it as a message can hold.
+/// A text of the file, cut to the length of a message.
 pub(super) fn shown(text: &[u8]) -> String {
     const MOST: usize = 40;
     let text = String::from_utf8_lossy(&text[..text.len().min(4 * MOST)]);
@@ -119,9 +124,9 @@ pub(super) fn shown(text: &[u8]) -> String {
     short
 }
 
-/// Whether the bytes start as a DXF file does: by the binary sentinel, or by a section after comments.
+/// Whether these are the first bytes of a DXF file: the binary sentinel, or a section after comments.
 pub(super) fn sniff(bytes: &[u8]) -> bool {
-    /// More comments than this at its head has no file.
+    /// No file begins with more comments.
     const COMMENTS: usize = 1000;
     let Ok(mut pairs) = Pairs::new(bytes) else { return false };
     if pairs.is_binary() {
@@ -144,13 +149,14 @@ pub(super) struct Pairs<'a> {
 }
 
 enum Form {
-    /// Lines end at this byte; `line` of them were read.
+    /// Lines end with this byte. `line` lines were read.
     Text { newline: u8, line: usize },
-    /// Codes have one byte (to R12) or two; `read` bytes were read.
+    /// Codes have one byte (up to R12) or two. `read` bytes were read.
     Binary { wide: bool, read: usize },
 }
 
 impl<'a> Pairs<'a> {
+    /// The pairs of a file.
     pub fn new(bytes: &'a [u8]) -> Result<Self, ImportError> {
         let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
         if text.trim_ascii().is_empty() {
@@ -158,8 +164,8 @@ impl<'a> Pairs<'a> {
         }
         for sentinel in SENTINELS {
             if let Some(rest) = bytes.strip_prefix(sentinel) {
-                // The first group is 0 SECTION, or a comment, 999: only codes of two bytes have a second byte of 0
-                // or 3.
+                // The first group is 0 SECTION, or 999, a comment. Only with codes of two bytes the second byte is 0 or
+                // 3.
                 let wide = rest.len() > 1 && (rest[1] == 0 || rest[..2] == 999u16.to_le_bytes());
                 return Ok(Self { rest, form: Form::Binary { wide, read: sentinel.len() } });
             }
@@ -171,11 +177,12 @@ impl<'a> Pairs<'a> {
         Ok(Self { rest, form: Form::Text { newline, line } })
     }
 
+    /// Whether the file is binary.
     pub fn is_binary(&self) -> bool {
         matches!(self.form, Form::Binary { .. })
     }
 
-    /// Where the next pair begins.
+    /// The place of the next pair.
     pub fn place(&self) -> Place {
         match self.form {
             Form::Text { line, .. } => Place::Line(line + 1),
@@ -183,7 +190,7 @@ impl<'a> Pairs<'a> {
         }
     }
 
-    /// The next pair; `None` at the end of the file, which may lie within a pair.
+    /// The next pair; `None` at the end of the file, also if that is within a pair.
     pub fn next(&mut self) -> Result<Option<Pair<'a>>, ImportError> {
         match self.form {
             Form::Text { .. } => self.next_text(),
@@ -232,7 +239,7 @@ impl<'a> Pairs<'a> {
             Some(Kind::Integer16) => self.array().map(|b| Value::Integer(i16::from_le_bytes(b).into())),
             Some(Kind::Integer32) => self.array().map(|b| Value::Integer(i32::from_le_bytes(b).into())),
             Some(Kind::Integer64) => self.array().map(|b| Value::Integer(i64::from_le_bytes(b))),
-            None => return Err(place.error(format!("{code} is no group code"), DAMAGED)),
+            None => return Err(place.error(format!("{code} is not a group code"), DAMAGED)),
         };
         Ok(value.map(|value| Pair { code, value, place }))
     }

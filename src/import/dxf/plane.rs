@@ -1,4 +1,4 @@
-//! How entities lie to the XY plane of the drawing.
+//! The planes of entities relative to the XY plane of the drawing.
 
 use super::figure::{Level, Refusal, TILTED};
 use super::sections::Record;
@@ -6,7 +6,7 @@ use crate::curve::Curve;
 use crate::geometry::Point;
 use kurbo::Affine;
 
-/// Height over extent below which an entity is flat: rounding of a file with six decimals.
+/// Largest ratio of height to extent of a flat entity: rounding of a file with six decimals.
 pub(super) const FLAT: f64 = 1e-6;
 
 /// The plane of an entity that has an extrusion direction.
@@ -20,6 +20,7 @@ pub(super) enum Plane {
 }
 
 impl Plane {
+    /// The plane of an entity.
     pub fn of(record: &Record) -> Result<Self, Refusal> {
         let normal = record.optional_point(210)?.unwrap_or([0.0, 0.0, 1.0]);
         let [x, y, z] = normal;
@@ -27,10 +28,10 @@ impl Plane {
             return Ok(if z < 0.0 { Self::Below } else { Self::Above });
         }
         if z.abs() <= FLAT * x.abs().max(y.abs()) {
-            // Seen from its side, nothing of an area is left.
+            // An area seen from its side has no extent.
             return Err(Refusal::Skip(TILTED));
         }
-        /// A normal nearer to the z axis than this has its x axis by the y axis (arbitrary axis algorithm).
+        /// A normal nearer than this to the z axis takes its x axis from the y axis (arbitrary axis algorithm).
         const NEAR_Z: f64 = 1.0 / 64.0;
         let n = unit(normal);
         let up = if n[0].abs() < NEAR_Z && n[1].abs() < NEAR_Z { [0.0, 1.0, 0.0] } else { [0.0, 0.0, 1.0] };
@@ -38,7 +39,7 @@ impl Plane {
         Ok(Self::Tilted([across, cross(n, across), n]))
     }
 
-    /// The plane of an entity that is only read where it is parallel to the XY plane.
+    /// The plane of an entity that must be parallel to the XY plane.
     pub fn parallel(record: &Record) -> Result<Self, Refusal> {
         match Self::of(record)? {
             Self::Tilted(_) => Err(Refusal::Skip(TILTED)),
@@ -46,9 +47,9 @@ impl Plane {
         }
     }
 
-    /// From coordinates of the entity to those of the drawing: the arbitrary axis algorithm, by which the x axis of an
-    /// entity whose normal is along z is that of the drawing, or its opposite. `z` is the height in the plane's own
-    /// coordinates.
+    /// From the coordinates of the entity to those of the drawing, by the arbitrary axis algorithm. If the normal is
+    /// along z, the x axis of the entity is that of the drawing or its opposite. `z` is the height in the coordinates
+    /// of the plane.
     pub fn affine(self, z: f64) -> Affine {
         match self {
             Self::Above => Affine::IDENTITY,
@@ -57,6 +58,7 @@ impl Plane {
         }
     }
 
+    /// A curve of the entity in the drawing.
     pub fn place(self, curve: Curve, z: f64) -> Curve {
         match self {
             Self::Above => curve,
@@ -64,10 +66,12 @@ impl Plane {
         }
     }
 
+    /// The height in the drawing of a height in the plane.
     pub fn height(self, z: f64) -> f64 {
         if matches!(self, Self::Below) { -z } else { z }
     }
 
+    /// The level of an entity at a height in the plane.
     pub fn level(self, z: f64) -> Level {
         match self {
             Self::Above | Self::Below => Level::At(self.height(z)),
@@ -75,6 +79,7 @@ impl Plane {
         }
     }
 
+    /// The unit normal.
     pub fn normal(self) -> [f64; 3] {
         match self {
             Self::Above => [0.0, 0.0, 1.0],
@@ -84,11 +89,12 @@ impl Plane {
     }
 }
 
+/// The cross product.
 pub(super) fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
-/// The unit vector along one that is not zero.
+/// The unit vector along a vector that is not zero.
 fn unit(v: [f64; 3]) -> [f64; 3] {
     let most = v.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
     let v = v.map(|x| x / most);
@@ -96,7 +102,7 @@ fn unit(v: [f64; 3]) -> [f64; 3] {
     v.map(|x| x / length)
 }
 
-/// How points of an entity that has no plane lie.
+/// The level of points of an entity without a plane.
 pub(super) fn flat(points: &[[f64; 3]]) -> Level {
     let spread = |axis: usize| {
         let values = points.iter().map(|p| p[axis]);
@@ -109,7 +115,7 @@ pub(super) fn flat(points: &[[f64; 3]]) -> Level {
     Level::At(points.first().map_or(0.0, |p| p[2]))
 }
 
-/// The same, of an entity that is only read where it is parallel to the XY plane; its points in it.
+/// The same for an entity that must be parallel to the XY plane, with its points in it.
 pub(super) fn parallel(points: &[[f64; 3]]) -> Result<(Vec<Point>, Level), Refusal> {
     match flat(points) {
         Level::Leaves => Err(Refusal::Skip(TILTED)),

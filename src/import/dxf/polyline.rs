@@ -1,8 +1,10 @@
 //! Polylines, the outlines of faces, and the edges of meshes.
 //!
 //! ```text
-//!              ╭───╮        A vertex starts a segment to the next one. Its bulge is the tangent of a quarter of the angle that the segment
-//!     a ────── b   c        turns by, 0 of a line: `b` has the bulge −1, and its segment is a half circle clockwise.
+//!          . - ~ - .           A vertex b starts the segment to the next vertex c. The bulge of b gives the arc:
+//!        ´     |h    `         bulge = tan(sweep / 4) = h / (½ |bc|), with h the height of the arc above its chord.
+//!     b ●──────┴──────● c      0: a line, ±1: a half circle. Positive is counter-clockwise from b to c.
+//!                              The arc of this figure is clockwise, so its bulge is negative.
 //! ```
 
 use super::figure::{Figure, Level, Notices, Refusal, built};
@@ -14,32 +16,43 @@ use crate::geometry::Point;
 use crate::import::ImportError;
 use std::collections::BTreeSet;
 
-/// A bulge whose arc leaves its chord by no more than the rounding of its ends.
+/// A smaller bulge leaves the chord by less than the rounding of its ends.
 const STRAIGHT_BULGE: f64 = 1e-15;
-/// A bulge whose arc is a full turn, up to rounding: it has no chord that could say where.
+/// A larger bulge is a full turn up to rounding. Its chord cannot say where.
 const FULL_BULGE: f64 = 1e8;
 const WIDE: &str = "Polylines of some width are drawn as their centre lines.";
 
 /// Bits of group 70 of a POLYLINE and of its VERTEX entities.
 mod flag {
+    /// The polyline is closed.
     pub const CLOSED: i64 = 1;
+    /// The polyline is a curve in space.
     pub const IN_SPACE: i64 = 8;
+    /// The polyline is a mesh of M by N vertices.
     pub const GRID: i64 = 16;
+    /// The mesh is closed along N.
     pub const CLOSED_ALONG_N: i64 = 32;
+    /// The polyline is a mesh of faces.
     pub const POLYFACE: i64 = 64;
+    /// The vertex is of the frame of a spline.
     pub const FRAME: i64 = 16;
+    /// The vertex is a face.
     pub const FACE: i64 = 128;
+    /// The vertex has coordinates.
     pub const COORDINATES: i64 = 64;
 }
 
 /// A vertex of a polyline, with the bulge of the segment that it starts.
 #[derive(Clone, Copy)]
 pub(super) struct Vertex {
+    /// Its place.
     pub at: Point,
+    /// The tangent of a quarter of the angle by which the segment turns; 0 for a line.
     pub bulge: f64,
 }
 
-/// The segments of a polyline, arcs where they have a bulge. The closing one is left out where its ends are the same.
+/// The segments of a polyline: lines, or arcs where they have a bulge. A closing segment between equal ends is left
+/// out.
 pub(super) fn segments(record: &Record, vertices: &[Vertex], closed: bool) -> Result<Vec<Curve>, Refusal> {
     let after = vertices.iter().skip(1).chain(vertices.first().filter(|_| closed));
     let last = vertices.len().saturating_sub(1);
@@ -62,6 +75,7 @@ fn chain(record: &Record, vertices: &[Vertex], closed: bool) -> Result<Vec<Curve
     if curves.is_empty() { Err(Refusal::Degenerate) } else { Ok(curves) }
 }
 
+/// An LWPOLYLINE.
 pub(super) fn light_polyline(record: &Record, notices: &mut Notices) -> Result<Figure<'static>, Refusal> {
     let plane = Plane::of(record)?;
     let z = record.real(38, 0.0)?;
@@ -78,7 +92,7 @@ pub(super) fn light_polyline(record: &Record, notices: &mut Notices) -> Result<F
     Ok(Figure::Curves { curves, level: plane.level(z), parts: "segment", last_decimal })
 }
 
-/// Vertices of groups 10 and 20, with bulges of group 42.
+/// Vertices from groups 10 and 20, with bulges from group 42.
 pub(super) fn bulged_vertices<'a>(
     record: &Record,
     pairs: &mut dyn Iterator<Item = Pair<'a>>,
@@ -98,6 +112,7 @@ pub(super) fn bulged_vertices<'a>(
     }
 }
 
+/// A POLYLINE.
 pub(super) fn polyline(
     record: &Record,
     followers: &[Record],
@@ -110,7 +125,7 @@ pub(super) fn polyline(
     let mut vertices = Vec::new();
     let mut points = Vec::new();
     for vertex in followers {
-        // Where a spline was put through the vertices, those drawn by the user are its frame, and no part of the line.
+        // Where a spline runs near the vertices, those of its frame are not part of the line.
         if vertex.integer(70, 0)? & flag::FRAME == 0 {
             let at = vertex.point(10)?;
             points.push(at);
@@ -141,7 +156,7 @@ pub(super) fn face(record: &Record) -> Result<Figure<'static>, Refusal> {
     let corners = [record.point(10)?, record.point(11)?, record.point(12)?];
     let fourth = record.optional_point(13)?.unwrap_or(corners[2]);
     let [a, b, c] = corners;
-    // The corners of a 3DFACE go around; those of the older two go across.
+    // The corners of a 3DFACE go around. Those of SOLID and TRACE go across.
     let in_space = record.kind == "3DFACE";
     let around = if in_space { [a, b, c, fourth] } else { [a, b, fourth, c] };
     let plane = if in_space { Plane::Above } else { Plane::parallel(record)? };
@@ -160,7 +175,7 @@ pub(super) fn face(record: &Record) -> Result<Figure<'static>, Refusal> {
     Ok(Figure::Curves { curves, level, parts: "edge", last_decimal })
 }
 
-/// Lines between vertices by their numbers, each drawn once.
+/// The lines between numbered vertices, each drawn once.
 fn edges(
     record: &Record,
     points: &[Point],
@@ -176,7 +191,7 @@ fn edges(
     if curves.is_empty() { Err(Refusal::Degenerate) } else { Ok(curves) }
 }
 
-/// A mesh of M by N vertices, closed along M or N where its flags say so.
+/// The lines of a mesh of M by N vertices, closed along M or N by its flags.
 fn grid(record: &Record, flags: i64, points: &[[f64; 3]], last_decimal: f64) -> Result<Figure<'static>, Refusal> {
     let (points, level) = parallel(points)?;
     let sizes = if record.integer(75, 0)? == 0 { [71, 72] } else { [73, 74] };
@@ -194,7 +209,8 @@ fn grid(record: &Record, flags: i64, points: &[[f64; 3]], last_decimal: f64) -> 
     Ok(Figure::Curves { curves: edges(record, &points, pairs)?, level, parts: "edge", last_decimal })
 }
 
-/// A mesh of faces, each by the numbers of up to four vertices; a negative number starts an edge that is not shown.
+/// The edges of a mesh of faces, each with the numbers of up to four vertices. A negative number starts an invisible
+/// edge.
 fn polyface(record: &Record, followers: &[Record]) -> Result<Figure<'static>, Refusal> {
     let mut points = Vec::new();
     let mut pairs: Vec<(i64, i64)> = Vec::new();

@@ -1,4 +1,4 @@
-//! The sections of a file that hold geometry or speak of it: header, layers, blocks and entities, as records of pairs.
+//! The sections of a file that describe geometry: header, tables, blocks and entities, as records of pairs.
 
 use super::pairs::{Pair, Pairs, Place, shown};
 use crate::geometry::Point;
@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 const NOT_A_NUMBER: &str =
     "correct the number in the file, or export it again (numbers have a decimal point and no other marks)";
 const CUT: &str = "the file was cut short: export or copy it again";
-/// The largest coordinate that is read. Products of two are numbers still, and no drawing reaches it.
+/// Larger coordinates are refused: products of two must stay finite.
 const LARGEST: f64 = 1e150;
 
 /// One entity, or one entry of a table.
@@ -16,7 +16,9 @@ const LARGEST: f64 = 1e150;
 pub(super) struct Record<'a> {
     /// Upper case.
     pub kind: String,
+    /// The place of its first pair.
     pub place: Place,
+    /// Its pairs, without the first.
     pub pairs: Vec<Pair<'a>>,
 }
 
@@ -25,7 +27,7 @@ impl<'a> Record<'a> {
         Self { kind: shown(start.text()).to_ascii_uppercase(), place: start.place, pairs: Vec::new() }
     }
 
-    /// A part of the record as one of its own, under the same name and handle.
+    /// A part of the record as a record, with the same kind and handle.
     pub fn part(&self, handle: Option<&Pair<'a>>, pairs: &[Pair<'a>]) -> Self {
         let pairs = handle.into_iter().chain(pairs).copied().collect();
         Self { kind: self.kind.clone(), place: self.place, pairs }
@@ -36,31 +38,37 @@ impl<'a> Record<'a> {
         self.pairs.iter().find(|p| p.code == code)
     }
 
+    /// The text of a group.
     pub fn text(&self, code: i32) -> Option<&'a [u8]> {
         self.find(code).map(Pair::text)
     }
 
-    /// A whole number; `default` where there is none.
+    /// An integer; `default` where there is none.
     pub fn integer(&self, code: i32, default: i64) -> Result<i64, ImportError> {
         self.find(code).map_or(Ok(default), |pair| self.integer_of(pair))
     }
 
+    /// The integer of a pair.
     pub fn integer_of(&self, pair: &Pair) -> Result<i64, ImportError> {
         pair.integer().ok_or_else(|| self.wrong(pair, "not a whole number"))
     }
 
+    /// A number; `default` where there is none.
     pub fn real(&self, code: i32, default: f64) -> Result<f64, ImportError> {
         Ok(self.optional(code)?.unwrap_or(default))
     }
 
+    /// A number, if there is one.
     pub fn optional(&self, code: i32) -> Result<Option<f64>, ImportError> {
         self.find(code).map(|pair| self.real_of(pair)).transpose()
     }
 
+    /// A number that must be there.
     pub fn required(&self, code: i32) -> Result<f64, ImportError> {
         self.optional(code)?.ok_or_else(|| self.broken(format!("group {code} is missing")))
     }
 
+    /// The number of a pair.
     pub fn real_of(&self, pair: &Pair) -> Result<f64, ImportError> {
         let value = pair.real().ok_or_else(|| self.wrong(pair, "not a finite number"))?;
         if value.abs() > LARGEST {
@@ -69,12 +77,13 @@ impl<'a> Record<'a> {
         Ok(value)
     }
 
-    /// The point whose x is the first group of this code, or `None` where there is no such group.
+    /// The point whose x is the first group of this code; `None` where there is no such group.
     pub fn optional_point(&self, code: i32) -> Result<Option<[f64; 3]>, ImportError> {
         let Some(x) = self.optional(code)? else { return Ok(None) };
         Ok(Some([x, self.required(code + 10)?, self.real(code + 20, 0.0)?]))
     }
 
+    /// The point whose x has this code, which must be there.
     pub fn point(&self, code: i32) -> Result<[f64; 3], ImportError> {
         self.optional_point(code)?.ok_or_else(|| self.broken(format!("group {code} is missing")))
     }
@@ -102,13 +111,12 @@ impl<'a> Record<'a> {
         self.pairs.iter().filter(|p| p.code == code).map(|pair| self.real_of(pair)).collect()
     }
 
-    /// The unit of the last decimal of the numbers with these codes: of the one that has the most; 0 where all are
-    /// whole.
+    /// The unit of the last decimal of the numbers with these codes, the finest of them; 0 where all are whole.
     pub fn last_decimal(&self, codes: &[i32]) -> f64 {
         finest(self.pairs.iter().filter(|p| codes.contains(&p.code)).map(Pair::last_decimal))
     }
 
-    /// The number by which the file knows the entity.
+    /// The number by which the file identifies the entity.
     pub fn handle(&self) -> Option<u64> {
         u64::from_str_radix(std::str::from_utf8(self.text(5)?).ok()?, 16).ok()
     }
@@ -122,6 +130,7 @@ impl<'a> Record<'a> {
         }
     }
 
+    /// An error about the record.
     pub fn broken(&self, what: impl std::fmt::Display) -> ImportError {
         let help = "draw the entity anew, or export the file again";
         self.place.error(format!("{}: {what}", self.label()), help)
@@ -132,36 +141,42 @@ impl<'a> Record<'a> {
     }
 }
 
-/// The smallest of some units, of which 0 is none.
+/// The smallest of some units; 0 counts as none.
 pub(super) fn finest(units: impl Iterator<Item = f64>) -> f64 {
     units.filter(|&unit| unit > 0.0).reduce(f64::min).unwrap_or(0.0)
 }
 
-/// A block: entities about a base point, drawn where an INSERT asks for them.
+/// A block: entities about a base point. An INSERT draws them.
 #[derive(Clone, Debug)]
 pub(super) struct Block<'a> {
+    /// The base point.
     pub base: Point,
-    /// The entities are in a file of their own.
+    /// Whether the entities are in another file.
     pub is_external: bool,
+    /// The records of its entities.
     pub records: Vec<Record<'a>>,
 }
 
-/// What a file holds, of what matters here.
+/// The contents of a file, as far as they describe geometry.
 #[derive(Debug, Default)]
 pub(super) struct Sections<'a> {
     /// Variables of the header, each with its first value.
     pub header: BTreeMap<&'a [u8], Pair<'a>>,
+    /// The table of layers.
     pub layers: Vec<Record<'a>>,
     /// The table of line types.
     pub line_types: Vec<Record<'a>>,
     /// Blocks with their names.
     pub blocks: Vec<(&'a [u8], Block<'a>)>,
+    /// The entities of model space.
     pub entities: Vec<Record<'a>>,
+    /// Whether the file is binary.
     pub is_binary: bool,
+    /// Notes about the file.
     pub notes: Vec<String>,
 }
 
-/// Why the reading of a section ended.
+/// Why reading a section ended.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum End {
     Section,
@@ -171,14 +186,14 @@ enum End {
 
 impl<'a> Sections<'a> {
     /// # Errors
-    /// Where the file is no sequence of pairs, or ends before its entities do: half a drawing must not pass for a whole
-    /// one.
+    /// Where the file is not a sequence of pairs, or ends before its entities do. A part of a drawing must not pass for
+    /// the whole.
     pub fn read(bytes: &'a [u8]) -> Result<Self, ImportError> {
         let mut pairs = Pairs::new(bytes)?;
         let mut file = Self { is_binary: pairs.is_binary(), ..Self::default() };
         let mut has_entities = false;
         match file.read_sections(&mut pairs, &mut has_entities) {
-            // Behind the entities nothing is needed any more.
+            // After the entities nothing is needed.
             Err(error) if has_entities => file.notes.push(format!("What follows the entities is damaged ({error}).")),
             other => other?,
         }
@@ -292,8 +307,7 @@ fn cut_in(pairs: &Pairs, section: &str) -> ImportError {
     pairs.place().error(format!("the file ends in the middle of section {section}"), CUT)
 }
 
-/// The records of a section. Pairs that say nothing of geometry are left out: links to other entities and data of
-/// applications.
+/// The records of a section. Pairs without geometry are left out: links to other entities, and data of applications.
 fn read_records<'a>(
     pairs: &mut Pairs<'a>,
     section: &str,

@@ -1,4 +1,4 @@
-//! SPLINE entities and spline edges of hatches, with the liberties that writers take.
+//! SPLINE entities and spline edges of hatches, also where the file departs from the format.
 
 use super::figure::{Figure, Notices, Refusal, built, single};
 use super::plane::flat;
@@ -7,27 +7,35 @@ use crate::curve::Curve;
 use crate::geometry::{Point, Vec2};
 use crate::import::ImportError;
 
-/// The highest degree of a spline; curves of CAD systems end at 25. Each span costs the degree, so memory stays a share
-/// of the file.
+/// Largest degree of a spline; CAD systems stop at 25. Memory grows with the degree of each span, so it stays
+/// proportional to the file.
 const MAX_DEGREE: i64 = 30;
-/// How far knots may lie out of order where the entity does not say (group 42).
+/// Largest step backward in the knots where the entity gives no tolerance (group 42).
 const KNOT_TOLERANCE: f64 = 1e-7;
-/// And where it says more than this share of their range, which would move the curve.
+/// Largest tolerance that the entity may give, as a part of the range of the knots. A larger one would move the curve.
 const LARGEST_KNOT_TOLERANCE: f64 = 1e-6;
 
-/// What a spline is drawn from, of a SPLINE entity or of an edge of a hatch.
+/// The data of a SPLINE, or of a spline edge of a hatch.
 pub(super) struct SplineData {
+    /// The degree.
     pub degree: i64,
+    /// The knots.
     pub knots: Vec<f64>,
+    /// Tolerance of knots, group 42.
     pub knot_tolerance: f64,
+    /// The control points.
     pub control: Vec<Point>,
+    /// The weights, empty where there are none.
     pub weights: Vec<f64>,
+    /// The fit points.
     pub fit: Vec<Point>,
-    /// Directions at start and end, for curves through fit points.
+    /// Directions at start and end, of curves through fit points.
     pub tangents: [Option<Vec2>; 2],
+    /// Whether the curve is closed.
     pub closed: bool,
 }
 
+/// A SPLINE.
 pub(super) fn spline(record: &Record, notices: &mut Notices) -> Result<Figure<'static>, Refusal> {
     let (control, fit) = (record.points(10)?, record.points(11)?);
     let level = flat(if control.is_empty() { &fit } else { &control });
@@ -59,7 +67,7 @@ fn tangents(record: &Record) -> Result<[Option<Vec2>; 2], ImportError> {
 }
 
 impl SplineData {
-    /// Of an edge of a hatch, which has groups of its own.
+    /// The data of an edge of a hatch, which has group codes of its own.
     pub fn of_edge(edge: &Record) -> Result<Self, ImportError> {
         Ok(Self {
             degree: edge.integer(94, 3)?,
@@ -73,6 +81,7 @@ impl SplineData {
         })
     }
 
+    /// The curve of the data.
     pub fn curve(mut self, record: &Record, notices: &mut Notices) -> Result<Curve, Refusal> {
         if self.control.is_empty() {
             return self.through_fit_points(record, notices);
@@ -81,7 +90,7 @@ impl SplineData {
             return Err(record.broken(format!("a spline of degree {}, not 1 to {MAX_DEGREE}", self.degree)).into());
         }
         self.order_knots(notices);
-        // A common factor of all weights, also -1, changes nothing.
+        // A common factor of all weights, also −1, does not change the curve.
         if self.weights.iter().all(|w| *w < 0.0) {
             self.weights.iter_mut().for_each(|w| *w = -*w);
         }
@@ -91,7 +100,7 @@ impl SplineData {
         built(record, curve)
     }
 
-    /// Makes one of knots that lie out of order within the tolerance.
+    /// Makes equal the knots that step backward within the tolerance.
     fn order_knots(&mut self, notices: &mut Notices) {
         let range = |pick: fn(f64, f64) -> f64| self.knots.iter().copied().reduce(pick).unwrap_or(0.0);
         let most = LARGEST_KNOT_TOLERANCE * (range(f64::max) - range(f64::min));
@@ -120,9 +129,9 @@ impl SplineData {
         }
     }
 
-    /// Knots, control points and weights with as many knots as there are control points, degree and one together.
+    /// Knots, control points and weights, with one knot for each control point, for each degree and one more.
     ///
-    /// Of a periodic spline some writers give one period only: a knot more than control points. It goes on by its
+    /// Some writers give one period only of a periodic spline: a knot more than control points. It is continued by its
     /// period, each knot with the control point of the period before.
     fn unwrapped(self, degree: usize, notices: &mut Notices) -> (Vec<f64>, Vec<Point>, Vec<f64>) {
         let Self { mut knots, mut control, mut weights, closed, .. } = self;

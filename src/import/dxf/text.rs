@@ -1,32 +1,31 @@
-//! Texts: what they say without the codes of their format, and where they stand. Glyphs have no outlines here; a text
-//! may name a region.
+//! Texts: their content without format codes, and their place. Glyphs have no outlines. A text may name a region.
 
 use super::figure::{Figure, NO_OUTLINE, Refusal};
 use super::sections::Record;
 use crate::geometry::Point;
 
-/// Longer texts are notes, and no names.
+/// A longer text is a note, not a name.
 const LONGEST: usize = 64;
 
 /// The codes of a special character after `%%`.
 const SPECIAL: [(char, &str); 3] = [('c', "Ø"), ('d', "°"), ('p', "±")];
 
-/// A TEXT or MTEXT; not decoded yet, nor rid of its codes.
+/// A TEXT or MTEXT, not decoded yet.
 pub(super) fn text(record: &Record) -> Result<Figure<'static>, Refusal> {
     let aligned = record.kind == "TEXT" && (record.integer(72, 0)? != 0 || record.integer(73, 0)? != 0);
     let anchor = if aligned { record.optional_point(11)? } else { None };
     let anchor = if anchor.is_some() { anchor } else { record.optional_point(10)? };
-    // A text draws nothing: one without a place is no reason to refuse a drawing.
+    // A text draws nothing, so a text without a place is not an error.
     let [x, y, _] = anchor.ok_or(Refusal::Skip(NO_OUTLINE))?;
     let parts = record.pairs.iter().filter(|pair| pair.code == 3 || pair.code == 1).map(|pair| pair.text());
     Ok(Figure::Text { at: Point::new(x, y), bytes: parts.collect::<Vec<_>>().concat() })
 }
 
-/// What a text says, in one line; `None` of what is no name: an empty text, a long one, or one without a letter, as a
-/// dimension has.
+/// The content of a text in one line; `None` where it is not a name: empty, long, or without a letter, as in a
+/// dimension.
 pub(super) fn name(text: &str) -> Option<String> {
     let plain = plain(text).split_whitespace().collect::<Vec<_>>().join(" ");
-    // A diameter is written with a letter that is none here.
+    // The sign for a diameter is a letter of Unicode, but does not make a name.
     let is_name = plain.chars().any(|c| c.is_alphabetic() && c != 'Ø') && plain.chars().count() <= LONGEST;
     is_name.then_some(plain)
 }
@@ -40,14 +39,14 @@ fn plain(text: &str) -> String {
             '{' | '}' => {}
             '\\' => match rest.next() {
                 Some(escaped @ ('\\' | '{' | '}')) => plain.push(escaped),
-                // A line, a column, or a space that does not break.
+                // A line break, a column break, or a non-breaking space.
                 Some('P' | 'N' | 'X' | '~') => plain.push(' '),
-                // Under, over and through lines, on and off.
+                // Underline, overline and strike-through, on and off.
                 Some('L' | 'l' | 'O' | 'o' | 'K' | 'k') | None => {}
                 Some('S') => {
                     plain.extend(rest.by_ref().take_while(|&c| c != ';').map(|c| if c == '^' { '/' } else { c }))
                 }
-                // A height, a font, a colour, …: up to the semicolon.
+                // A height, a font, a colour and so on, up to the semicolon.
                 Some(_) => rest.by_ref().take_while(|&c| c != ';').for_each(drop),
             },
             '%' if rest.as_str().starts_with('%') => {

@@ -1,4 +1,4 @@
-//! The kinds of curves of an outline, and the curves that they stand for.
+//! The kinds of curves of an outline, and the curves that they describe.
 
 use crate::curve::{Bezier, CircularArc, Curve, EllipticArc, Spline};
 use crate::geometry::{Point, Vec2};
@@ -6,20 +6,26 @@ use serde::Deserialize;
 use std::f64::consts::TAU;
 use std::fmt::Display;
 
-/// Evaluation costs the square of the degree; this is where `Curve::bezier` ends too.
+/// Largest degree, that of `Curve::bezier`: evaluation costs the square of the degree.
 const MAX_DEGREE: usize = 300;
-/// How far the stated ends of an arc may lie from where its angles put them, in its size: rounding of a file with six
-/// decimals.
+/// Largest distance of the given ends of an arc from those of its angles, in parts of its size: rounding of a file with
+/// six decimals.
 const END_SLACK: f64 = 1e-5;
 
+/// x and y.
 pub(super) type Pair = [f64; 2];
 
+/// An entry of the list of curves.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct CurveForm {
+    /// The name of its boundary.
     pub(super) name: Option<String>,
+    /// Its name in messages.
     pub(super) entity: Option<String>,
+    /// The shape of whose outline it is a part.
     pub(super) shape: Option<u32>,
+    /// The clip that cuts it.
     pub(super) clip: Option<u32>,
     line: Option<[Pair; 2]>,
     polyline: Option<Vec<Pair>>,
@@ -99,7 +105,7 @@ struct PiecewiseForm {
     spans: Vec<SpanForm>,
 }
 
-/// By where and how it starts, and how it goes on.
+/// By its start and its curvature.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct ClothoidForm {
@@ -118,6 +124,7 @@ struct SpanForm {
     weights: Option<Vec<f64>>,
 }
 
+/// A pair as a point.
 pub(super) fn point(p: Pair) -> Point {
     Point::new(p[0], p[1])
 }
@@ -131,6 +138,7 @@ fn said(error: impl Display) -> String {
 }
 
 impl CurveForm {
+    /// The curves of an entry.
     pub(super) fn curves(self) -> Result<Vec<Curve>, String> {
         let mut kinds: Vec<Result<Vec<Curve>, String>> = Vec::new();
         let mut one = |curve: Result<Curve, String>| kinds.push(curve.map(|c| vec![c]));
@@ -182,16 +190,15 @@ impl CurveForm {
 
 fn polyline(points: &[Point], closed: bool) -> Result<Vec<Curve>, String> {
     if points.len() < 2 + usize::from(closed) {
-        return Err(format!("{} points make no polyline", points.len()));
+        return Err(format!("{} points do not make a polyline", points.len()));
     }
     let closing = closed.then(|| [points[points.len() - 1], points[0]]);
     let edges = points.windows(2).map(|w| [w[0], w[1]]).chain(closing);
     edges.map(|[a, b]| Curve::line(a, b).map_err(said)).collect()
 }
 
-/// A Bézier span. Weights are kept as they are, so that what was written reads back the same, unless they are all equal
-/// (and say nothing), so far from 1 that products of them would leave the range, or so far apart that
-/// `Curve::rational_bezier` evens them.
+/// A Bézier span. Weights are kept, so that the file reads back the same, with three exceptions: they are all equal;
+/// their products would leave the range; they are so unequal that `Curve::rational_bezier` changes them.
 fn bezier(points: &[Pair], weights: Option<Vec<f64>>) -> Result<Curve, String> {
     let Some(weights) = weights else { return Curve::bezier(all(points)).map_err(said) };
     match Curve::rational_bezier(all(points), weights.clone()).map_err(said)? {
@@ -206,12 +213,12 @@ fn is_tame(weights: &[f64]) -> bool {
     weights.iter().all(|w| (1e-30..1e30).contains(w))
 }
 
-/// Whether some weights are others times a power of two.
+/// Whether some weights are a power of two times others.
 fn is_multiple(weights: &[f64], others: &[f64]) -> bool {
     weights.iter().zip(others).all(|(w, v)| w * others[0] == v * weights[0])
 }
 
-/// Start and sweep in radians, from whichever unit is given; `None` where neither is.
+/// Start and sweep in radians, from the unit that is given; `None` where there is none.
 fn angles(deg: [Option<f64>; 2], rad: [Option<f64>; 2]) -> Result<Option<[f64; 2]>, String> {
     match (deg, rad) {
         ([None, None], [None, None]) => Ok(None),
@@ -248,7 +255,8 @@ impl ArcForm {
     }
 }
 
-/// The arc with the ends that the file states; they must be its own up to rounding, and equal where it closes.
+/// The arc with the ends that the file gives. They must equal its own up to rounding, and each other where it is
+/// closed.
 fn with_stated_ends(arc: Curve, ends: [Pair; 2]) -> Result<Curve, String> {
     let (own, ends) = ([arc.start(), arc.end()], ends.map(point));
     let check = |size: f64, sweep_rad: f64| {
@@ -309,8 +317,8 @@ impl ClothoidForm {
         if to.distance(made.end()) > END_SLACK * size || !to.is_finite() {
             return Err("`to` does not lie where the curvatures put it".into());
         }
-        // The rounding of what was written is kept as it is; what a file's decimals leave off is made up for by a turn
-        // and a scaling.
+        // The given end is kept if it equals the computed one up to rounding. A difference in the decimals of the file
+        // is removed by a rotation and a scaling.
         Ok(made.with_rounded_end(to).unwrap_or_else(|| made.with_ends(made.start(), to)))
     }
 }
@@ -340,7 +348,7 @@ impl PiecewiseForm {
             let next = match bezier(&form.points, form.weights).map_err(|e| format!("spans[{i}]: {e}"))? {
                 Curve::Bezier(span) => vec![*span],
                 Curve::Spline(evened) => evened.spans,
-                other => return Err(format!("spans[{i}]: is no Bézier curve but a {}", other.kind())),
+                other => return Err(format!("spans[{i}]: is not a Bézier curve but a {}", other.kind())),
             };
             if spans.last().is_some_and(|before| before.points.last() != next[0].points.first()) {
                 return Err(format!("spans[{i}] does not start where the span before it ends"));

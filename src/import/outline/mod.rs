@@ -1,5 +1,5 @@
-//! Our own curves as JSON: every kind of curve exactly, names, points, seeds and sizes. [`SCHEMA`] describes it to
-//! editors.
+//! Our own format: curves as JSON. It holds each kind of curve exactly, names, points, seeds and sizes. [`SCHEMA`]
+//! describes it to editors.
 //!
 //! ```
 //! let text = r#"{ "squinch": 1, "unit": "mm", "curves": [
@@ -26,6 +26,7 @@ pub use write::to_json;
 /// The published JSON Schema of the format.
 pub const SCHEMA: &str = include_str!("../outline.schema.json");
 
+/// The facts of outlines.
 pub(super) const FACTS: Facts = Facts {
     name: "outline",
     suffixes: &["json"],
@@ -34,7 +35,7 @@ pub(super) const FACTS: Facts = Facts {
     read: |bytes, stem, _| read(bytes, stem).map(Into::into),
 };
 
-/// The version of the format that is read and written.
+/// The version of the format.
 const VERSION: u32 = 1;
 
 fn curve_entity(i: usize) -> String {

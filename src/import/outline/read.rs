@@ -1,4 +1,4 @@
-//! Outlines as they are read: a form an entry, each checked while the reader still stands at its place.
+//! Reading outlines. Each entry is checked while the reader is at its place, so that errors have a line.
 
 use super::curves::{CurveForm, Pair, point};
 use super::{VERSION, curve_entity, point_entity, seed_entity, shape_entity};
@@ -14,7 +14,7 @@ use std::fmt;
 use std::marker::PhantomData;
 
 const HELP: &str = "`squinch schema outline` prints what the format holds";
-/// Name of the boundary whose curves have none.
+/// Name of the boundary of curves without a name.
 const UNNAMED: &str = "boundary";
 
 #[derive(Deserialize)]
@@ -59,7 +59,7 @@ enum Fill {
     EvenOddAndShapes,
 }
 
-/// A filled shape; curves name it by its place in the list.
+/// A filled shape. Curves refer to it by its index.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct ShapeForm {
@@ -71,14 +71,14 @@ struct ShapeForm {
     entity: Option<String>,
 }
 
-/// What shapes and curves are cut by; shapes say which clip they are a part of.
+/// A clip of shapes and curves. Shapes say of which clip they are a part.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct ClipForm {
     within: Option<u32>,
 }
 
-/// Clips whose parts are cut by clips whose parts are cut: as deep as drawings may nest them.
+/// Largest nesting of clips whose parts are cut by other clips.
 const CLIP_DEPTH_MAX: usize = 64;
 
 #[derive(Deserialize)]
@@ -89,7 +89,7 @@ struct PointForm {
     entity: Option<String>,
 }
 
-/// A hole where `hole` is true, else the region of a name.
+/// A hole if `hole` is true, else the region of a name.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct SeedForm {
@@ -119,7 +119,7 @@ struct SkippedForm {
     why: String,
 }
 
-/// The curves that an entry stands for: several of a polyline.
+/// The curves of an entry; a polyline has several.
 struct CurveEntry {
     name: Option<String>,
     entity: Option<String>,
@@ -136,7 +136,7 @@ enum SizeEntry {
     Everywhere(f64),
 }
 
-/// What an entry of a list is read as: a form that is then checked, while the reader still stands at its place.
+/// The form in which an entry is read, and its check.
 trait Entry: Sized {
     type Form: for<'de> Deserialize<'de>;
     fn from_form(form: Self::Form) -> Result<Self, String>;
@@ -201,7 +201,7 @@ impl Entry for SizeEntry {
     }
 }
 
-/// An entry read and checked inside the map it stands in, so that the error knows its line.
+/// An entry that is read and checked inside the map around it, so that an error has its line.
 struct Checked<E>(E);
 
 impl<'de, E: Entry> Deserialize<'de> for Checked<E> {
@@ -221,7 +221,7 @@ impl<'de, E: Entry> Deserialize<'de> for Checked<E> {
     }
 }
 
-/// A list whose errors say which entry they are about: `curves[3]: …`.
+/// A list whose errors name the entry: `curves[3]: …`.
 fn list<'de, D: Deserializer<'de>, E: Entry>(name: &'static str, reader: D) -> Result<Vec<E>, D::Error> {
     struct Indexed<E>(&'static str, PhantomData<E>);
     impl<'de, E: Entry> Visitor<'de> for Indexed<E> {
@@ -265,7 +265,7 @@ fn skipped<'de, D: Deserializer<'de>>(reader: D) -> Result<Vec<SkippedForm>, D::
 /// Reads an outline. Indices in messages count from 0, as in JSON paths.
 ///
 /// # Errors
-/// With line, column and the entry where the text is no JSON, lacks or does not know a key, or a curve cannot be built.
+/// With line, column and entry: where the text is not JSON, a key is missing or unknown, or a curve cannot be built.
 pub fn read(bytes: &[u8], stem: &str) -> Result<Drawing, ImportError> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let file: File = serde_json::from_slice(bytes).map_err(located)?;
@@ -295,8 +295,8 @@ fn located(error: serde_json::Error) -> ImportError {
 }
 
 impl File {
-    /// Refuses clips that are not listed, that lie within later ones, or whose parts a later one cuts: only so does
-    /// each have an end.
+    /// Refuses clips that are not listed, that lie within a later one, or whose parts a later one cuts. So there are no
+    /// cycles.
     fn check_clips(&self) -> Result<(), ImportError> {
         let refuse = |what: String| Err(ImportError::new(what, HELP));
         let count = self.clips.len();

@@ -1,4 +1,4 @@
-//! Outlines as they are written: every curve in the form that reads back the same, to the last bit.
+//! Writing outlines. Each curve has the form that reads back the same, to the last bit.
 
 use super::{VERSION, curve_entity, point_entity, seed_entity, shape_entity};
 use crate::curve::{Bezier, Curve, CurveError};
@@ -7,7 +7,7 @@ use crate::geometry::Point;
 use crate::ids::Names;
 use serde_json::{Map, Value, json};
 
-/// The drawing as outline text, one entry a line. Reading it gives the same drawing, bit for bit.
+/// The drawing as outline text, one line for each entry. Reading it gives the same drawing, bit for bit.
 pub fn to_json(drawing: &Drawing) -> String {
     let mut head = Map::new();
     head.insert("squinch".into(), json!(VERSION));
@@ -39,7 +39,7 @@ pub fn to_json(drawing: &Drawing) -> String {
     push_list(&mut text, "sizes", drawing.sizes.iter().map(|s| size_value(s, names)));
     push_list(&mut text, "skipped", drawing.skipped.iter().map(|s| json!(s)));
     push_list(&mut text, "notes", drawing.notes.iter().map(|n| json!(n)));
-    // The last list's comma.
+    // Removes the comma after the last list.
     text.truncate(text.trim_end().trim_end_matches(',').len());
     text.push_str("\n}\n");
     text
@@ -98,8 +98,7 @@ fn curve_value(i: usize, drawn: &DrawnCurve, names: &Names) -> Value {
     with_entity(value, &drawn.entity, &curve_entity(i))
 }
 
-/// The kind and its value: the plain form where reading that gives the same curve, else the one that spells everything
-/// out.
+/// The kind and its value: the short form if it reads back the same, else the complete form.
 fn kind_value(curve: &Curve) -> (&'static str, Value) {
     let same = |plain: Result<Curve, CurveError>| plain.as_ref() == Ok(curve);
     match curve {

@@ -1,22 +1,23 @@
-//! Text → entities by their numbers, and what is read of one.
+//! Text → entities by number, and access to their attributes.
 
 use super::MOST_LISTED;
 use crate::import::ImportError;
 use step_io::parser::{Attribute, Graph, RawEntity, Span, parse};
 
-/// The parsed entities take some ten times the file's size in memory.
+/// Largest size of a file. The parsed entities take some ten times its size in memory.
 const MOST_BYTES: usize = 256 << 20;
 
+/// A result with an error of this reader.
 pub(super) type Result<T> = std::result::Result<T, ImportError>;
 
-/// The header entities that the standard asks for, empty.
+/// The header entities that the standard requires, empty.
 const HEADER: [(&str, &str); 3] = [
     ("FILE_DESCRIPTION", "FILE_DESCRIPTION((''),'2;1');"),
     ("FILE_NAME", "FILE_NAME('','',(''),(''),'','','');"),
     ("FILE_SCHEMA", "FILE_SCHEMA((''));"),
 ];
 
-/// The entities, and what was mended to get them. Old writers leave header entities out, of which nothing here depends.
+/// The entities, and notes about repairs. Old writers leave header entities out; no geometry depends on them.
 pub(super) fn parsed(bytes: &[u8]) -> Result<(Graph, Vec<String>)> {
     if bytes.len() > MOST_BYTES {
         let what = format!("the file has {} bytes; at most {MOST_BYTES} are read", bytes.len());
@@ -36,7 +37,7 @@ pub(super) fn parsed(bytes: &[u8]) -> Result<(Graph, Vec<String>)> {
             step_io::Error::MissingHeaderEntity { name } => HEADER.iter().find(|(known, _)| known == name),
             _ => None,
         };
-        // Each of the three is put in once at most.
+        // Each of the three is added once at most.
         let (Some((name, empty)), Some(at)) = (missing, header(&text).filter(|_| notes.len() < HEADER.len())) else {
             return Err(broken(&error));
         };
@@ -45,7 +46,7 @@ pub(super) fn parsed(bytes: &[u8]) -> Result<(Graph, Vec<String>)> {
     }
 }
 
-/// Where the header's first entity begins.
+/// The place of the header's first entity.
 fn header(text: &[u8]) -> Option<usize> {
     let word = text.windows(6).position(|word| word == b"HEADER")?;
     Some(word + text[word..].iter().position(|&b| b == b';')? + 1)
@@ -75,29 +76,36 @@ fn broken(error: &step_io::Error) -> ImportError {
     error
 }
 
-/// One entity as one of the types that it is, its attributes in the order of that type.
+/// One type of an entity, with the attributes of that type in order.
 #[derive(Clone, Copy)]
 pub(super) struct Entity<'a> {
+    /// Its number.
     pub id: u64,
     line: usize,
+    /// Its type.
     pub kind: &'a str,
+    /// Its attributes.
     pub attributes: &'a [Attribute],
 }
 
 impl<'a> Entity<'a> {
+    /// An error about the entity.
     pub(super) fn fail(&self, what: impl std::fmt::Display) -> ImportError {
         let what = format!("{} #{} {what}", self.kind, self.id);
         ImportError::at(self.line, what, "the entity is not as ISO 10303-42 has it: export the file anew")
     }
 
+    /// An attribute.
     pub(super) fn attribute(&self, i: usize) -> Result<&'a Attribute> {
         self.attributes.get(i).ok_or_else(|| self.fail(format!("has no attribute {}", i + 1)))
     }
 
+    /// The number of the entity that an attribute refers to.
     pub(super) fn reference(&self, i: usize) -> Result<u64> {
         reference(self.attribute(i)?).ok_or_else(|| self.fail(format!("refers to nothing in attribute {}", i + 1)))
     }
 
+    /// An attribute that is a list.
     pub(super) fn list(&self, i: usize) -> Result<&'a [Attribute]> {
         match self.attribute(i)? {
             Attribute::List(list) => Ok(list),
@@ -105,20 +113,24 @@ impl<'a> Entity<'a> {
         }
     }
 
+    /// The numbers of the entities that an attribute lists.
     pub(super) fn references(&self, i: usize) -> Result<Vec<u64>> {
         let list = self.list(i)?.iter().map(reference).collect::<Option<_>>();
         list.ok_or_else(|| self.fail(format!("lists something else than entities in attribute {}", i + 1)))
     }
 
+    /// An attribute that is a number.
     pub(super) fn real(&self, i: usize) -> Result<f64> {
         real(self.attribute(i)?).ok_or_else(|| self.fail(format!("has no number in attribute {}", i + 1)))
     }
 
+    /// An attribute that lists numbers.
     pub(super) fn reals(&self, i: usize) -> Result<Vec<f64>> {
         let list = self.list(i)?.iter().map(real).collect::<Option<_>>();
         list.ok_or_else(|| self.fail(format!("lists something else than numbers in attribute {}", i + 1)))
     }
 
+    /// An attribute that is a non-negative integer.
     pub(super) fn whole(&self, i: usize) -> Result<usize> {
         let number = match self.attribute(i)? {
             Attribute::Integer(n) => usize::try_from(*n).ok(),
@@ -127,7 +139,7 @@ impl<'a> Entity<'a> {
         number.ok_or_else(|| self.fail(format!("has no whole number in attribute {}", i + 1)))
     }
 
-    /// `.T.` or `.F.`; unknown counts as true, which is what it mostly is.
+    /// `.T.` or `.F.`; unknown counts as true, which is its usual value.
     pub(super) fn flag(&self, i: usize) -> Result<bool> {
         match self.attribute(i)? {
             Attribute::Enum(word) => Ok(word != "F"),
@@ -135,7 +147,7 @@ impl<'a> Entity<'a> {
         }
     }
 
-    /// A name; some writers say `NONE` where there is none.
+    /// A name. Some writers write `NONE` where there is none.
     pub(super) fn name(&self) -> Option<&'a str> {
         match self.attributes.first() {
             Some(Attribute::String(name)) => Some(name.trim()).filter(|name| !name.is_empty() && *name != "NONE"),
@@ -144,6 +156,7 @@ impl<'a> Entity<'a> {
     }
 }
 
+/// The number of the entity that an attribute refers to.
 pub(super) fn reference(attribute: &Attribute) -> Option<u64> {
     match attribute {
         Attribute::EntityRef(id) => Some(*id),
@@ -151,6 +164,7 @@ pub(super) fn reference(attribute: &Attribute) -> Option<u64> {
     }
 }
 
+/// The value of an attribute that is a number.
 pub(super) fn real(attribute: &Attribute) -> Option<f64> {
     match attribute {
         Attribute::Real(value) => Some(*value),
@@ -164,7 +178,7 @@ pub(super) fn real(attribute: &Attribute) -> Option<f64> {
     }
 }
 
-/// The types of an entity with their attributes: one, or the parts of a complex one.
+/// The types of an entity with their attributes: one, or the parts of a complex entity.
 pub(super) fn parts(entity: &RawEntity) -> impl Iterator<Item = Entity<'_>> {
     let (id, line) = (entity.id(), entity.span().line as usize);
     let (simple, complex) = match entity {
@@ -175,14 +189,15 @@ pub(super) fn parts(entity: &RawEntity) -> impl Iterator<Item = Entity<'_>> {
     parts.map(move |(kind, attributes)| Entity { id, line, kind, attributes })
 }
 
-/// The entities of a file, by their numbers.
+/// The entities of a file, by number.
 #[derive(Clone, Copy)]
 pub(super) struct File<'a> {
+    /// The parsed entities.
     pub graph: &'a Graph,
 }
 
 impl<'a> File<'a> {
-    /// An entity as the first of some types that it is.
+    /// An entity as the first of some types that it has.
     pub(super) fn entity(&self, id: u64, kinds: &[&str]) -> Result<Entity<'a>> {
         let found =
             self.graph.get(id).map(|raw| kinds.iter().find_map(|kind| parts(raw).find(|part| part.kind == *kind)));
@@ -193,6 +208,7 @@ impl<'a> File<'a> {
         }
     }
 
+    /// An error about a number without an entity.
     pub(super) fn dangling(&self, id: u64) -> ImportError {
         ImportError::new(
             format!("#{id} is referred to and not there"),

@@ -21,6 +21,7 @@ pub use read::{faces, read};
 
 use super::{Certainty, Facts, without_bom};
 
+/// The facts of STEP.
 pub(super) const FACTS: Facts = Facts {
     name: "step",
     suffixes: &["step", "stp"],

@@ -1,12 +1,12 @@
 //! STEP files (ISO 10303-21), whatever their application protocol: a planar face of a solid, with its holes and curved
 //! edges.
 //!
-//! step-io's parser gives the entities by their numbers; what they mean (ISO 10303-42) is read here. Its model of whole
-//! products is not used: it gives entities numbers of its own, by which nobody could find an edge in the file.
+//! step-io parses the entities by number. This module interprets them (ISO 10303-42). step-io's model of products is
+//! not used, because it renumbers entities, and messages could not name an edge of the file.
 //!
-//! A file holds many faces and a drawing one plane, so one planar face is read: the largest, or the one that is asked
-//! for. Faces on other surfaces are counted as left out. Coordinates are those of the face's own part: the placements
-//! of an assembly are not applied.
+//! A file has many faces and a drawing has one plane, so one planar face is read: the largest, or the one that is asked
+//! for. Faces on other surfaces are counted as left out. Coordinates are those of the part: the placements of an
+//! assembly are not applied.
 
 use super::MOST_LISTED;
 use super::entity::{Entity, File, Result, parsed, parts};
@@ -20,10 +20,10 @@ use crate::import::ImportError;
 use std::collections::BTreeMap;
 use step_io::parser::Graph;
 
-/// Reads one planar face: the one that is asked for by its number (`12` or `#12`) or its name, else the largest.
+/// Reads one planar face: the one with the given number (`12` or `#12`) or name, else the largest.
 ///
 /// # Errors
-/// [`ImportError`] with the line where the file breaks the format or an entity cannot be read; also where there is no
+/// [`ImportError`] with the line where the file breaks the format or an entity cannot be read. Also where there is no
 /// planar face, or not the one that is asked for.
 pub fn read(bytes: &[u8], stem: &str, face: Option<&str>) -> Result<Drawing> {
     let (graph, mended) = parsed(bytes)?;
@@ -48,7 +48,7 @@ pub fn read(bytes: &[u8], stem: &str, face: Option<&str>) -> Result<Drawing> {
     Ok(drawing)
 }
 
-/// Every planar face of a file, by number.
+/// Each planar face of a file, by number.
 ///
 /// # Errors
 /// [`ImportError`] where the file breaks the format. A face that cannot be drawn is listed with its flaw.
@@ -58,7 +58,7 @@ pub fn faces(bytes: &[u8]) -> Result<Vec<FaceInfo>> {
     Ok(file.faces(&file.contexts_of_faces()).planar.iter().map(|planar| file.info(planar)).collect())
 }
 
-/// The planar faces, and the others counted by their surface.
+/// The planar faces, and the counts of others by surface.
 struct Faces {
     planar: Vec<Planar>,
     curved: BTreeMap<String, Vec<u64>>,
@@ -66,13 +66,13 @@ struct Faces {
 
 struct Planar {
     id: u64,
-    /// Empty where it has none.
+    /// Empty where it has no name.
     name: String,
     frame: Frame,
     face: Result<Face>,
 }
 
-/// The largest of the faces that can be drawn; where none can, the first, whose flaw is then told.
+/// The largest face that can be drawn; if none can, the first one, whose flaw is then reported.
 fn largest(infos: &[FaceInfo], faces: &Faces) -> Result<usize> {
     let area = |i: usize| infos[i].area.unwrap_or(f64::NEG_INFINITY);
     // The first of equal ones.
@@ -165,7 +165,7 @@ impl File<'_> {
 
     fn face(&self, entity: &Entity, frame: Frame, uncertainty: f64) -> Result<Face> {
         let outward = entity.flag(3)?;
-        // Seen from outside, whichever way the surface looks.
+        // Seen from outside, whatever the orientation of the surface.
         let frame = if outward { frame } else { Frame { y: times(frame.y, -1.0), ..frame } };
         let name = entity.name().map_or_else(|| format!("face #{}", entity.id), str::to_owned);
         let bounds = entity.references(1)?;
@@ -184,7 +184,7 @@ impl File<'_> {
         FaceInfo { id: planar.id, name, area, normal: planar.frame.normal(), flaw }
     }
 
-    /// The planar face of a number or a name.
+    /// The planar face with a number or a name.
     fn wanted(&self, faces: &Faces, wanted: &str) -> Result<usize> {
         // As the file writes it, as regions are named, or the number alone.
         let number = wanted.strip_prefix("face ").unwrap_or(wanted);
@@ -218,7 +218,11 @@ impl File<'_> {
 
     fn located(&self, face: u64, error: FaceError) -> ImportError {
         let line = self.graph.get(face).map_or(0, |raw| raw.span().line as usize);
-        ImportError::at(line, error.to_string(), "mend the face in the program that made it, or pick another by --face")
+        ImportError::at(
+            line,
+            error.to_string(),
+            "repair the face in the program that made it, or pick another by --face",
+        )
     }
 
     /// The edges of a bound.
@@ -231,7 +235,7 @@ impl File<'_> {
                 path.references(1)?.into_iter().map(|id| self.oriented_edge(id, face)).collect::<Result<_>>()?
             }
             "POLY_LOOP" => self.polygon(&path, face)?,
-            // A lone point on the face bounds nothing.
+            // A single point on the face bounds nothing.
             _ => Vec::new(),
         };
         if !along {

@@ -7,17 +7,19 @@ use crate::geometry::Frame;
 use crate::geometry::space::{cross, dot, length, minus, plus, times, unit};
 use step_io::parser::{Attribute, RawEntity};
 
-/// Spans are cut from a spline in time that grows with the cube of the degree; modellers stop at 25.
+/// Largest degree; modellers stop at 25. Splitting a spline into spans takes time that grows with the cube of the
+/// degree.
 const MOST_DEGREE: usize = 32;
 
-/// Curves that stand for another, which is their second attribute.
+/// Types that refer to another curve by their second attribute.
 const STAND_INS: [&str; 5] =
     ["SURFACE_CURVE", "SEAM_CURVE", "INTERSECTION_CURVE", "BOUNDED_SURFACE_CURVE", "TRIMMED_CURVE"];
 
-/// The types that hold a spline's degree and control points; of a complex entity, the first.
+/// The types with the degree and control points of a spline; in a complex entity, the first.
 const SPLINES: [&str; 5] =
     ["B_SPLINE_CURVE", "B_SPLINE_CURVE_WITH_KNOTS", "BEZIER_CURVE", "QUASI_UNIFORM_CURVE", "UNIFORM_CURVE"];
 
+/// The surface of a face.
 pub(super) enum Surface {
     Plane(Frame),
     /// The name of its type.
@@ -25,22 +27,25 @@ pub(super) enum Surface {
 }
 
 impl File<'_> {
+    /// The three coordinates of an entity.
     pub(super) fn triple(&self, entity: &Entity) -> Result<[f64; 3]> {
         let reals = entity.reals(1)?;
         reals.try_into().map_err(|reals: Vec<f64>| entity.fail(format!("has {} coordinates, not 3", reals.len())))
     }
 
+    /// A point.
     pub(super) fn point(&self, id: u64) -> Result<[f64; 3]> {
         let entity = self.entity(id, &["CARTESIAN_POINT"])?;
         let point = self.triple(&entity)?;
         if point.iter().all(|x| x.is_finite()) { Ok(point) } else { Err(entity.fail("is nowhere")) }
     }
 
+    /// The point of a vertex.
     pub(super) fn vertex(&self, id: u64) -> Result<[f64; 3]> {
         self.point(self.entity(id, &["VERTEX_POINT"])?.reference(1)?)
     }
 
-    /// A direction where there is one.
+    /// A direction, if there is one.
     pub(super) fn direction(&self, entity: &Entity, i: usize) -> Result<Option<[f64; 3]>> {
         match entity.attributes.get(i) {
             Some(Attribute::EntityRef(id)) => {
@@ -55,7 +60,7 @@ impl File<'_> {
         }
     }
 
-    /// The axes of a placement in space; those left out are the coordinate axes.
+    /// The axes of a placement in space. Missing axes are coordinate axes.
     pub(super) fn placement(&self, id: u64) -> Result<Frame> {
         let entity = self.entity(id, &["AXIS2_PLACEMENT_3D"])?;
         let axis = self.direction(&entity, 2)?.unwrap_or([0.0, 0.0, 1.0]);
@@ -63,7 +68,7 @@ impl File<'_> {
         Frame::of_plane(self.point(entity.reference(1)?)?, axis, toward).ok_or_else(|| entity.fail("has no axes"))
     }
 
-    /// The frame of a surface that is a plane, by its type or by its control points.
+    /// The frame of a planar surface, by its type or by its control points.
     pub(super) fn plane(&self, id: u64, uncertainty: f64) -> Result<Surface> {
         if let Ok(plane) = self.entity(id, &["PLANE"]) {
             return Ok(Surface::Plane(self.placement(plane.reference(1)?)?));
@@ -76,14 +81,15 @@ impl File<'_> {
         let simple = usize::from(matches!(net.attributes.first(), Some(Attribute::String(_))));
         let mut rows = Vec::new();
         for row in net.list(2 + simple)? {
-            let Attribute::List(row) = row else { return Err(net.fail("has a row that is no list")) };
-            let row = row.iter().map(|p| reference(p).ok_or_else(|| net.fail("has a control point that is none")));
+            let Attribute::List(row) = row else { return Err(net.fail("has a row that is not a list")) };
+            let row =
+                row.iter().map(|p| reference(p).ok_or_else(|| net.fail("has an entry that is not a control point")));
             rows.push(row.map(|id| self.point(id?)).collect::<Result<Vec<_>>>()?);
         }
         Ok(plane_of_net(&rows, uncertainty).map_or_else(|| Surface::Curved("B_SPLINE_SURFACE".into()), Surface::Plane))
     }
 
-    /// The curve in space that an entity is or stands for, and whether it runs the same way.
+    /// The curve in space of an entity, and whether it has the same direction.
     pub(super) fn curve(&self, id: u64) -> Result<(SpaceCurve, bool)> {
         let (mut id, mut along) = (id, true);
         for _ in 0..MOST_NESTING {
@@ -96,12 +102,13 @@ impl File<'_> {
         Err(self.first(id)?.fail("stands for itself"))
     }
 
+    /// The curve in space of an entity of a basic kind.
     pub(super) fn space_curve(&self, id: u64) -> Result<SpaceCurve> {
         if let Ok(spline) = self.entity(id, &SPLINES) {
             return self.spline(id, &spline);
         }
         let Ok(entity) = self.entity(id, &["LINE", "POLYLINE", "CIRCLE", "ELLIPSE", "PARABOLA", "HYPERBOLA"]) else {
-            return Err(self.first(id)?.fail("is no curve that is read here"));
+            return Err(self.first(id)?.fail("is a curve of a kind that is not read"));
         };
         match entity.kind {
             "LINE" => Ok(SpaceCurve::Line),
@@ -110,14 +117,16 @@ impl File<'_> {
         }
     }
 
+    /// A polyline.
     pub(super) fn polyline(&self, entity: &Entity) -> Result<SpaceCurve> {
         let points = entity.references(1)?.into_iter().map(|id| self.point(id)).collect::<Result<Vec<_>>>()?;
-        // Clamped: the first knot and the last are twofold.
+        // Clamped: the first and the last knot are double.
         let last = points.len().saturating_sub(1);
         let knots = (0..points.len() + 2).map(|i| i.saturating_sub(1).min(last) as f64).collect();
         Ok(SpaceCurve::Nurbs { degree: 1, knots, points, weights: None })
     }
 
+    /// A conic.
     pub(super) fn conic(&self, entity: &Entity) -> Result<SpaceCurve> {
         let size = |i: usize| match entity.real(i)? {
             size if size > 0.0 => Ok(size),
@@ -134,6 +143,7 @@ impl File<'_> {
         })
     }
 
+    /// A spline.
     pub(super) fn spline(&self, id: u64, entity: &Entity) -> Result<SpaceCurve> {
         let simple = usize::from(matches!(entity.attributes.first(), Some(Attribute::String(_))));
         let degree = entity.whole(simple)?;
@@ -142,7 +152,7 @@ impl File<'_> {
         }
         let points = entity.references(1 + simple)?.into_iter().map(|id| self.point(id)).collect::<Result<Vec<_>>>()?;
         let knots = match self.entity(id, &["B_SPLINE_CURVE_WITH_KNOTS"]) {
-            // A simple entity holds the attributes of its supertypes first.
+            // A simple entity has the attributes of its supertypes first.
             Ok(knots) => with_multiplicities(&knots, 6 * simple, degree, points.len())?,
             Err(_) => implied_knots(entity, self.graph.get(id), degree, points.len())?,
         };
@@ -151,13 +161,13 @@ impl File<'_> {
     }
 }
 
-/// The frame of the plane of control points, its normal that of the surface; `None` where they do not lie in one.
+/// The frame of the plane of control points, with the normal of the surface; `None` where they are not in one plane.
 pub(super) fn plane_of_net(rows: &[Vec<[f64; 3]>], uncertainty: f64) -> Option<Frame> {
     let origin = *rows.first()?.first()?;
     let offsets = || rows.iter().flatten().map(|p| minus(*p, origin));
     let extent = offsets().map(length).fold(0.0, f64::max);
-    // What the cells of the net span together by their diagonals: u × v is the surface's normal, and rows follow each
-    // other along u.
+    // The sum of the cross products of the diagonals of all cells. u × v is the normal of the surface, and rows follow
+    // each other along u.
     let mut normal = [0.0; 3];
     for (below, above) in rows.iter().zip(rows.iter().skip(1)) {
         for (a, b) in below.windows(2).zip(above.windows(2)) {
@@ -170,7 +180,7 @@ pub(super) fn plane_of_net(rows: &[Vec<[f64; 3]>], uncertainty: f64) -> Option<F
     offsets().all(|d| dot(d, frame.normal()).abs() <= slack).then_some(frame)
 }
 
-/// The knots of a spline that gives each distinct one with its multiplicity.
+/// The knots of a spline that gives each distinct knot with its multiplicity.
 pub(super) fn with_multiplicities(entity: &Entity, first: usize, degree: usize, points: usize) -> Result<Vec<f64>> {
     let (counts, distinct) = (entity.reals(first)?, entity.reals(first + 1)?);
     let total: f64 = counts.iter().sum();
@@ -178,13 +188,13 @@ pub(super) fn with_multiplicities(entity: &Entity, first: usize, degree: usize, 
     if counts.len() != distinct.len() || counts.iter().any(|n| *n < 1.0) || total != expected as f64 {
         return Err(entity.fail(format!("has multiplicities that do not give {expected} knots")));
     }
-    // The total bounds each of them.
+    // The total bounds each multiplicity.
     let knots = distinct.iter().zip(&counts).flat_map(|(knot, count)| std::iter::repeat_n(*knot, *count as usize));
     Ok(knots.collect())
 }
 
-/// The knots that a type of spline implies: evenly spaced; clamped but of a uniform one; full inside of a chain of
-/// Béziers.
+/// The knots that a type of spline implies: evenly spaced, clamped unless uniform, and of full multiplicity inside a
+/// chain of Béziers.
 pub(super) fn implied_knots(
     entity: &Entity,
     raw: Option<&RawEntity>,

@@ -1,4 +1,4 @@
-//! What the numbers of a face are measured in.
+//! The units of a face.
 
 use super::MOST_NESTING;
 use super::entity::{Entity, File, parts, reference};
@@ -6,17 +6,18 @@ use crate::geometry::metres;
 use std::collections::{BTreeMap, BTreeSet};
 use step_io::parser::Attribute;
 
-/// What the numbers of a representation are measured in.
+/// The units of a representation.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Context {
+    /// The unit of length, and where it was read.
     pub unit: Option<(String, String)>,
-    /// In the unit.
+    /// The uncertainty, in the unit.
     pub uncertainty: Option<f64>,
 }
 
 impl<'a> File<'a> {
-    /// The context of every face: that of the representation whose items lead to it, but for items that show another
-    /// representation.
+    /// The context of each face: that of the representation whose items lead to it. Items that show another
+    /// representation do not count.
     pub(super) fn contexts_of_faces(&self) -> BTreeMap<u64, Context> {
         let mut contexts = BTreeMap::new();
         let mut seen = BTreeSet::new();
@@ -63,7 +64,7 @@ impl<'a> File<'a> {
         Context { unit: unit.map(|(name, _, from)| (name, from)), uncertainty }
     }
 
-    /// The name of a unit of length, its size in metres, and the entity that says so.
+    /// The name of a unit of length, its size in metres, and the entity that gives it.
     fn unit_of_length(&self, id: u64, nesting: usize) -> Option<(String, f64, String)> {
         let raw = self.graph.get(id)?;
         if let Some(si) = parts(raw).find(|part| part.kind == "SI_UNIT") {
@@ -89,7 +90,7 @@ impl<'a> File<'a> {
             self.entity(converted.reference(1).ok()?, &["LENGTH_MEASURE_WITH_UNIT", "MEASURE_WITH_UNIT"]).ok()?;
         let (_, base, _) = self.unit_of_length(measure.reference(1).ok()?, nesting - 1)?;
         let size = measure.real(0).ok()? * base;
-        // Inches are written with four digits, survey feet differ in the sixth.
+        // Inches are written with four digits, and survey feet differ in the sixth.
         let known = ["m", "mm", "cm", "dm", "um", "nm", "km", "in", "ft", "yd", "mi"];
         let same = |unit: &&&str| metres(unit).is_some_and(|m| (size - m).abs() <= 1e-6 * m);
         let name = known
@@ -100,7 +101,7 @@ impl<'a> File<'a> {
     }
 }
 
-/// The entities that attributes name, at any depth of lists.
+/// The entities that attributes refer to, at any depth of lists.
 fn referred(attributes: &[Attribute], found: &mut Vec<u64>) {
     let mut waiting: Vec<&Attribute> = attributes.iter().collect();
     while let Some(attribute) = waiting.pop() {

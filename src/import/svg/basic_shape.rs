@@ -1,5 +1,5 @@
-//! Basic shapes of CSS, by which elements are cut: `circle(…)`, `ellipse(…)`, `inset(…)`, `polygon(…)` and `path(…)`
-//! (CSS Shapes 1).
+//! Basic shapes of CSS that cut elements: `circle(…)`, `ellipse(…)`, `inset(…)`, `polygon(…)` and `path(…)` (CSS Shapes
+//! 1).
 
 use super::path::Outline;
 use super::units::{Axis, Quantity, Viewport};
@@ -7,11 +7,11 @@ use super::{selector, transform};
 use crate::geometry::{Point, Rect, Vec2};
 use kurbo::Affine;
 
-/// The outline of a basic shape in a reference box, and whether its rule is even-odd.
+/// The outline of a basic shape in its reference box, and whether its fill rule is even-odd.
 pub(super) fn basic_outline(text: &str, about: Rect, viewport: Viewport) -> Option<(Outline, bool)> {
     let (name, inner) = text.split_once('(')?;
     let inner = inner.strip_suffix(')')?.trim();
-    // `at` stands before the centre, `round` before the radii of corners.
+    // `at` precedes the centre, `round` precedes the radii of corners.
     let (head, tail) =
         [" at ", "at ", " round "].into_iter().find_map(|word| inner.split_once(word)).unwrap_or((inner, ""));
     let words: Vec<&str> = head.split_ascii_whitespace().collect();
@@ -27,7 +27,7 @@ pub(super) fn basic_outline(text: &str, about: Rect, viewport: Viewport) -> Opti
     }
 }
 
-/// A basic shape: its reference box, and the units in which its lengths are given.
+/// A basic shape: its reference box, and the viewport that its lengths refer to.
 struct BasicShape {
     about: Rect,
     units: Viewport,
@@ -67,11 +67,11 @@ impl BasicShape {
         Some(Outline::of_ellipse(center, radii))
     }
 
-    /// `corners` are the radii of its corners, where it has some.
+    /// An inset rectangle. `corners` are the radii of its corners, empty where it has none.
     fn inset(&self, words: &[&str], corners: &str) -> Option<Outline> {
         let (about, length) = (self.about, |word: &str, axis| self.units.length(word, axis));
         let side = |k: usize, axis| length(words.get(k)?, axis);
-        // Top, right, bottom, left; what is missing is as its opposite.
+        // Top, right, bottom, left. A missing side equals the opposite one.
         let top = side(0, Axis::Y)?;
         let right = side(1, Axis::X).or(side(0, Axis::X))?;
         let bottom = side(2, Axis::Y).unwrap_or(top);

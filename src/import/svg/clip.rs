@@ -1,5 +1,15 @@
-//! What elements are cut by: clip paths, viewports that hide what reaches beyond them, basic shapes of CSS, and the
-//! page (CSS Masking 1, SVG 2 section 14.4, CSS Shapes 1).
+//! Everything that cuts elements: clip paths, viewports, basic shapes of CSS, and the page (CSS Masking 1, SVG 2
+//! section 14.4, CSS Shapes 1).
+//!
+//! ```text
+//!   clip path A, itself cut by B           What is left of an element in A lies in one part of A and in B:
+//!    ┌────────────┐
+//!    │ part 1 ┌───┼────────┐                Cutter A { parts: [part 1, part 2], within: Some(B) }
+//!    │   ▓▓▓▓▓│▓▓▓│        │                Cutter B { parts: […],              within: None }
+//!    │   ▓▓▓▓▓│▓▓▓│   B    │
+//!    └────────┼───┘        │                A viewport (`svg`, `symbol`) is a cutter of one part, its box.
+//!             └────────────┘
+//! ```
 
 use super::super::ImportError;
 use super::basic_shape::basic_outline;
@@ -13,22 +23,23 @@ use crate::ids::{ClipId, NameId};
 use kurbo::Affine;
 use roxmltree::{Node, NodeId};
 
-/// A region by which elements are cut: where one of its parts fills, within another one.
+/// A region that cuts elements: the union of its parts, within another cutter.
 pub(super) struct Cutter {
     within: Option<CutterId>,
     parts: Vec<Part>,
-    /// `None` of one that leaves nothing.
+    /// The box around the region; `None` where the region is empty.
     bounds: Option<Rect>,
-    /// Whether it is all of its bounds.
+    /// Whether the region equals its box.
     is_box: bool,
-    /// What it is, for messages.
+    /// Its name in messages.
     entity: String,
 }
 
+/// The index of a cutter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct CutterId(usize);
 
-/// In the drawing's coordinates.
+/// A part of a cutter, in the drawing's coordinates.
 struct Part {
     subpaths: Vec<Subpath>,
     even_odd: bool,
@@ -36,37 +47,38 @@ struct Part {
     entity: String,
 }
 
-/// What makes a clip path the same one again: the number of its element, the map, what it lies within.
+/// The key by which a clip path is made once: the number of its element, the map, and the cutter that contains it.
 type Key = (usize, [u64; 6], Option<CutterId>);
 
-/// What cutting leaves of something.
+/// What cutting leaves of an element.
 pub(super) enum Left {
-    /// Because of this one.
+    /// Nothing, because of this cutter.
     Nothing(CutterId),
-    /// All, or what lies in the clip.
+    /// All of it, or the part in a clip.
     In(Option<ClipId>),
 }
 
+/// The cutters of a file.
 #[derive(Default)]
 pub(super) struct Cutters {
     all: Vec<Cutter>,
     known: std::collections::BTreeMap<Key, CutterId>,
-    /// As clips of the drawing, by what they lie within there.
+    /// Cutters that are clips of the drawing already, by the clip that contains them.
     drawn: std::collections::BTreeMap<(CutterId, Option<ClipId>), ClipId>,
-    /// The clip paths that are being read: each may ask for others.
+    /// The clip paths that are being read. A clip path may refer to others.
     open: Vec<NodeId>,
     page: Option<Page>,
 }
 
-/// The page: a picture's, not a drawing's of lines, which has no edge.
+/// The page of artwork. A drawing of lines only has no page edge.
 #[derive(Clone, Copy)]
 struct Page {
     cutter: CutterId,
-    /// Whether the file says that it hides what reaches beyond it.
+    /// Whether the file says that the page cuts elements at its edge.
     cuts: bool,
 }
 
-/// How something lies on the page.
+/// The place of an element relative to the page.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum OnPage {
     Within,
@@ -74,18 +86,20 @@ pub(super) enum OnPage {
     Outside,
 }
 
-/// Clip paths that are cut by clip paths.
+/// Largest depth of clip paths that clip paths cut.
 const DEPTH_MAX: usize = 16;
-/// What reaches beyond a clip by less than this part of the clip's diagonal is whole: what rounding makes of the same
-/// number.
+/// An element that exceeds a clip by less than this part of the clip's diagonal is not cut: both have the same number,
+/// rounded differently.
 const ROUNDING: f64 = 1e-9;
-/// Likewise beyond the page: what nobody sees.
+/// The same for the page: a part too small to be seen.
 const BLEED: f64 = 1e-3;
 
-/// Where an element lies: the map of its coordinates to the drawing's, and its viewport.
+/// The place of an element: the map from its coordinates to the drawing's, and its viewport.
 #[derive(Clone, Copy)]
 pub(super) struct Placed {
+    /// From the coordinates of the element to the drawing's.
     pub map: Affine,
+    /// The viewport that its lengths refer to.
     pub viewport: Viewport,
 }
 
@@ -94,7 +108,7 @@ impl Part {
         self.subpaths.iter().flat_map(|s| &s.curves).map(|c| c.bounds()).reduce(|a, b| a.union(b))
     }
 
-    /// Whether it is a rectangle along the axes.
+    /// Whether the part is an axis-parallel rectangle.
     fn is_box(&self) -> bool {
         let (Some(bounds), [subpath]) = (self.bounds(), &self.subpaths[..]) else { return false };
         let curves = subpath
@@ -111,7 +125,7 @@ impl Part {
     }
 }
 
-/// The part of a rectangle in coordinates that `map` takes to the drawing's.
+/// A rectangle in coordinates that `map` takes to the drawing's.
 fn box_part(bounds: Rect, map: Affine, entity: String) -> Part {
     let outline = Outline::of_rect(bounds.origin(), bounds.size().to_vec2(), Vec2::ZERO);
     let subpaths = outline.subpaths.into_iter().map(|s| s.transformed(map)).collect();
@@ -127,7 +141,7 @@ impl Cutters {
         let parts: Vec<Part> = parts.into_iter().filter(|part| !part.subpaths.is_empty()).collect();
         let bounds = parts.iter().filter_map(Part::bounds).reduce(|a, b| a.union(b));
         let is_box = parts.len() == 1 && parts[0].is_box();
-        // What covers all of this one cuts nothing from it.
+        // A cutter that contains this one cuts nothing from it.
         let mut within = within;
         while let (Some(outer), Some(bounds)) = (within, bounds) {
             if !self.covers(outer, bounds, ROUNDING) {
@@ -145,14 +159,14 @@ impl Cutters {
         own.inflate(slack, slack).union(bounds) == own.inflate(slack, slack)
     }
 
-    /// Whether nothing of these bounds is left by a cutter itself.
+    /// Whether a cutter alone leaves nothing within these bounds.
     fn misses(&self, cutter: CutterId, bounds: Rect) -> bool {
         let apart =
             |own: Rect| bounds.x0 >= own.x1 || own.x0 >= bounds.x1 || bounds.y0 >= own.y1 || own.y0 >= bounds.y1;
         self.all[cutter.0].bounds.is_none_or(apart)
     }
 
-    /// The page, where the outermost element says how large it is.
+    /// Sets the page, where the outermost element gives its size.
     pub fn set_page(&mut self, root: Node, frame: Option<Rect>, map: Affine) {
         let Some(frame) = frame else { return };
         let hides = |word: &str| matches!(word.trim(), "hidden" | "clip" | "scroll");
@@ -168,7 +182,7 @@ impl Cutters {
         self.page.and_then(|page| self.all[page.cutter.0].bounds)
     }
 
-    /// How something within these bounds lies on the page; within it where there is none.
+    /// How these bounds lie relative to the page; within it where there is no page.
     pub fn on_page(&self, bounds: Rect) -> OnPage {
         match self.page {
             Some(page) if self.misses(page.cutter, bounds) => OnPage::Outside,
@@ -177,21 +191,21 @@ impl Cutters {
         }
     }
 
-    /// What a cutter is, for messages.
+    /// The name of a cutter in messages.
     pub fn entity(&self, cutter: CutterId) -> &str {
         &self.all[cutter.0].entity
     }
 
-    /// Whether the page hides what reaches beyond it.
+    /// Whether the page cuts elements at its edge.
     pub fn page_cuts(&self) -> bool {
         self.page.is_some_and(|page| page.cuts)
     }
 }
 
 impl<'a> Reader<'a> {
-    // ---- what elements ask for ----
+    // ---- cutters of elements ----
 
-    /// The viewport of a nested `svg` or `symbol` as a cutter.
+    /// The cutter of the viewport of a nested `svg` or `symbol`.
     pub(super) fn viewport_cutter(
         &mut self,
         node: Node,
@@ -204,7 +218,7 @@ impl<'a> Reader<'a> {
         self.cutters.add(entity.clone(), vec![box_part(bounds, map, entity)], within)
     }
 
-    /// What the property `clip-path` of an element asks for, within what it lies in already.
+    /// The cutter that the property `clip-path` of an element names, within the cutter that contains the element.
     pub(super) fn clipped(
         &mut self,
         node: Node<'a, 'a>,
@@ -235,7 +249,7 @@ impl<'a> Reader<'a> {
         self.basic_shape(node, value, placed, within)
     }
 
-    /// The cutter of a `clipPath`, asked for by `node`.
+    /// The cutter of a `clipPath` that `node` refers to.
     fn clip_path(
         &mut self,
         target: Node<'a, 'a>,
@@ -284,7 +298,7 @@ impl<'a> Reader<'a> {
         above.into_iter().try_fold(Style::default(), |style, node| Ok(style.of(self.sheet.declared(node)?).0))
     }
 
-    /// Adds what a child of a clip path fills: a shape, or a `use` of one.
+    /// Adds the shape of a child of a clip path: its own, or that of a `use`.
     fn add_part(
         &mut self,
         child: Node<'a, 'a>,
@@ -333,7 +347,7 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    /// A basic shape of CSS as a cutter.
+    /// The cutter of a basic shape of CSS.
     fn basic_shape(
         &mut self,
         node: Node<'a, 'a>,
@@ -365,10 +379,9 @@ impl<'a> Reader<'a> {
         Ok(Some(self.cutters.add(entity, vec![part], within)))
     }
 
-    // ---- what is cut ----
+    // ---- cutting ----
 
-    /// What a cutter and all that it lies within leave of something within these bounds; the page too, where that
-    /// `is_painted`.
+    /// What a cutter and all that contain it leave within these bounds. The page counts too, if `is_painted`.
     ///
     /// # Errors
     /// Where clips within clips come to more curves than a drawing can need.
@@ -401,9 +414,9 @@ impl<'a> Reader<'a> {
             return Ok(drawn);
         }
         let parts = std::mem::take(&mut self.cutters.all[cutter.0].parts);
-        // One clip is drawn again in each that it lies within.
+        // A clip is drawn once in each clip that contains it.
         self.expand(parts.iter().flat_map(|part| &part.subpaths).map(|s| s.curves.len()).sum())?;
-        // Those that cut its parts come first.
+        // The clips that cut its parts come first in the list.
         let mut left_of_part = |part: &Part| match part.bounds() {
             Some(bounds) => self.left_of(bounds, part.cut_by, false, name),
             None => Ok(Left::Nothing(cutter)),

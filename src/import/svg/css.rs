@@ -1,7 +1,8 @@
 //! Style sheets (CSS Syntax, Cascade and Media Queries, as far as drawings use them): rules by specificity,
 //! `!important`, `@media`.
 //!
-//! Rules are found by what they ask of the element itself; matching goes on from there, and has a budget.
+//! Rules are indexed by what they require of the element itself. Only these are matched in full, and matching has a
+//! budget.
 
 use super::super::ImportError;
 use super::selector::{self, Key, Matcher, Selector};
@@ -9,10 +10,10 @@ use super::style::{Declared, Property, property};
 use roxmltree::{Document, Node};
 use std::collections::BTreeMap;
 
-/// At-rules within at-rules.
+/// Largest nesting of at-rules.
 const NESTING_MAX: usize = 8;
 
-/// A property that is known here, or a custom one (`--name`).
+/// A known property, or a custom one (`--name`).
 #[derive(Clone, Copy)]
 enum Name<'a> {
     Known(Property),
@@ -25,7 +26,7 @@ struct Declaration<'a> {
     important: bool,
 }
 
-/// The declarations of a block; what is not known here is passed over.
+/// The declarations of a block. Unknown properties are skipped.
 fn declarations(block: &str) -> impl Iterator<Item = Declaration<'_>> {
     pieces(block, b';').filter_map(|piece| {
         let (name, value) = piece.split_once(':')?;
@@ -39,7 +40,7 @@ fn declarations(block: &str) -> impl Iterator<Item = Declaration<'_>> {
     })
 }
 
-/// The pieces of a text between separators that stand outside strings and brackets.
+/// The pieces of a text between separators outside of strings and brackets.
 fn pieces(text: &str, separator: u8) -> impl Iterator<Item = &str> {
     let mut rest = Some(text);
     std::iter::from_fn(move || {
@@ -50,7 +51,7 @@ fn pieces(text: &str, separator: u8) -> impl Iterator<Item = &str> {
     })
 }
 
-/// The first of some ASCII bytes that stands outside strings and round brackets.
+/// The first of some ASCII bytes outside of strings and round brackets.
 fn find_outside(text: &str, wanted: &[u8]) -> Option<usize> {
     let (mut quote, mut depth) = (None, 0_usize);
     for (i, b) in text.bytes().enumerate() {
@@ -87,17 +88,18 @@ pub(super) fn sheet_text(document: &Document) -> String {
     plain.replace("<!--", " ").replace("-->", " ")
 }
 
-/// Rules in the order in which they win: the last wins.
+/// The rules of a style sheet, in the order in which they win: the last wins.
 pub(super) struct Sheet<'a> {
     rules: Vec<(Selector<'a>, usize)>,
     by_key: BTreeMap<Key<'a>, Vec<usize>>,
     blocks: Vec<Vec<Declaration<'a>>>,
-    /// Selectors and at-rules that are not read here.
+    /// Number of selectors and at-rules that are not read.
     pub unread: usize,
     matcher: Matcher,
 }
 
 impl<'a> Sheet<'a> {
+    /// Reads the rules of a sheet.
     pub fn parse(text: &'a str, document: &Document) -> Self {
         let (rules, blocks, by_key) = (Vec::new(), Vec::new(), BTreeMap::new());
         let mut sheet = Self { rules, by_key, blocks, unread: 0, matcher: Matcher::default() };
@@ -112,7 +114,7 @@ impl<'a> Sheet<'a> {
         sheet
     }
 
-    /// Takes the rules of a sheet, or of the block of an at-rule.
+    /// Adds the rules of a sheet, or of the block of an at-rule.
     fn add(&mut self, text: &'a str, nesting: usize) {
         let mut rest = text.trim_start();
         while !rest.is_empty() {
@@ -120,8 +122,8 @@ impl<'a> Sheet<'a> {
         }
     }
 
-    /// Takes the rules of an at-rule that applies, and returns what comes behind it: it ends with a semicolon or with
-    /// its block.
+    /// Adds the rules of an at-rule that applies, and returns the text after it. An at-rule ends with a semicolon or
+    /// with its block.
     fn at_rule(&mut self, text: &'a str, nesting: usize) -> &'a str {
         let Some(open) = find_outside(text, b";{") else { return "" };
         let (head, rest) = (&text[1..open], &text[open + 1..]);
@@ -133,7 +135,7 @@ impl<'a> Sheet<'a> {
         let applies = match name.to_ascii_lowercase().as_str() {
             "media" => media_applies(condition),
             "charset" | "namespace" => Some(false),
-            // Names what no outline depends on.
+            // These define names on which no outline depends.
             "font" | "keyframes" | "page" => Some(false),
             _ => None,
         };
@@ -145,7 +147,7 @@ impl<'a> Sheet<'a> {
         rest
     }
 
-    /// Takes the rules of one block, and returns what comes behind it.
+    /// Adds the rules of one block, and returns the text after it.
     fn add_rules(&mut self, text: &'a str) -> &'a str {
         let Some(open) = find_outside(text, b"{") else { return "" };
         let body = &text[open + 1..];
@@ -175,10 +177,11 @@ impl<'a> Sheet<'a> {
         matching
     }
 
-    /// What an element declares: attributes, then rules, then its `style`; what is important, again in this order.
+    /// The declarations of an element: attributes, then rules, then its `style`, then the important ones in the same
+    /// order.
     ///
     /// # Errors
-    /// Where rules times elements come to more than a drawing can need.
+    /// Where rules times elements exceed the matching budget.
     pub fn declared(&self, node: Node<'a, 'a>) -> Result<Declared<'a>, ImportError> {
         let mut declared = Declared::of_attributes(node);
         let matching = self.matching(node);
@@ -215,7 +218,7 @@ fn block_of(text: &str) -> (&str, &str) {
     (text, "")
 }
 
-/// Whether a list of media queries is met by a light screen; `None` where that depends on more than is known here.
+/// Whether a light screen meets a list of media queries; `None` where that depends on more than is known here.
 fn media_applies(list: &str) -> Option<bool> {
     let queries: Vec<Option<bool>> = selector::list(list).map(query_applies).collect();
     match queries.contains(&Some(true)) {

@@ -1,21 +1,21 @@
-//! What the digits of a picture's numbers say of the care with which it was drawn.
+//! Tells artwork from exact drawings by the digits of its numbers.
 
-/// Digits that no picture needs: pens, screens and single precision end at nine, careful programs write twelve.
+/// Numbers with this many significant digits are exact: pens, screens and single precision give at most nine, and
+/// careful programs write twelve.
 const EXACT_DIGITS: usize = 13;
 
-/// Part of a file's numbers that are exact in a picture too: sums that a program left as they came out, a symbol that
-/// it computed.
+/// Largest part of exact numbers in artwork. Some programs write unrounded sums, or compute a symbol.
 const STRAY: f64 = 0.1;
 
-/// Whether few numbers of a file have more digits than pictures need.
+/// Whether a file is artwork: few of its numbers have [`EXACT_DIGITS`] or more.
 pub(super) fn is_sketch(text: &str) -> bool {
     let counts = significant_digits(text);
     let exact = counts.iter().filter(|&&digits| digits >= EXACT_DIGITS).count();
     exact as f64 <= STRAY * counts.len() as f64
 }
 
-/// The significant digits of every number but 0, without exponents. As in path data, a number ends where a second point
-/// begins the next.
+/// The number of significant digits of every number but 0, without exponents. A number ends where a second point begins
+/// the next, as in path data.
 fn significant_digits(text: &str) -> Vec<usize> {
     let mut counts = Vec::new();
     for run in text.split(|c: char| !c.is_ascii_digit() && c != '.') {

@@ -1,4 +1,4 @@
-//! From elements as they were painted to the drawing: which of them are shapes, which lines, and what is told of them.
+//! From painted elements to the drawing: which are shapes, which are lines, and the notes about them.
 
 use super::super::ImportError;
 use super::clip::{CutterId, Left, OnPage};
@@ -7,11 +7,11 @@ use crate::domain::{Drawing, DrawnCurve, FillRule, Shape, Skipped};
 use crate::ids::{ClipId, Colour, NameId};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Why something is counted that is not there.
+/// The reason why an element is counted but not drawn.
 const CUT_AWAY: &str = "cut away by a clip path or a viewport";
 
 impl Reader<'_> {
-    /// Shapes, and centre lines as asked for.
+    /// The shapes, and the centre lines as asked for.
     pub(super) fn drawn(mut self) -> Result<Drawing, ImportError> {
         let strokes = self.strokes;
         let mut elements = std::mem::take(&mut self.elements);
@@ -32,7 +32,7 @@ impl Reader<'_> {
         let lies = |e: &Element| bounds_of_all(&e.subpaths).map(|bounds| self.cutters.on_page(bounds));
         let any_on_page = elements.iter().any(|e| e.filled && lies(e).is_some_and(|lies| lies != OnPage::Outside));
         let (mut beyond, mut cut_away) = (0, None);
-        // What is painted in each colour, by name.
+        // The area painted in each colour, by name.
         let mut areas: BTreeMap<(NameId, Colour), f64> = BTreeMap::new();
         for element in elements {
             if !element.filled && !keep_lines {
@@ -90,14 +90,14 @@ impl Reader<'_> {
         }
     }
 
-    /// Where nothing is left, names the clip that left nothing of the first element.
+    /// Reports the clip that left nothing of the first element, where nothing is left of the whole file.
     fn tell_all_cut_away(&mut self, by: CutterId) {
         let why = format!("{CUT_AWAY}, the first by {}", self.cutters.entity(by));
         let cut = self.drawing.skipped.iter_mut().filter(|skipped| skipped.why == CUT_AWAY);
         cut.for_each(|skipped| skipped.why = why.clone());
     }
 
-    /// Notes and counts of what is not as it is drawn; `beyond` shapes reach beyond the page.
+    /// Adds notes and counts about what differs from the file. `beyond` shapes reach beyond the page.
     fn tell(&mut self, beyond: usize) {
         if beyond > 0 {
             let done = match self.cutters.page_cuts() {
@@ -108,7 +108,7 @@ impl Reader<'_> {
         }
         let masks = self.drawing.skipped.iter().filter(|s| s.why == MASK).map(|s| s.count).sum::<usize>();
         if masks > 0 {
-            let note = format!("Elements with a mask: {masks}; masks are not applied, and what they hide is there.");
+            let note = format!("Elements with a mask: {masks}; masks are not applied: all of these elements is read.");
             self.drawing.notes.push(note);
         }
         if self.offset_error > 0.0 {

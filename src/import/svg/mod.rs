@@ -1,15 +1,14 @@
-//! SVG: what is filled becomes shapes in the order of painting, as exact curves; centre lines of strokes where they are
-//! wanted.
+//! SVG. Filled elements become shapes in the order of painting, with exact curves. Strokes become centre lines if asked
+//! for.
 //!
-//! Coordinates are the user units of the outermost `svg` element, with y turned upward: the mirror image in its view
-//! box (y → 2·min-y + height − y), without one in its height, without either about y = 0. [`Drawing::unit`] says what a
-//! user unit is.
+//! Coordinates are user units of the outermost `svg` element, with y turned upward: y → 2·min-y + height − y in its
+//! view box, or in its height, or y → −y without both. [`Drawing::unit`] is the size of a user unit.
 //!
-//! Names: the Inkscape layer, else the id of the element or of the nearest group around it (a `use` gives its id to
-//! what it shows), else the colour. A path is drawn up to the first error in its data, as SVG asks. Clip paths and
-//! viewports cut what they hold, the page only where it says so; what lies wholly outside of it is left out. Not
-//! applied, but counted: masks, filters, markers, patterns; not read, but counted: text, images, whatever is hidden.
-//! Strokes have no width unless what they cover is asked for.
+//! Names: the Inkscape layer, else the id of the element or of the nearest group around it (a `use` gives its id to the
+//! element that it shows), else the colour. A path is drawn up to the first error in its data, as SVG requires. Clip
+//! paths and viewports cut elements. The page cuts them only if the file says so, but elements wholly outside of it are
+//! left out. Counted but not applied: masks, filters, markers, patterns. Counted but not read: text, images, invisible
+//! elements. Strokes have no width unless their area is asked for.
 
 mod basic_shape;
 mod clip;
@@ -49,13 +48,14 @@ const SVG: &str = "http://www.w3.org/2000/svg";
 const XLINK: &str = "http://www.w3.org/1999/xlink";
 const INKSCAPE: &str = "http://www.inkscape.org/namespaces/inkscape";
 
-/// Why a masked element is counted.
+/// The reason why a masked element is counted.
 const MASK: &str = "masks are not applied";
-/// The name of a rectangle over the whole page that has none.
+/// The name of an unnamed rectangle over the whole page.
 const BACKGROUND: &str = "background";
-/// How far such a rectangle may stay inside the page, as a part of its diagonal: programs round.
+/// Largest distance of such a rectangle from the page, as a part of the page's diagonal. Programs round.
 const BACKGROUND_SLACK: f64 = 1e-3;
 
+/// The facts of SVG.
 pub(super) const FACTS: Facts = Facts {
     name: "svg",
     suffixes: &["svg", "svgz"],
@@ -68,18 +68,18 @@ pub(super) const FACTS: Facts = Facts {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Strokes {
-    /// Centre lines where nothing is filled; else what is only stroked is left out.
+    /// Centre lines where nothing is filled; else elements that are only stroked are left out.
     #[default]
     Auto,
-    /// What is stroked and not filled is kept as centre lines.
+    /// Elements that are stroked and not filled become centre lines.
     Lines,
-    /// What they cover is filled, as by another shape over the fill.
+    /// The area of a stroke is filled, as another shape above the fill.
     Area,
     /// Left out.
     Ignore,
 }
 
-/// How a drawing is read.
+/// How SVG is read.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SvgOptions {
     /// What becomes of strokes: centre lines, areas or nothing.
@@ -94,19 +94,19 @@ impl Default for SvgOptions {
     }
 }
 
-/// Reads an SVG file, or a compressed one (`.svgz`). The names of which `selection` speaks are those of an element and
-/// of all groups around it: ids, and labels as Inkscape gives them to layers.
+/// Reads an SVG file, or a compressed one (`.svgz`). `selection` names elements and the groups around them, by id or by
+/// the label that Inkscape gives to a layer.
 ///
 /// # Errors
-/// Where the text is no XML or no SVG, a number is too large for any drawing, or the file unfolds beyond its bounds;
-/// where nothing is left of it and the data of an element are in error: the first such place.
+/// Where the text is not XML or not SVG, a number is too large, or the file expands beyond its limits. Where nothing is
+/// left of the file and the data of an element are in error: the first such place.
 pub fn read(bytes: &[u8], stem: &str, options: &SvgOptions, selection: &Selection) -> Result<Drawing, ImportError> {
     let (text, encoding) = xml::text(bytes)?;
     let document = xml::parse(&text)?;
     let root = document.root_element();
     if local_name(root) != Some("svg") {
         let what = format!("the outermost element is '{}', not 'svg'", root.tag_name().name());
-        return Err(ImportError::at(Lines::new(&text).place(root.range().start).0, what, "this is no SVG drawing"));
+        return Err(ImportError::at(Lines::new(&text).place(root.range().start).0, what, "this is not an SVG drawing"));
     }
     let css = css::sheet_text(&document);
     let sheet = Sheet::parse(&css, &document);
@@ -133,13 +133,13 @@ pub fn read(bytes: &[u8], stem: &str, options: &SvgOptions, selection: &Selectio
     Ok(drawing)
 }
 
-/// Whether these may be the first bytes of an SVG file: XML that comes to an `svg` element, or anything compressed.
+/// Whether these may be the first bytes of an SVG file: XML with an `svg` element, or compressed data.
 pub(super) fn sniff(bytes: &[u8]) -> bool {
     let is_xml = bytes.iter().find(|b| !b.is_ascii_whitespace()) == Some(&b'<');
     bytes.starts_with(b"\x1f\x8b") || is_xml && bytes.windows(4).any(|w| w == b"<svg" || w == b":svg")
 }
 
-/// The name of an SVG element; files that forget the namespace are read too.
+/// The name of an SVG element, also where the file does not declare the namespace.
 fn local_name<'a>(node: Node<'a, '_>) -> Option<&'a str> {
     let name = node.tag_name();
     (node.is_element() && name.namespace().is_none_or(|n| n == SVG)).then(|| name.name())
@@ -155,19 +155,19 @@ struct Element {
     layer: Option<LayerId>,
     cut_by: Option<CutterId>,
     colour: Option<Colour>,
-    /// A rectangle over the whole page, under everything.
+    /// Whether it is a rectangle over the whole page, below all others.
     is_background: bool,
     entity: String,
-    /// The unit of the last decimal of its coordinates, in the drawing's.
+    /// The unit of the last decimal of its coordinates, in the drawing's units.
     last_decimal: f64,
 }
 
 /// How something is painted.
 #[derive(Clone, Debug, Default)]
 struct Painting {
-    /// Its colour, or the id of what paints.
+    /// The colour, or the id of the paint server.
     name: String,
-    /// Red, green, blue, opacity, of a gradient the mean; unknown of patterns.
+    /// Red, green, blue and opacity; the mean of a gradient; `None` of a pattern.
     mean: Option<[f64; 4]>,
 }
 
@@ -175,7 +175,7 @@ struct Painting {
 struct Drawn {
     subpaths: Vec<Subpath>,
     filled: bool,
-    /// Whether its paint is that of a stroke.
+    /// Whether the paint is that of a stroke.
     is_stroke: bool,
     paint: Painting,
     entity: String,
@@ -188,22 +188,22 @@ struct Reader<'a> {
     sheet: &'a Sheet<'a>,
     chooser: Chooser<'a>,
     strokes: Strokes,
-    /// The largest distance of a stroke's outline from the true one.
+    /// Largest distance of a stroke's outline from the exact one.
     offset_error: f64,
-    /// Elements by id, sorted; of several with one id the first counts.
+    /// Elements by id, sorted. The first element of an id counts.
     ids: Vec<(&'a str, Node<'a, 'a>)>,
     elements: Vec<Element>,
     layers: BTreeMap<&'a str, LayerId>,
     cutters: Cutters,
     drawing: Drawing,
-    /// Elements and curves shown by `use` so far.
+    /// Number of elements and curves that `use` has shown so far.
     expanded: usize,
-    /// Commands of no length.
+    /// Number of commands of zero length.
     empty_commands: usize,
-    /// Values of style of kinds that are not read, and the first of them.
+    /// Number of style values of unsupported kinds, and the first of them.
     unread_values: usize,
     first_unread: Option<String>,
-    /// The first element whose data are in error.
+    /// The first element with an error in its data.
     broken: Option<ImportError>,
     stack: Vec<(Node<'a, 'a>, Rc<Context<'a>>)>,
 }
@@ -255,7 +255,7 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// The box around subpaths; `None` of none.
+/// The box around subpaths; `None` where there are none.
 fn bounds_of_all(subpaths: &[Subpath]) -> Option<Rect> {
     subpaths.iter().flat_map(|s| &s.curves).map(|c| c.bounds()).reduce(|a, b| a.union(b))
 }
@@ -271,18 +271,19 @@ fn path_data(text: &str) -> &str {
 }
 
 impl Subpath {
+    /// The subpath under a map.
     pub fn transformed(self, map: Affine) -> Self {
         Self { curves: self.curves.iter().map(|curve: &Curve| curve.transformed(map)).collect(), ..self }
     }
 }
 
-/// The names by which an element is asked for or left out.
+/// The names by which an element is selected or left out.
 fn names<'a>(node: Node<'a, '_>) -> impl Iterator<Item = &'a str> {
     let given = [node.attribute("id"), node.attribute((INKSCAPE, "label"))];
     given.into_iter().flatten().filter(|name| !name.trim().is_empty())
 }
 
-/// The element's word, where it is one of SVG.
+/// The name of an element, if SVG has it.
 fn known_tag(tag: &str) -> &'static str {
     const TAGS: &[&str] = &[
         "svg", "g", "a", "use", "symbol", "switch", "path", "rect", "circle", "ellipse", "line", "polyline", "polygon",
@@ -298,7 +299,7 @@ fn label(tag: &str, node: Node) -> String {
     }
 }
 
-/// As much of a text of the file as a message should hold.
+/// A text from the file, cut to the length of a message.
 fn cut(text: &str) -> &str {
     text.char_indices().nth(60).map_or(text, |(end, _)| &text[..end])
 }

@@ -5,16 +5,17 @@ use crate::geometry::{Point, Vec2, finest_decimal};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use svgtypes::{NumberListParser, PathParser, PathSegment};
 
-/// Numbers beyond this are refused: their squares and products must stay finite, and no drawing has any.
+/// Larger numbers are refused: their squares and products must stay finite.
 pub(super) const HUGE: f64 = 1e30;
 /// tan(π/8): the bulge of a quarter of a circle.
 const QUARTER_BULGE: f64 = std::f64::consts::SQRT_2 - 1.0;
 
-/// Curves end to end.
+/// Curves that are joined end to end.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Subpath {
+    /// The curves, each beginning where the one before ends.
     pub curves: Vec<Curve>,
-    /// Whether it was closed, and not only ends where it began: a stroke has a join there.
+    /// Whether it was closed by a command. A subpath that only ends where it began has no join there.
     pub closed: bool,
 }
 
@@ -23,13 +24,13 @@ impl Subpath {
         Some((self.curves.first()?.start(), self.curves.last()?.end()))
     }
 
-    /// The line that painting closes an open subpath by.
+    /// The line by which painting closes an open subpath.
     pub fn closing(&self) -> Option<Curve> {
         let (start, end) = self.ends()?;
         (start != end).then(|| Curve::line(end, start).ok())?
     }
 
-    /// Whether it all lies on one line, and so encloses nothing.
+    /// Whether all of it lies on one line, and so encloses no area.
     pub fn is_flat(&self) -> bool {
         let Some((start, _)) = self.ends() else { return true };
         let away = self.curves.iter().map(|c| c.end() - start).find(|v| *v != Vec2::ZERO).unwrap_or_default();
@@ -37,30 +38,31 @@ impl Subpath {
     }
 }
 
-/// What an element outlines.
+/// The outline of an element.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Outline {
+    /// The subpaths, in the order of the data.
     pub subpaths: Vec<Subpath>,
-    /// Commands of no length, which draw nothing.
+    /// Number of commands of zero length, which draw nothing.
     pub empty: usize,
-    /// Where the data broke off, in characters from its beginning, and why. What stands before is drawn.
+    /// Where the data are wrong, in characters from their beginning, and why. The data before are drawn.
     pub broken: Option<(Option<usize>, String)>,
-    /// A number that is refused.
+    /// A number that is too large.
     pub huge: Option<f64>,
-    /// One unit of the last decimal of its numbers; 0 where all are whole.
+    /// The unit of the last decimal of its numbers; 0 where all are whole.
     pub last_decimal: f64,
 }
 
-/// Draws subpaths in the order of commands.
+/// Draws subpaths, command by command.
 #[derive(Default)]
 struct Pen {
     outline: Outline,
-    /// Where the subpath begins.
+    /// The beginning of the subpath.
     start: Point,
     at: Point,
-    /// The last control point, where the command before was of this degree: what S and T reflect.
+    /// The last control point, if the last command was of this degree. S and T reflect it.
     control: Option<(usize, Point)>,
-    /// The next curve begins a subpath.
+    /// Whether the next curve begins a subpath.
     fresh: bool,
 }
 
@@ -69,7 +71,7 @@ impl Pen {
         (self.start, self.at, self.control, self.fresh) = (to, to, None, true);
     }
 
-    /// Adds a curve from where the pen is, and moves to its end; a curve of no length is counted.
+    /// Adds a curve from the pen's place, and moves the pen to its end. A curve of zero length is counted.
     fn add(&mut self, curve: Option<Curve>, to: Point) {
         self.control = None;
         self.at = to;
@@ -90,7 +92,7 @@ impl Pen {
         self.add(line, to);
     }
 
-    /// A Bézier curve over these points behind the pen's.
+    /// Adds a Bézier curve from the pen's place over these points.
     fn bezier_to(&mut self, rest: &[Point]) {
         let points: Vec<Point> = std::iter::once(self.at).chain(rest.iter().copied()).collect();
         let [.., control, to] = points[..] else { return };
@@ -100,7 +102,7 @@ impl Pen {
         self.control = Some((degree, control));
     }
 
-    /// The control point that a smooth curve of this degree begins with.
+    /// The first control point of a smooth curve of this degree.
     fn reflected(&self, degree: usize) -> Point {
         match self.control {
             Some((d, control)) if d == degree => self.at + (self.at - control),
@@ -129,7 +131,7 @@ impl Pen {
         self.move_to(self.start);
     }
 
-    /// The outline, whose numbers have this finest decimal; an infinite one of whole numbers.
+    /// The outline. `finest` is the finest decimal of its numbers, infinite where all are whole.
     fn finish(self, finest: f64) -> Outline {
         let last_decimal = if finest.is_finite() { finest } else { 0.0 };
         Outline { last_decimal, ..self.outline }
@@ -159,8 +161,20 @@ impl Pen {
     }
 }
 
-/// An elliptic arc by its ends (SVG 2, appendix B.2): radii that are too small grow until they reach. `None`: it is a
-/// straight line.
+/// An elliptic arc from its ends (SVG 2, appendix B.2). Radii that are too small are enlarged until the ellipse reaches
+/// both ends. `None`: the arc is a straight line.
+///
+/// ```text
+///    Two ellipses of the given radii pass through both ends. `large` and `positive` choose one of four arcs.
+///
+///         . - ~ - .                 positive: the angle grows from the x axis (right) to the y axis (down).
+///       ´           `               large: the arc sweeps more than half a turn.
+///      |   large     |
+///       `.         .´               center left or right of the chord (from → to), and half_sweep of the small arc:
+///    from ●───┬───● to                tan(half_sweep) = share / height
+///          `~ | ~´                    share:  half of the chord     } where the ellipse
+///           small                     height: from chord to center  } is the unit circle
+/// ```
 fn arc(from: Point, to: Point, radii: Vec2, turned_deg: f64, large: bool, positive: bool) -> Option<Curve> {
     if radii.x == 0.0 || radii.y == 0.0 {
         return None;
@@ -169,7 +183,7 @@ fn arc(from: Point, to: Point, radii: Vec2, turned_deg: f64, large: bool, positi
     let half_chord = (to - from) * 0.5;
     if radii.x == radii.y {
         let half = libm::hypot(half_chord.x, half_chord.y);
-        // The height of the triangle under the chord; 0 where the chord is a diameter.
+        // The distance of the center from the chord; 0 where the chord is a diameter.
         let height = ((radii.x - half) * (radii.x + half)).max(0.0).sqrt();
         let radius = radii.x.max(half);
         let bulge = if large { (radius + height) / half } else { half / (radius + height) };
@@ -177,7 +191,7 @@ fn arc(from: Point, to: Point, radii: Vec2, turned_deg: f64, large: bool, positi
     }
     let (sin, cos) = libm::sincos(turned_deg.to_radians());
     let axis = Vec2::new(cos, sin);
-    // Half the chord where the ellipse is the unit circle.
+    // A vector in coordinates where the ellipse is the unit circle.
     let in_circle = |v: Vec2| Vec2::new(v.dot(axis) / radii.x, axis.cross(v) / radii.y);
     let half = in_circle(half_chord);
     let reach = libm::hypot(half.x, half.y);
@@ -186,7 +200,7 @@ fn arc(from: Point, to: Point, radii: Vec2, turned_deg: f64, large: bool, positi
     let half = half / grown;
     let share = libm::hypot(half.x, half.y).min(1.0);
     let height = ((1.0 - share) * (1.0 + share)).max(0.0).sqrt();
-    // The center lies left of the chord where the arc is small and runs in the positive sense.
+    // The center lies left of the chord where the arc is small and the sense is positive.
     let side = if large == positive { -1.0 } else { 1.0 };
     let center = Vec2::new(-half.y, half.x) * (side * height / share);
     let start = libm::atan2(-half.y - center.y, -half.x - center.x);
@@ -214,7 +228,7 @@ impl Outline {
                         break;
                     }
                     pen.draw(segment);
-                    // Relative moves add up.
+                    // Sums of relative moves may become too large.
                     if let Some(huge) = [pen.at.x, pen.at.y].into_iter().find(|x| x.abs() > HUGE) {
                         pen.outline.huge = Some(huge);
                         break;
@@ -229,6 +243,7 @@ impl Outline {
         pen.finish(finest)
     }
 
+    /// The outline of a line.
     pub fn of_line(from: Point, to: Point) -> Self {
         let mut pen = Pen::default();
         pen.move_to(from);
@@ -246,7 +261,7 @@ impl Outline {
         pen.outline
     }
 
-    /// The outline of a polyline or, closed, of a polygon; an odd number at the end is an error, as in path data.
+    /// The outline of a polyline, or of a polygon if `closed`. An odd number at the end is an error, as in path data.
     pub fn of_points(data: &str, closed: bool) -> Self {
         let mut pen = Pen::default();
         let mut numbers = NumberListParser::from(data);
@@ -273,7 +288,7 @@ impl Outline {
         pen.finish(finest)
     }
 
-    /// The rectangle with corners cut by ellipses of these radii, from the left of its upper edge clockwise as seen.
+    /// The rectangle with corners rounded by these radii, from the left of its upper edge, clockwise on the page.
     pub fn of_rect(corner: Point, size: Vec2, radii: Vec2) -> Self {
         let mut pen = Pen::default();
         if !(size.x > 0.0 && size.y > 0.0) {
@@ -284,7 +299,7 @@ impl Outline {
         let far = corner + size;
         let round = r.x > 0.0 && r.y > 0.0;
         let r = if round { r } else { Vec2::ZERO };
-        // Along each edge to where its corner begins, and where that ends.
+        // For each edge: the beginning and the end of the corner after it.
         let corners = [
             (Point::new(far.x - r.x, corner.y), Point::new(far.x, corner.y + r.y)),
             (Point::new(far.x, far.y - r.y), Point::new(far.x - r.x, far.y)),
@@ -322,7 +337,7 @@ impl Outline {
     }
 }
 
-/// The rounded corner k of a rectangle: a quarter of an ellipse in the positive sense, from the top right on.
+/// The rounded corner k of a rectangle: a quarter of an ellipse in the positive sense. Corner 0 is the top right one.
 fn quarter(from: Point, to: Point, r: Vec2, k: usize) -> Option<Curve> {
     if r.x == r.y {
         return Curve::bulge(from, to, QUARTER_BULGE).ok();
@@ -336,7 +351,7 @@ fn quarter(from: Point, to: Point, r: Vec2, k: usize) -> Option<Curve> {
     Some(curve)
 }
 
-/// The numbers of a segment that are lengths, and the angle of an arc; 0 in the place of others.
+/// The lengths and the arc's angle among the numbers of a segment; 0 in place of others.
 fn numbers(segment: &PathSegment) -> [f64; 6] {
     match *segment {
         PathSegment::MoveTo { x, y, .. }
@@ -353,7 +368,7 @@ fn numbers(segment: &PathSegment) -> [f64; 6] {
     }
 }
 
-/// The finer of a unit and the last decimals of some numbers.
+/// The finer one of a unit and the last decimals of some numbers.
 fn finer(unit: f64, numbers: impl IntoIterator<Item = f64>) -> f64 {
     match finest_decimal(numbers) {
         0.0 => unit,
@@ -361,7 +376,7 @@ fn finer(unit: f64, numbers: impl IntoIterator<Item = f64>) -> f64 {
     }
 }
 
-/// Characters before an error of the data, from 0; `None` where it ends too early.
+/// The number of characters before an error in the data; `None` where the data end too early.
 fn position(error: &svgtypes::Error) -> Option<usize> {
     match error {
         svgtypes::Error::UnexpectedData(at)

@@ -1,17 +1,17 @@
-//! Selectors (Selectors Level 4, as far as a still picture needs them): types, ids, classes, attributes, places among
+//! Selectors (Selectors Level 4, as far as still artwork needs them): types, ids, classes, attributes, positions among
 //! siblings, `:not`, `:is`, `:where`, and all four combinators.
 
 use roxmltree::{Document, Node};
 use std::cell::Cell;
 use std::collections::BTreeMap;
 
-/// Elements compared with parts of selectors, in one file.
+/// Largest number of comparisons of an element with a part of a selector, in one file.
 pub(super) const MATCHING_MAX: u64 = 20_000_000;
-/// Compounds of one selector, and selectors within selectors: longer ones are not read.
+/// Largest number of compounds of a selector, and of selectors within it. Longer ones are not read.
 const COMPOUNDS_MAX: usize = 64;
 const NESTING_MAX: usize = 4;
 
-/// What a compound stands to the one right of it.
+/// The relation of a compound to the one on its right.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Combinator {
     Descendant,
@@ -31,7 +31,7 @@ enum Test<'a> {
     Substring(&'a str),
 }
 
-/// a·n + b of the siblings, from the first or the last, all or those of the same type.
+/// The siblings at positions a·n + b, counted from the first or the last, all or those of the same type.
 #[derive(Debug)]
 struct Nth {
     a: i64,
@@ -52,33 +52,33 @@ enum Simple<'a> {
     Nth(Nth),
     Root,
     Empty,
-    /// Any of these, or none of them.
+    /// Any of these selectors, or none of them.
     Any {
         selectors: Vec<Selector<'a>>,
         wanted: bool,
     },
-    /// States that a still picture never has.
+    /// States that still artwork never has.
     Never,
 }
 
-/// What one element must be.
+/// The conditions on one element.
 #[derive(Debug, Default)]
 struct Compound<'a> {
     tag: Option<&'a str>,
     simple: Vec<Simple<'a>>,
 }
 
-/// A selector, from the element that it selects leftward.
+/// A selector, from its subject leftward.
 #[derive(Debug)]
 pub(super) struct Selector<'a> {
     subject: Compound<'a>,
-    /// What stands left of it, each with its relation to the one right of it.
+    /// The compounds to the left, each with its relation to the one on its right.
     left: Vec<(Combinator, Compound<'a>)>,
-    /// Ids; classes and their like; types.
+    /// The numbers of ids; of classes, attributes and pseudo-classes; of types.
     pub specificity: [usize; 3],
 }
 
-/// One thing that a selector asks of the element itself: an id where it asks for any, else a class, else the type.
+/// The condition on the element by which a rule is indexed: an id if there is one, else a class, else the type.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Key<'a> {
     Id(&'a str),
@@ -87,16 +87,17 @@ pub(super) enum Key<'a> {
     Any,
 }
 
-/// What matching takes: where elements stand among their siblings, and how much was compared so far.
+/// The state of matching: positions of elements among their siblings, and the number of comparisons so far.
 #[derive(Default)]
 pub(super) struct Matcher {
-    /// Of every element, from 1: its place among all siblings and among those of its type, each from the first and from
-    /// the last.
+    /// For each element, from 1: its position among all siblings and among those of its type, each from the first and
+    /// from the last.
     places: Vec<[[u32; 2]; 2]>,
     spent: Cell<u64>,
 }
 
 impl Matcher {
+    /// The positions of the elements of a document.
     pub fn new(document: &Document) -> Self {
         let mut matcher = Self::default();
         for parent in document.descendants().filter(Node::has_children) {
@@ -128,16 +129,18 @@ impl Matcher {
         }
     }
 
+    /// Whether the number of comparisons has reached its limit.
     pub fn is_exhausted(&self) -> bool {
         self.spent.get() > MATCHING_MAX
     }
 
-    /// Whether a selector selects an element; `false` once too much was compared.
+    /// Whether a selector selects an element; `false` after too many comparisons.
     pub fn matches(&self, selector: &Selector, node: Node) -> bool {
         self.fits(&selector.subject, node) && self.fits_left(&selector.left, node)
     }
 
-    /// Whether something stands left of `node` that the compounds ask for. As deep as a selector has compounds.
+    /// Whether elements to the left of `node` meet the compounds. The recursion is as deep as the selector has
+    /// compounds.
     fn fits_left(&self, left: &[(Combinator, Compound)], node: Node) -> bool {
         let Some(((combinator, compound), rest)) = left.split_first() else { return true };
         let holds = |at: Node| self.fits(compound, at) && self.fits_left(rest, at);
@@ -210,7 +213,7 @@ impl Test<'_> {
 }
 
 impl Nth {
-    /// Whether a place, from 1, is a·n + b for a whole n ≥ 0.
+    /// Whether a position, from 1, is a·n + b for an integer n ≥ 0.
     fn counts(&self, place: u32) -> bool {
         let beyond = i64::from(place) - self.b;
         if self.a == 0 { beyond == 0 } else { beyond % self.a == 0 && beyond / self.a >= 0 }
@@ -241,7 +244,7 @@ impl Nth {
 
 // ---- reading ----
 
-/// The pieces of a list of selectors: between commas outside of brackets and strings.
+/// The selectors of a list: the pieces between commas outside of brackets and strings.
 pub(super) fn list(text: &str) -> impl Iterator<Item = &str> {
     let mut rest = Some(text);
     std::iter::from_fn(move || {
@@ -267,13 +270,13 @@ fn is_word(c: char) -> bool {
     c.is_alphanumeric() || matches!(c, '-' | '_') || !c.is_ascii()
 }
 
-/// The word that a text begins with, and the rest.
+/// The first word of a text, and the rest.
 fn word(text: &str) -> Option<(&str, &str)> {
     let end = text.find(|c| !is_word(c)).unwrap_or(text.len());
     (end > 0).then(|| text.split_at(end))
 }
 
-/// What stands between a bracket that was opened before `text` and the one that closes it, and the rest.
+/// The text between an open bracket before `text` and the one that closes it, and the rest.
 fn bracketed(text: &str, close: u8) -> Option<(&str, &str)> {
     let (mut depth, mut quote) = (0_usize, None);
     for (i, b) in text.bytes().enumerate() {
@@ -291,7 +294,7 @@ fn bracketed(text: &str, close: u8) -> Option<(&str, &str)> {
 }
 
 impl<'a> Selector<'a> {
-    /// `None` of a selector with more in it than is read here.
+    /// Reads a selector; `None` where it has unsupported parts.
     pub fn parse(text: &'a str) -> Option<Self> {
         Self::parse_within(text, 0)
     }
@@ -320,6 +323,7 @@ impl<'a> Selector<'a> {
         (left.len() < COMPOUNDS_MAX).then_some(Self { subject, left, specificity })
     }
 
+    /// The condition by which the rule is indexed.
     pub fn key(&self) -> Key<'a> {
         let named = |of: fn(&Simple<'a>) -> Option<Key<'a>>| self.subject.simple.iter().find_map(of);
         let id = named(|simple| if let Simple::Id(id) = simple { Some(Key::Id(id)) } else { None });
@@ -329,7 +333,7 @@ impl<'a> Selector<'a> {
 }
 
 impl<'a> Compound<'a> {
-    /// The compound that a text begins with, and the rest.
+    /// The first compound of a text, and the rest.
     fn parse(text: &'a str, specificity: &mut [usize; 3], nesting: usize) -> Option<(Self, &'a str)> {
         let mut compound = Self::default();
         let mut rest = text;
@@ -340,7 +344,7 @@ impl<'a> Compound<'a> {
             specificity[2] += 1;
         }
         while let Some(first) = rest.bytes().next() {
-            // Nothing where a letter of several bytes stands behind a star or a bracket.
+            // Empty where a letter of several bytes follows a star or a bracket.
             let inner = rest.get(1..).unwrap_or_default();
             let (simple, after) = match first {
                 b'#' => word(inner).map(|(id, after)| (Simple::Id(id), after))?,
@@ -362,7 +366,7 @@ impl<'a> Compound<'a> {
     }
 }
 
-/// What stands in square brackets: `name`, `name="value"`, `name^=value i`.
+/// The condition in square brackets: `name`, `name="value"`, `name^=value i`.
 fn attribute(text: &str) -> Option<Simple<'_>> {
     let (name, rest) = word(text.trim())?;
     let rest = rest.trim_start();
@@ -392,10 +396,10 @@ fn attribute(text: &str) -> Option<Simple<'_>> {
     Some(Simple::Attribute { name, test, any_case })
 }
 
-/// A pseudo-class, from behind its colon, and the rest.
+/// A pseudo-class after its colon, and the rest.
 fn pseudo<'a>(text: &'a str, specificity: &mut [usize; 3], nesting: usize) -> Option<(Simple<'a>, &'a str)> {
     if let Some(text) = text.strip_prefix(':') {
-        // A pseudo-element is no element of the picture.
+        // A pseudo-element is not an element of the file.
         let (_, rest) = word(text)?;
         return Some((Simple::Never, rest));
     }
@@ -428,7 +432,7 @@ fn pseudo<'a>(text: &'a str, specificity: &mut [usize; 3], nesting: usize) -> Op
         "last-of-type" => place(1, true, true),
         "only-child" | "only-of-type" => {
             let of_type = name == "only-of-type";
-            // Both the first and the last: whatever is none of both.
+            // Both the first and the last: an element that is neither "not first" nor "not last".
             let ends = [false, true].map(|from_last| Selector {
                 subject: Compound { tag: None, simple: vec![not_first(from_last, of_type)] },
                 left: Vec::new(),
@@ -446,7 +450,7 @@ fn pseudo<'a>(text: &'a str, specificity: &mut [usize; 3], nesting: usize) -> Op
     Some((simple, rest))
 }
 
-/// Second or later from one end of the siblings.
+/// The second or a later one from one end of the siblings.
 fn not_first(from_last: bool, of_type: bool) -> Simple<'static> {
     Simple::Nth(Nth { a: 1, b: 2, from_last, of_type })
 }

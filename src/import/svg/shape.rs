@@ -1,4 +1,4 @@
-//! Shapes: outline, paint, name and layer of an element.
+//! Shapes: the outline, paint, name and layer of an element.
 
 use super::super::ImportError;
 use super::path::{HUGE, Outline, Subpath};
@@ -16,7 +16,7 @@ use kurbo::Affine;
 use roxmltree::Node;
 
 impl<'a> Reader<'a> {
-    /// Draws an element that has an outline, or says why not.
+    /// Draws an element that has an outline, or counts why it does not.
     pub(super) fn shape(
         &mut self,
         node: Node<'a, 'a>,
@@ -26,7 +26,7 @@ impl<'a> Reader<'a> {
     ) -> Result<(), ImportError> {
         let known = known_tag(tag);
         let Some(outline) = self.outline(node, tag, declared, context.viewport)? else {
-            self.skip(known, "it is no element of SVG that is drawn");
+            self.skip(known, "it is not an element that SVG draws");
             return Ok(());
         };
         if !context.style.visible {
@@ -63,7 +63,7 @@ impl<'a> Reader<'a> {
         self.paint(known, outline, entity, context, declared)
     }
 
-    /// Draws what an element fills, and its stroke as a line or as the area that it covers.
+    /// Draws the fill of an element, and its stroke as a line or as an area.
     fn paint(
         &mut self,
         known: &'static str,
@@ -74,7 +74,7 @@ impl<'a> Reader<'a> {
     ) -> Result<(), ImportError> {
         let fill = self.painting(known, context.style.fill());
         let stroke = self.painting(known, context.style.stroke());
-        // What lies on a line encloses nothing, whatever fills it.
+        // An outline on one line encloses no area.
         let filled = fill.is_some() && outline.subpaths.iter().any(|s| !s.is_flat());
         let covered = match stroke.clone().filter(|_| self.strokes == Strokes::Area) {
             Some(name) => Some((name, self.covered(&outline.subpaths, context, declared, &entity)?)),
@@ -103,7 +103,7 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    /// What the stroke of an element covers, in the drawing's coordinates.
+    /// The area of an element's stroke, in the drawing's coordinates.
     fn covered(
         &mut self,
         subpaths: &[Subpath],
@@ -112,7 +112,7 @@ impl<'a> Reader<'a> {
         entity: &str,
     ) -> Result<Vec<Subpath>, ImportError> {
         let pen = context.style.pen(context.viewport);
-        // Of a stroke that no transform acts on, the outline is mapped first.
+        // Where no transform acts on the stroke, the outline is mapped first.
         let is_fixed = declared.given(Property::VectorEffect) == Some("non-scaling-stroke");
         let (before, after) = if is_fixed { (context.map, Affine::IDENTITY) } else { (Affine::IDENTITY, context.map) };
         let drawn: Vec<Subpath> = subpaths.iter().map(|s| s.clone().transformed(before)).collect();
@@ -128,7 +128,7 @@ impl<'a> Reader<'a> {
         Ok(covered.outlines.into_iter().map(|s| s.transformed(after)).collect())
     }
 
-    /// Takes an outline that is painted.
+    /// Adds a painted outline.
     fn add_element(&mut self, tag: &'static str, context: &Context<'a>, drawn: Drawn) {
         let Drawn { subpaths, filled, is_stroke, paint, entity, last_decimal } = drawn;
         let is_background = filled && !self.elements.iter().any(|e| e.filled) && self.covers_page(&subpaths);
@@ -172,7 +172,7 @@ impl<'a> Reader<'a> {
         is_box && bounds.inflate(slack, slack).union(page) == bounds.inflate(slack, slack)
     }
 
-    /// The layer of this name, one element richer.
+    /// The layer of this name, with one more element.
     fn layer(&mut self, name: &'a str) -> LayerId {
         let next = LayerId::from_index(self.drawing.layers.len());
         let id = *self.layers.entry(name).or_insert(next);
@@ -183,7 +183,7 @@ impl<'a> Reader<'a> {
         id
     }
 
-    /// Notes an error in the data of a path, polyline or polygon, and counts what follows it as left out.
+    /// Notes an error in the data of a path, polyline or polygon, and counts the data after it as left out.
     fn note_broken(&mut self, node: Node, tag: &'static str, entity: &str, at: Option<usize>, why: &str) {
         let place = self.data_place(node, tag, at);
         let shown = place.map_or(String::new(), |(line, column)| format!(" at line {line}, column {column}"));
@@ -197,7 +197,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// A paint, where it shows anything.
+    /// A paint, if it is visible.
     fn painting(&mut self, tag: &'static str, painted: Painted<'a>) -> Option<Painting> {
         let plain = |name: String| Painting { mean: style::rgba(&name), name };
         match painted {
@@ -219,8 +219,8 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// The mean colour of a gradient along its stops, its own or those of the one that it refers to; without any it
-    /// paints nothing.
+    /// The mean colour of a gradient along its stops. Without stops of its own the gradient has those that it refers
+    /// to. Without any stop it paints nothing.
     fn mean_of_stops(&self, id: &'a str) -> Option<[f64; 4]> {
         let is_stop = |node: &Node| local_name(*node) == Some("stop");
         let mut chain = std::iter::successors(self.by_id(id), |gradient| self.target(*gradient)).take(USE_DEPTH_MAX);
@@ -235,7 +235,7 @@ impl<'a> Reader<'a> {
             stops.push((offset.max(before), colour));
         }
         let (first, last) = (*stops.first()?, *stops.last()?);
-        // The first and the last colour go on to the ends.
+        // The first and the last colour extend to the ends.
         let whole: Vec<_> = [(0.0, first.1)].into_iter().chain(stops).chain([(1.0, last.1)]).collect();
         let mut mean = [0.0; 4];
         for pair in whole.windows(2) {
@@ -245,12 +245,13 @@ impl<'a> Reader<'a> {
         Some(mean.map(|part: f64| part.clamp(0.0, 1.0)))
     }
 
-    /// Line and column of an error in the data of a path, as far as they can be told.
+    /// Line and column of an error in the data of a path, if known.
     fn data_place(&self, node: Node, tag: &str, at: Option<usize>) -> Option<(usize, usize)> {
         let name = if tag == "path" { "d" } else { "points" };
         let attribute = node.attribute_node(name)?;
         let raw = &self.text[attribute.range_value()];
-        // Where characters were written as entities, the beginning of the data must do.
+        // Where the file writes characters as entities, columns are unknown. The beginning of the data is given
+        // instead.
         let plain = raw.chars().count() == attribute.value().chars().count();
         let offset = match at {
             Some(at) if plain => raw.char_indices().nth(at).map_or(raw.len(), |(byte, _)| byte),
@@ -260,7 +261,7 @@ impl<'a> Reader<'a> {
         Some(self.lines.place(attribute.range_value().start + offset))
     }
 
-    /// The outline of an element in its own coordinates; `None` of an element that is no shape.
+    /// The outline of an element in its own coordinates; `None` where the element is not a shape.
     pub(super) fn outline(
         &self,
         node: Node<'a, 'a>,
@@ -286,7 +287,7 @@ impl<'a> Reader<'a> {
             "rect" => {
                 let at = pair(given(Property::X), given(Property::Y));
                 let size = pair(given(Property::Width), given(Property::Height)).to_vec2();
-                // One radius stands for both; a negative one is none.
+                // If one radius is given, it counts for both. A negative one counts as not given.
                 let radius = |value: Option<f64>| value.filter(|r| *r >= 0.0);
                 let rx = radius(length(given(Property::Rx), Axis::X));
                 let ry = radius(length(given(Property::Ry), Axis::Y));

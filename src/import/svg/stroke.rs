@@ -1,5 +1,5 @@
-//! What a stroke covers (SVG 2, section 13.5): the body along each curve, joins between them and caps at their ends, as
-//! closed outlines that all wind in the positive sense, so that the rule "nonzero" makes one of them.
+//! The area of a stroke (SVG 2, section 13.5): the body along each curve, joins between bodies and caps at the ends.
+//! Each is a closed outline that winds in the positive sense, so the rule "nonzero" unites them.
 //!
 //! ```text
 //!      ┌───────────────┐╲ join: the corner outside of a turn
@@ -8,8 +8,8 @@
 //!                    │body│
 //! ```
 //!
-//! Beside a line lies a rectangle, beside an arc the sector of a ring, both exact; offsets of other curves are cubics
-//! within a distance that a note states.
+//! The body of a line is a rectangle, that of an arc is a sector of a ring; both are exact. Offsets of other curves are
+//! cubics within a distance that a note states.
 
 use super::path::Subpath;
 use crate::curve::{Curve, End};
@@ -17,6 +17,7 @@ use crate::geometry::{Point, Vec2};
 use kurbo::{BezPath, PathEl, Shape as _};
 use std::f64::consts::{PI, TAU};
 
+/// The shape of the ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Cap {
     Butt,
@@ -24,6 +25,7 @@ pub(super) enum Cap {
     Square,
 }
 
+/// The shape of the corners.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Join {
     Miter,
@@ -31,36 +33,42 @@ pub(super) enum Join {
     Bevel,
 }
 
-/// How a line is drawn.
+/// How a stroke is drawn.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Pen {
+    /// Width in the coordinates of the element.
     pub width: f64,
+    /// The shape of the ends.
     pub cap: Cap,
+    /// The shape of the corners.
     pub join: Join,
+    /// Largest length of a miter, in widths.
     pub miter_limit: f64,
-    /// Lengths of dashes and of gaps between them by turns; none of a solid line.
+    /// Lengths of dashes and gaps, alternating; empty for a solid line.
     pub dashes: Vec<f64>,
+    /// The length into the dashes at which the stroke begins.
     pub dash_offset: f64,
 }
 
-/// Dashes of one element; where they would be more the line is solid.
+/// Largest number of dashes of one element. With more the line is drawn solid.
 const DASHES_MAX: f64 = 1e4;
-/// How far the offset of a curve that is neither line nor arc may lie off, as a part of the width.
+/// Largest distance of the offset of a curve that is neither line nor arc, as a part of the width.
 pub(super) const OFFSET_ERROR: f64 = 1e-4;
-/// Where two curves turn by less than this (a sine), there is no corner.
+/// Two curves that turn by less than this (the sine of the angle) have no join.
 const STRAIGHT_ON: f64 = 1e-7;
 
-/// What a stroke covers.
+/// The area of a stroke.
 #[derive(Default)]
 pub(super) struct Covered {
+    /// Its outlines, each in the positive sense.
     pub outlines: Vec<Subpath>,
-    /// Whether some outlines are near the true ones only.
+    /// Whether some outlines are approximations.
     pub is_inexact: bool,
-    /// Whether the dashes were too many.
+    /// Whether there were too many dashes.
     pub is_solid: bool,
 }
 
-/// The unit vector along a curve at an end, in its sense.
+/// The unit tangent of a curve at an end, in the direction of the curve.
 fn along(curve: &Curve, end: End) -> Vec2 {
     let t = if end == End::Start { 0.0 } else { 1.0 };
     let side = if end == End::Start { End::Start } else { End::Finish };
@@ -73,6 +81,7 @@ fn left(v: Vec2) -> Vec2 {
 }
 
 impl Pen {
+    /// The area of the stroke along subpaths.
     pub fn cover(&self, subpaths: &[Subpath]) -> Covered {
         let mut covered = Covered::default();
         let period: f64 = self.dashes.iter().sum();
@@ -106,7 +115,7 @@ impl Pen {
         }
     }
 
-    /// Adds an outline that runs from corner to corner, turned so that it winds in the positive sense.
+    /// Adds a closed outline of these curves, in the positive sense.
     fn add(&self, curves: Vec<Curve>, covered: &mut Covered) {
         let origin = curves.first().map_or(Point::ORIGIN, Curve::start);
         let area: f64 = curves.iter().map(|c| c.signed_area(origin)).sum();
@@ -126,7 +135,7 @@ impl Pen {
         match curve {
             Curve::Line(_) => self.add_polygon(&[start + from, start - from, end - to, end + to], covered),
             Curve::Arc(arc) => {
-                // Towards the centre lies the left of an arc in the positive sense.
+                // The center is on the left of an arc in the positive sense.
                 let outward = -arc.sweep_rad.signum();
                 let ring = |radius: f64, from: Point, to: Point| {
                     let start = if radius < 0.0 { arc.start_rad + PI } else { arc.start_rad };
@@ -142,7 +151,7 @@ impl Pen {
                     }
                     (Some(outer), Some(inner)) if arc.radius > half => self.add_between(outer, inner, covered),
                     (outer, inner) => {
-                        // The normals meet in the centre: what they sweep are sectors about it, on both sides.
+                        // The normals meet at the center. Each side of the arc covers a sector around it.
                         for arc_of_sector in [outer, inner].into_iter().flatten() {
                             let spokes =
                                 [side(arc_of_sector.end(), arc.center), side(arc.center, arc_of_sector.start())];
@@ -164,7 +173,7 @@ impl Pen {
         }
     }
 
-    /// What lies between two curves that run side by side.
+    /// Adds the area between two curves that run side by side.
     fn add_between(&self, one: Curve, other: Curve, covered: &mut Covered) {
         let sides = [side(one.end(), other.end()), Some(other.reversed()), side(other.start(), one.start())];
         self.add(std::iter::once(one).chain(sides.into_iter().flatten()).collect(), covered);
@@ -176,7 +185,7 @@ impl Pen {
         if sine.abs() < STRAIGHT_ON && cosine > 0.0 {
             return;
         }
-        // Outside of the turn.
+        // The outer side of the turn.
         let out = if sine > 0.0 { -0.5 * self.width } else { 0.5 * self.width };
         let (from, to) = (at + left(a) * out, at + left(b) * out);
         let miter = 1.0 / ((1.0 + cosine).max(0.0) / 2.0).sqrt();
@@ -212,7 +221,7 @@ impl Pen {
 
     /// The dashes of a subpath, each a subpath.
     fn dashed(&self, subpath: &Subpath, period: f64) -> Vec<Subpath> {
-        // An odd list is gone through twice.
+        // An odd list is used twice.
         let lengths = if self.dashes.len() % 2 == 1 { self.dashes.repeat(2) } else { self.dashes.clone() };
         let whole = if self.dashes.len() % 2 == 1 { 2.0 * period } else { period };
         let (mut at, mut left_of_it) = (0, 0.0);
@@ -224,7 +233,7 @@ impl Pen {
             }
             offset -= length;
         }
-        // Rounding may leave the last of them less than nothing.
+        // Rounding may leave a negative length for the last dash.
         left_of_it = left_of_it.max(0.0);
         let mut dashes = Vec::new();
         let mut dash = Subpath::default();
@@ -259,13 +268,13 @@ fn side(from: Point, to: Point) -> Option<Curve> {
     (from != to).then(|| Curve::line(from, to).ok()).flatten()
 }
 
-/// The parameter at which a curve is `length` longer than at `from`; `rest` is all that is left of it.
+/// The parameter at which a curve is `length` longer than at `from`. `rest` is its length from there on.
 fn parameter_after(curve: &Curve, from: f64, length: f64, rest: f64) -> f64 {
     let even = from + (1.0 - from) * length / rest;
     if curve.is_round() {
         return even;
     }
-    // Newton's method, or halving where that leaves the bracket: 50 halves reach the last bits.
+    // Newton's method, with bisection where a step leaves the bracket. 50 bisections reach the last bits.
     let (mut low, mut high, mut at) = (from, 1.0, even);
     for _ in 0..50 {
         let missing = length - curve.length_of(from, at);
@@ -280,7 +289,7 @@ fn parameter_after(curve: &Curve, from: f64, length: f64, rest: f64) -> f64 {
     at
 }
 
-/// A curve as a path of cubics, within a tolerance where it is none.
+/// A curve as a path of cubics, within a tolerance where it is not a cubic.
 fn kurbo_path(curve: &Curve, tolerance: f64) -> BezPath {
     let mut path = BezPath::new();
     path.move_to(curve.start());
@@ -303,14 +312,14 @@ fn kurbo_path(curve: &Curve, tolerance: f64) -> BezPath {
             ]);
             let unit = kurbo::Arc::new((0.0, 0.0), (1.0, 1.0), ellipse.start_rad, ellipse.sweep_rad, 0.0);
             let size = libm::hypot(ellipse.u.hypot(), ellipse.v.hypot());
-            // Of the unit circle nothing finer than rounding can be told; the pieces would be without number.
+            // On the unit circle no tolerance finer than rounding has a meaning, and would need countless pieces.
             let finest = (0.1 * tolerance / size).max(f64::EPSILON);
             for element in unit.path_elements(finest).skip(1) {
                 path.push(map * element);
             }
         }
         Curve::Line(_) | Curve::Arc(_) | Curve::Bezier(_) | Curve::Spline(_) | Curve::Clothoid(_) => {
-            // No other kind comes out of SVG.
+            // SVG has no other kinds.
             path.line_to(curve.end());
         }
     }

@@ -1,4 +1,4 @@
-//! How an element is painted: what it declares, and what is inherited (SVG 2, chapter 6).
+//! How an element is painted: its own declarations and inherited properties (SVG 2, chapter 6).
 
 use super::stroke::{Cap, Join, Pen};
 use super::units::{Axis, Quantity, Viewport};
@@ -10,7 +10,7 @@ use svgtypes::{Color, Paint, PaintFallback};
 
 macro_rules! properties {
     ($($property:ident $name:literal),* $(,)?) => {
-        /// A property that a reader of outlines needs.
+        /// A property that matters to outlines.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub(super) enum Property { $($property),* }
         const PROPERTIES: &[(&str, Property)] = &[$(($name, Property::$property)),*];
@@ -32,15 +32,15 @@ pub(super) fn property(name: &str) -> Option<Property> {
     PROPERTIES.iter().find(|(n, _)| *n == name).map(|(_, property)| *property)
 }
 
-/// Variables of variables.
+/// Largest number of variables within variables.
 const SUBSTITUTIONS_MAX: usize = 16;
 
-/// What one element declares itself.
+/// The declarations of one element.
 #[derive(Clone, Debug)]
 pub(super) struct Declared<'a> {
     values: [Option<&'a str>; PROPERTIES.len()],
     custom: Vec<(&'a str, &'a str)>,
-    /// Property and value, where that is of a kind that is not read: a variable without value, a sum to be calculated.
+    /// Property and value, where the value is of an unsupported kind: a variable without value, or a calculation.
     pub unread: Vec<(&'static str, &'a str)>,
 }
 
@@ -58,7 +58,7 @@ impl<'a> Declared<'a> {
     pub fn of_attributes(node: Node<'a, 'a>) -> Self {
         let mut declared = Self::default();
         for attribute in node.attributes().filter(|a| a.namespace().is_none()) {
-            // `rotate` is one of text, of which no property is made.
+            // `rotate` is an attribute of text, not the property of that name.
             let known = property(attribute.name());
             let known = known.filter(|p| !matches!(p, Property::Translate | Property::Rotate | Property::Scale));
             known.into_iter().for_each(|property| declared.set(property, attribute.value().trim()));
@@ -66,17 +66,19 @@ impl<'a> Declared<'a> {
         declared
     }
 
+    /// The value of a property.
     pub fn get(&self, property: Property) -> Option<&'a str> {
         self.values[property as usize]
     }
 
-    /// Its value, but for words that every property knows.
+    /// The value of a property, unless it is a keyword that all properties have.
     pub fn given(&self, property: Property) -> Option<&'a str> {
         self.get(property).filter(|value| !is_wide(value))
     }
 
+    /// Declares a property.
     pub fn set(&mut self, property: Property, value: &'a str) {
-        // A value that cannot be read is no declaration: the one below it holds.
+        // An invalid value is not a declaration: the one with lower precedence counts.
         let valid = match property {
             _ if value.contains("var(") || is_wide(value) => true,
             Property::Fill | Property::Stroke => paint(value).is_some(),
@@ -88,11 +90,12 @@ impl<'a> Declared<'a> {
         }
     }
 
+    /// Declares a variable.
     pub fn set_custom(&mut self, name: &'a str, value: &'a str) {
         self.custom.push((name, value));
     }
 
-    /// With the values of its variables, and without the words that stand for no value.
+    /// The declarations with values in place of variables. Keywords that stand for no value are removed.
     fn resolved(mut self, variables: &Variables<'a>) -> Self {
         for (&(name, property), value) in PROPERTIES.iter().zip(&mut self.values) {
             let Some(given) = *value else { continue };
@@ -104,30 +107,30 @@ impl<'a> Declared<'a> {
         self
     }
 
-    /// A share from 0 to 1, as an opacity; 1 where none is given.
+    /// A value from 0 to 1, as an opacity; 1 where none is given.
     pub fn opacity(&self, property: Property) -> f64 {
         self.given(property).and_then(share).unwrap_or(1.0)
     }
 }
 
-/// Whether a value has a function of CSS that calculates: none is read.
+/// Whether a value contains a calculating function of CSS. None is read.
 fn is_calculated(value: &str) -> bool {
     ["calc(", "min(", "max(", "clamp("].iter().any(|function| value.contains(function))
 }
 
-/// Whether a value of the property that cannot be read is told where it is read.
+/// Whether the place that reads the property reports an invalid value.
 fn is_told(property: Property) -> bool {
     use Property::{ClipPath, Rotate, Scale, Transform, Translate};
     matches!(property, ClipPath | Rotate | Scale | Transform | Translate)
 }
 
-/// Whether a value is a word of CSS that every property knows.
+/// Whether a value is a keyword that all properties have.
 fn is_wide(value: &str) -> bool {
     matches!(value, "inherit" | "initial" | "unset" | "revert" | "revert-layer")
 }
 
-/// A value, where it is a variable the value of that or what it falls back to; `None` where it has none. A variable
-/// among other words is not read.
+/// The value, or in place of a variable its value or fallback; `None` where it has neither. A variable among other
+/// words is not read.
 fn substituted<'a>(text: &'a str, variables: &Variables<'a>) -> Option<&'a str> {
     let mut text = text;
     for _ in 0..SUBSTITUTIONS_MAX {
@@ -140,29 +143,31 @@ fn substituted<'a>(text: &'a str, variables: &Variables<'a>) -> Option<&'a str> 
     None
 }
 
-/// A number or percentage, as a share from 0 to 1.
+/// A number or percentage, as a value from 0 to 1.
 pub(super) fn share(text: &str) -> Option<f64> {
     let Quantity { number, unit } = Quantity::parse(text)?;
     let share = if unit == "%" { number / 100.0 } else { number };
     Some(share.clamp(0.0, 1.0))
 }
 
-/// Red, green, blue and opacity of a colour, as it is named or written.
+/// Red, green, blue and opacity of a colour, by name or by number.
 pub(super) fn rgba(text: &str) -> Option<[f64; 4]> {
     let Color { red, green, blue, alpha } = Color::from_str(text.trim()).ok()?;
     Some([red, green, blue, alpha].map(|part| f64::from(part) / 255.0))
 }
 
-// ---- what is inherited ----
+// ---- inheritance ----
 
 /// The inherited properties of an element.
 #[derive(Clone, Debug)]
 pub(super) struct Style<'a> {
     fill: &'a str,
+    /// Whether the fill rule is even-odd.
     pub even_odd: bool,
-    /// From 0 to 1, like that of strokes.
+    /// Opacity of the fill, from 0 to 1.
     pub fill_opacity: f64,
     stroke: &'a str,
+    /// Opacity of the stroke, from 0 to 1.
     pub stroke_opacity: f64,
     stroke_width: &'a str,
     line_cap: &'a str,
@@ -170,9 +175,10 @@ pub(super) struct Style<'a> {
     miter_limit: &'a str,
     dashes: &'a str,
     dash_offset: &'a str,
+    /// Whether the element is visible.
     pub visible: bool,
     color: &'a str,
-    /// The rule of what is part of a clip path.
+    /// Whether the rule of the outline as a part of a clip path is even-odd.
     pub clip_even_odd: bool,
     variables: Variables<'a>,
 }
@@ -203,14 +209,14 @@ impl Default for Style<'_> {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Painted<'a> {
     No,
-    /// By a colour, written `#rrggbb` or as its word.
+    /// A colour, as `#rrggbb` or as its keyword.
     Colour(String),
-    /// By the gradient or pattern of this id, or else so.
+    /// The gradient or pattern of this id, or the fallback.
     Server(&'a str, Option<String>),
 }
 
 impl<'a> Style<'a> {
-    /// The style of an element in this one, and what the element declares with the values of its variables.
+    /// The style of an element inside one of this style, and its declarations with values in place of variables.
     pub fn of(&self, declared: Declared<'a>) -> (Self, Declared<'a>) {
         let mut style = self.clone();
         if !declared.custom.is_empty() {
@@ -241,16 +247,18 @@ impl<'a> Style<'a> {
         (style, declared)
     }
 
+    /// How the element is filled.
     pub fn fill(&self) -> Painted<'a> {
         if self.fill_opacity > 0.0 { self.painted(self.fill) } else { Painted::No }
     }
 
+    /// How the element is stroked.
     pub fn stroke(&self) -> Painted<'a> {
         let has_width = Quantity::parse(self.stroke_width).is_none_or(|width| width.number > 0.0);
         if self.stroke_opacity > 0.0 && has_width { self.painted(self.stroke) } else { Painted::No }
     }
 
-    /// How strokes are drawn; what cannot be read is as if it were not given.
+    /// How strokes are drawn. An invalid value counts as not given.
     pub fn pen(&self, viewport: Viewport) -> Pen {
         let length = |text: &str| viewport.length(text, Axis::Both);
         let words = self.dashes.split([',', ' ', '\t', '\n']).filter(|word| !word.is_empty());
@@ -290,7 +298,7 @@ impl<'a> Style<'a> {
     }
 }
 
-/// A paint, without the ICC colour that may stand behind it.
+/// A paint, without an ICC colour after it.
 fn paint(value: &str) -> Option<Paint<'_>> {
     let value = value.split(" icc-color(").next().unwrap_or(value).trim();
     if value.eq_ignore_ascii_case("currentcolor") {
@@ -299,7 +307,7 @@ fn paint(value: &str) -> Option<Paint<'_>> {
     Paint::from_str(value).ok()
 }
 
-/// The name of a colour: its word where it was given as one, else `#rrggbb`; `None` of one that cannot be seen.
+/// The name of a colour: its keyword if given as one, else `#rrggbb`; `None` of an invisible one.
 fn colour(text: &str, color: Color) -> Option<String> {
     let word = text.trim();
     if color.alpha == 0 {

@@ -1,30 +1,38 @@
-//! Transforms: the attribute and the property, the properties `translate`, `rotate` and `scale`, and what they turn
-//! about (SVG 2, chapter 8; CSS Transforms 2).
+//! Transforms: the attribute and the property `transform`, the properties `translate`, `rotate` and `scale`, and their
+//! origin (SVG 2, chapter 8; CSS Transforms 2).
 
 use super::style::{Declared, Property};
 use super::units::{Axis, Quantity, Viewport};
 use crate::geometry::{Rect, Vec2};
 use kurbo::{Affine, Size};
 
-/// A map that squeezes one direction by more than this leaves nothing to see.
+/// A map that compresses one direction by more than this leaves nothing visible.
 const SQUEEZE_MIN: f64 = 1e-12;
 
-/// The box that percentages and origins refer to; `None` where an element asks for its own and has no extent.
+/// The box that percentages and origins refer to; `None` where an element refers to its own box and has no extent.
 pub(super) type ReferenceBox = Option<Rect>;
 
-/// Whether the place or the size of an element's own box matters to its transform.
+/// Whether the transform of an element depends on the box of the element.
 pub(super) fn asks_for_own_box(declared: &Declared) -> bool {
     matches!(declared.given(Property::TransformBox), Some("fill-box" | "content-box" | "stroke-box" | "border-box"))
 }
 
-/// Whether a map leaves no extent.
+/// Whether a map reduces areas to nothing.
 pub(super) fn is_flat(map: Affine) -> bool {
     let [a, b, c, d, ..] = map.as_coeffs();
     let size = a * a + b * b + c * c + d * d;
     map.determinant().abs() <= SQUEEZE_MIN * size
 }
 
-/// The map of an element; what cannot be read of it is `Err`.
+/// The map of an element. `Err` has the text that cannot be read.
+///
+/// ```text
+///    map = T(origin) · translate · rotate · scale · transform · T(−origin)
+///          ╰────────────────────── applied last ◀── applied first ──────╯
+///
+///    A point of the element is moved to the origin, then goes through `transform` (its functions from right to left),
+///    `scale`, `rotate` and `translate`, and is moved back. The maps of the groups around it follow, from inside out.
+/// ```
 pub(super) fn of<'a>(declared: &Declared<'a>, viewport: Viewport, own: ReferenceBox) -> Result<Affine, &'a str> {
     let parts = [Property::Translate, Property::Rotate, Property::Scale, Property::Transform];
     if parts.into_iter().all(|part| declared.given(part).is_none()) {
@@ -32,7 +40,7 @@ pub(super) fn of<'a>(declared: &Declared<'a>, viewport: Viewport, own: Reference
     }
     let whole = Rect::from_origin_size((0.0, 0.0), viewport.size);
     let about = if asks_for_own_box(declared) { own.unwrap_or_default() } else { whole };
-    // Percentages of both coordinates are of the box.
+    // Percentages of both coordinates refer to the box.
     let units = Viewport { size: about.size(), ..viewport };
     let read = |part: Property, map: &dyn Fn(&'a str) -> Option<Affine>| match declared.given(part) {
         None | Some("none") => Ok(Affine::IDENTITY),
@@ -65,7 +73,7 @@ fn turn(degrees: f64) -> Affine {
     Affine::new([x, y, -y, x, 0.0, 0.0])
 }
 
-/// Quantities between blanks and at most one comma each; `None` where anything else stands there.
+/// Quantities separated by blanks and at most one comma each; `None` where the text holds anything else.
 fn quantities(text: &str) -> Option<Vec<Quantity<'_>>> {
     let mut found = Vec::new();
     let mut rest = text.trim();
@@ -78,7 +86,7 @@ fn quantities(text: &str) -> Option<Vec<Quantity<'_>>> {
     Some(found)
 }
 
-/// A number without unit, or a share in percent.
+/// A number without unit, or a percentage as a number.
 fn factor(quantity: Quantity) -> Option<f64> {
     match quantity.unit {
         "" => Some(quantity.number),
@@ -101,7 +109,7 @@ fn list(text: &str, units: Viewport) -> Option<Affine> {
     Some(map)
 }
 
-/// One transform function; of those of space the ones that stay in the plane.
+/// One transform function. Of the functions of space those are read that stay in the plane.
 fn function(name: &str, given: &[Quantity], units: Viewport) -> Option<Affine> {
     let (x, y) = (|q: Quantity| units.measure(q, Axis::X), |q: Quantity| units.measure(q, Axis::Y));
     let slope = |q: Quantity| Some(libm::tan(q.degrees()?.to_radians()));
@@ -135,7 +143,7 @@ fn translate(text: &str, units: Viewport) -> Option<Affine> {
 }
 
 fn rotate(text: &str) -> Option<Affine> {
-    // `z 45deg` turns about the axis that points out of the plane.
+    // `z 45deg` is a rotation about the axis normal to the plane.
     let text = text.trim();
     let angle = Quantity::parse(text.strip_prefix('z').or(text.strip_suffix('z')).unwrap_or(text))?;
     Some(turn(angle.degrees()?))
@@ -149,7 +157,7 @@ fn scale(text: &str) -> Option<Affine> {
     }
 }
 
-/// The place that a transform turns about, from the corner of its box.
+/// The origin of a transform, from the corner of its box.
 pub(super) fn origin(text: &str, size: Size, units: Viewport) -> Option<Vec2> {
     let words: Vec<&str> = text.split([' ', ',', '\t', '\n']).filter(|word| !word.is_empty()).collect();
     let share = |word: &str| match word {

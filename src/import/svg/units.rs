@@ -1,4 +1,5 @@
-//! Lengths, angles and view boxes (SVG 2, chapter 8; CSS Values 4), and the page: what a user unit is, and where up is.
+//! Lengths, angles and view boxes (SVG 2, chapter 8; CSS Values 4), and the page: the size of a user unit, and the
+//! direction of y.
 
 use crate::geometry::{Rect, Vec2};
 use kurbo::{Affine, Size};
@@ -6,12 +7,12 @@ use roxmltree::Node;
 use std::str::FromStr;
 use svgtypes::{Align, AspectRatio, ViewBox};
 
-/// CSS: an inch has 96 px.
+/// Pixels of CSS to an inch.
 pub(super) const CSS_DPI: f64 = 96.0;
-/// The size of a drawing that says none, for percentages (CSS 2.2, section 10.3.2).
+/// The size of a drawing that gives none, for percentages (CSS 2.2, section 10.3.2).
 const DEFAULT_SIZE: Size = Size::new(300.0, 150.0);
 
-/// What a percentage is a share of.
+/// The length that a percentage refers to.
 #[derive(Clone, Copy)]
 pub(super) enum Axis {
     X,
@@ -20,15 +21,17 @@ pub(super) enum Axis {
     Both,
 }
 
-/// A number with what stands behind it.
+/// A number with its unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Quantity<'a> {
+    /// The number.
     pub number: f64,
+    /// The text of the unit, empty where there is none.
     pub unit: &'a str,
 }
 
 impl<'a> Quantity<'a> {
-    /// The quantity that a text begins with, and the rest.
+    /// The first quantity of a text, and the rest.
     pub fn first(text: &'a str) -> Option<(Self, &'a str)> {
         let bytes = text.as_bytes();
         let digits = |from: usize| from + bytes[from..].iter().take_while(|b| b.is_ascii_digit()).count();
@@ -36,7 +39,7 @@ impl<'a> Quantity<'a> {
         let whole = digits(sign(0));
         let mut end = if bytes.get(whole) == Some(&b'.') { digits(whole + 1) } else { whole };
         if matches!(bytes.get(end), Some(b'e' | b'E')) {
-            // An exponent has digits; `em` has none.
+            // An exponent has digits; the unit `em` has none.
             let exponent = sign(end + 1);
             end = if digits(exponent) > exponent { digits(exponent) } else { end };
         }
@@ -47,13 +50,13 @@ impl<'a> Quantity<'a> {
         Some((Self { number, unit }, rest))
     }
 
-    /// A text that is one quantity.
+    /// A text that is exactly one quantity.
     pub fn parse(text: &'a str) -> Option<Self> {
         let (quantity, rest) = Self::first(text.trim())?;
         rest.is_empty().then_some(quantity)
     }
 
-    /// Inches of one unit that has a size of its own; px by `dpi`.
+    /// The size of an absolute unit in inches; px by `dpi`.
     fn inches(self, dpi: f64) -> Option<f64> {
         match self.unit.to_ascii_lowercase().as_str() {
             "" | "px" => Some(1.0 / dpi),
@@ -67,7 +70,7 @@ impl<'a> Quantity<'a> {
         }
     }
 
-    /// As an angle, in degrees; a number without unit is one.
+    /// An angle in degrees. A number without unit is in degrees.
     pub fn degrees(self) -> Option<f64> {
         match self.unit.to_ascii_lowercase().as_str() {
             "" | "deg" => Some(self.number),
@@ -79,22 +82,25 @@ impl<'a> Quantity<'a> {
     }
 }
 
-/// A viewport in user units, by which lengths are read.
+/// A viewport in user units. Lengths refer to it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Viewport {
+    /// Width and height.
     pub size: Size,
+    /// Pixels to an inch.
     pub dpi: f64,
 }
 
-/// Pixels of a letter's height, of which em, ex and their like are parts: nothing here knows fonts.
+/// Pixels of the font size: em, ex and similar units are parts of it. Fonts are not read.
 const LETTER: f64 = 16.0;
 
 impl Viewport {
-    /// A length in user units; `None` where the text is none. A letter is taken to be 16 px high (`em`).
+    /// A length in user units; `None` where the text is not a length. The font size (`em`) is taken to be 16 px.
     pub fn length(&self, text: &str, axis: Axis) -> Option<f64> {
         self.measure(Quantity::parse(text)?, axis)
     }
 
+    /// A quantity in user units.
     pub fn measure(&self, quantity: Quantity, axis: Axis) -> Option<f64> {
         let Size { width, height } = self.size;
         let share = match quantity.unit.to_ascii_lowercase().as_str() {
@@ -116,7 +122,7 @@ impl Viewport {
     }
 }
 
-/// The view box of an element, where it has one; `Some(None)` of one without extent, which shows nothing.
+/// The view box of an element, if it has one. `Some(None)`: a view box without extent, which shows nothing.
 pub(super) fn view_box(node: Node) -> Option<Option<ViewBox>> {
     node.attribute("viewBox").map(|text| ViewBox::from_str(text).ok())
 }
@@ -126,7 +132,14 @@ fn aspect_ratio(node: Node) -> AspectRatio {
     node.attribute("preserveAspectRatio").and_then(|text| AspectRatio::from_str(text).ok()).unwrap_or(default)
 }
 
-/// From the view box of `node` to a viewport of this size at the origin.
+/// The map from the view box of `node` to a viewport of this size at the origin.
+///
+/// ```text
+///    view box (min-x, min-y, w, h)        viewport (0, 0, W, H)        "xMidYMid meet": one scale for both axes,
+///    ┌───────────────┐                    ┌───────┬───────┬───┐        min(W/w, H/h), and equal margins.
+///    │      ◯        │      ──────▶       │       │   ◯   │   │        "slice" takes max(W/w, H/h): the rest reaches
+///    └───────────────┘                    └───────┴───────┴───┘        beyond the viewport, which cuts it.
+/// ```
 pub(super) fn fit(node: Node, view: ViewBox, size: Size) -> Affine {
     let AspectRatio { align, slice, .. } = aspect_ratio(node);
     let (sx, sy) = (size.width / view.w, size.height / view.h);
@@ -148,19 +161,22 @@ pub(super) fn fit(node: Node, view: ViewBox, size: Size) -> Affine {
     Affine::translate(rest) * Affine::scale(common) * origin
 }
 
-/// What the outermost element says of the whole.
+/// The facts that the outermost element gives about the file.
 pub(super) struct Page {
-    /// Turns y upward: the mirror image in the view box, of a page without one in its height, else about y = 0.
+    /// The map that turns y upward: a mirror image in the view box, else in the height, else about y = 0.
     pub upward: Affine,
+    /// The viewport of the outermost element.
     pub viewport: Viewport,
-    /// All that the page shows, in user units; `None` where the file does not say how large it is.
+    /// The area of the page, in user units; `None` where the file gives no size.
     pub frame: Option<Rect>,
-    /// What a user unit is, and where that was read.
+    /// The size of a user unit, and where it was read.
     pub unit: (String, String),
+    /// Notes about the page.
     pub notes: Vec<String>,
 }
 
 impl Page {
+    /// Reads the page.
     pub fn new(root: Node, dpi: f64) -> Self {
         let view = view_box(root).flatten();
         let absolute = |name| {
@@ -194,7 +210,7 @@ impl Page {
     }
 }
 
-/// What one user unit is, as a unit of length with a factor where that is not 1, and where it was read.
+/// The size of a user unit, as a unit of length with a factor if that is not 1, and where it was read.
 fn user_unit(
     root: Node,
     view: Option<ViewBox>,
@@ -207,7 +223,7 @@ fn user_unit(
     let up = view.zip(height).map(|(view, (length, inches))| (length, inches / length.number, view.h));
     let size = |(length, inches, extent): (Quantity, f64, f64)| length.number * inches / extent;
     let chosen = match (across, up) {
-        // Exporters round: a thousandth is no stretching.
+        // Exporters round: a difference of a thousandth is not a distortion.
         (Some(x), Some(y)) if (size(x) - size(y)).abs() > 1e-3 * size(x) => {
             let AspectRatio { align, slice, .. } = aspect_ratio(root);
             if align == Align::None {
@@ -233,7 +249,7 @@ fn user_unit(
         "px" => (factor / dpi, "in"),
         physical => (factor, physical),
     };
-    // A factor of 1 that a quotient of rounded sizes missed.
+    // Quotients of rounded sizes may miss a factor of 1.
     let text = if (factor - 1.0).abs() < 1e-9 { word.to_owned() } else { format!("{factor} {word}") };
     (text, from)
 }

@@ -1,4 +1,4 @@
-//! The walk through what is drawn, in the order of painting: what elements inherit, `use`, viewports, boxes.
+//! The traversal of the elements in the order of painting: inheritance, `use`, viewports, boxes.
 
 use super::super::ImportError;
 use super::super::selection::Choice;
@@ -12,36 +12,42 @@ use kurbo::{Affine, Size};
 use roxmltree::{Node, NodeId};
 use std::rc::Rc;
 
-/// Elements and curves that `use` may show over again in one file.
+/// Largest number of elements and curves that `use` may repeat in one file.
 const EXPANSION_MAX: usize = 1_000_000;
-/// How deep `use` may show `use`.
+/// Largest nesting of `use` in `use`.
 pub(super) const USE_DEPTH_MAX: usize = 64;
-/// How deep `use` is followed for the box around an element.
+/// Largest nesting of `use` when the box around an element is computed.
 const OWN_BOX_DEPTH_MAX: usize = 16;
 
-/// What an element inherits.
+/// The state that an element inherits.
 #[derive(Clone)]
 pub(super) struct Context<'a> {
+    /// Inherited properties.
     pub style: Style<'a>,
-    /// To the drawing.
+    /// From the element's coordinates to the drawing's.
     pub map: Affine,
+    /// The viewport around it.
     pub viewport: Viewport,
+    /// The cutter around it.
     pub cut_by: Option<CutterId>,
-    /// Of all groups around it, and its own.
+    /// The product of the opacities of all groups around it and of its own.
     pub opacity: f64,
+    /// The Inkscape layer around it.
     pub layer: Option<&'a str>,
-    /// The id of the nearest group around.
+    /// The id of the nearest group around it.
     pub id: Option<&'a str>,
     /// The id that a `use` gives to the element that it shows.
     alias: Option<&'a str>,
+    /// The `use` elements that show it.
     pub shown_by: Option<Rc<Shown>>,
-    /// What the names of the element and of all around it say.
+    /// What the selection says about the names of the element and of the groups around it.
     pub choice: Choice,
     /// Width and height that a `use` gives to a symbol.
     given_size: [Option<&'a str>; 2],
 }
 
 impl Context<'_> {
+    /// The state of the outermost element.
     pub fn of(viewport: Viewport, map: Affine) -> Self {
         Self {
             style: Style::default(),
@@ -59,15 +65,16 @@ impl Context<'_> {
     }
 }
 
-/// A `use` and those that show it.
+/// A `use`, with the `use` elements that show it.
 pub(super) struct Shown {
     target: NodeId,
+    /// The line of the `use`.
     pub line: usize,
     depth: usize,
     by: Option<Rc<Shown>>,
 }
 
-/// Elements that are drawn only through others, or not at all.
+/// Elements that are drawn only by reference, or not at all.
 const NOT_DRAWN: &[&str] = &[
     "defs",
     "symbol",
@@ -97,7 +104,7 @@ const NOT_DRAWN: &[&str] = &[
 const LEFT_OUT: &[(&str, &str)] = &[
     ("text", "text has no outlines here; convert it to paths"),
     ("image", "a raster image has no curves"),
-    ("foreignObject", "it is no SVG"),
+    ("foreignObject", "it is not SVG"),
     ("animate", "animations are not played"),
     ("animateColor", "animations are not played"),
     ("animateMotion", "animations are not played"),
@@ -106,7 +113,7 @@ const LEFT_OUT: &[(&str, &str)] = &[
 ];
 
 impl<'a> Reader<'a> {
-    /// Visits what is drawn, in the order of painting. Not by recursion: groups nest as deep as they like.
+    /// Visits elements in the order of painting. Without recursion, because groups may nest to any depth.
     pub(super) fn walk(&mut self, root: Node<'a, 'a>, context: Context<'a>) -> Result<(), ImportError> {
         self.stack.push((root, Rc::new(context)));
         while let Some((node, context)) = self.stack.pop() {
@@ -118,6 +125,7 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
+    /// Counts elements and curves that `use`, clips and strokes add, up to the limit.
     pub(super) fn expand(&mut self, by: usize) -> Result<(), ImportError> {
         self.expanded += by;
         if self.expanded <= EXPANSION_MAX {
@@ -158,7 +166,7 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    /// The style of an element in that of what holds it, and what it declares; what of that is not read is counted.
+    /// The style of an element inside one of another style, and its declarations. Unsupported values are counted.
     pub(super) fn style_of(
         &mut self,
         node: Node<'a, 'a>,
@@ -181,7 +189,7 @@ impl<'a> Reader<'a> {
         self.stack[begin..].reverse();
     }
 
-    /// The context inside an element; `None` where it is not shown.
+    /// The state inside an element; `None` where the element is not shown.
     fn enter(
         &mut self,
         node: Node<'a, 'a>,
@@ -234,6 +242,7 @@ impl<'a> Reader<'a> {
         Ok(Some(context))
     }
 
+    /// Refuses a map with numbers that are too large.
     pub(super) fn check_map(&self, node: Node, tag: &str, map: Affine) -> Result<(), ImportError> {
         match map.as_coeffs().into_iter().find(|c| c.is_nan() || c.abs() > HUGE) {
             Some(c) => Err(self.refused(node, tag, c)),
@@ -241,6 +250,7 @@ impl<'a> Reader<'a> {
         }
     }
 
+    /// The refusal of a number that is too large.
     pub(super) fn refused(&self, node: Node, tag: &str, number: f64) -> ImportError {
         let (line, column) = self.lines.place(node.range().start);
         let what = format!("{} has a coordinate of {number:e}", label(tag, node));
@@ -250,8 +260,8 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// The context inside an `svg` or a `symbol`: its view box fitted to its viewport, which hides what reaches beyond
-    /// it. The outermost is its own measure.
+    /// The state inside an `svg` or a `symbol`: its view box is fitted to its viewport, which cuts what reaches beyond
+    /// it. The outermost `svg` has its own size.
     fn viewport(
         &mut self,
         node: Node<'a, 'a>,
@@ -280,13 +290,13 @@ impl<'a> Reader<'a> {
         self.by_id(href(node).strip_prefix('#')?)
     }
 
-    /// By how much a `use` moves what it shows.
+    /// The translation that a `use` applies.
     pub(super) fn shift(&self, declared: &Declared<'a>, viewport: Viewport) -> Affine {
         let at = |property, axis| declared.given(property).and_then(|t| viewport.length(t, axis)).unwrap_or(0.0);
         Affine::translate((at(Property::X, Axis::X), at(Property::Y, Axis::Y)))
     }
 
-    /// Pushes what a `use` refers to.
+    /// Pushes the element that a `use` refers to.
     fn show(&mut self, node: Node<'a, 'a>, mut context: Context<'a>, declared: &Declared<'a>) {
         if !href(node).starts_with('#') {
             let why = if href(node).is_empty() { "it refers to nothing" } else { "it refers to another file" };
@@ -310,7 +320,8 @@ impl<'a> Reader<'a> {
         self.stack.push((target, Rc::new(context)));
     }
 
-    /// The box around the outlines of an element and of all in it, in its own coordinates; `None` where there are none.
+    /// The box around the outlines of an element and its children, in the element's coordinates; `None` where there are
+    /// none.
     pub(super) fn own_box(&mut self, node: Node<'a, 'a>, viewport: Viewport) -> Result<Option<Rect>, ImportError> {
         let mut found: Option<Rect> = None;
         let mut stack = vec![(node, Affine::IDENTITY, viewport, [None; 2], 0)];
@@ -347,12 +358,12 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// What a `use` refers to, as written.
+/// The reference of a `use`, as written.
 fn href<'a>(node: Node<'a, '_>) -> &'a str {
     node.attribute("href").or_else(|| node.attribute((XLINK, "href"))).unwrap_or("").trim()
 }
 
-/// The width and height that a `use` gives to what it shows.
+/// The width and height that a `use` gives to the element that it shows.
 fn given_size<'a>(target: Node, declared: &Declared<'a>) -> [Option<&'a str>; 2] {
     match local_name(target) {
         Some("svg" | "symbol") => [declared.given(Property::Width), declared.given(Property::Height)],
@@ -360,8 +371,8 @@ fn given_size<'a>(target: Node, declared: &Declared<'a>) -> [Option<&'a str>; 2]
     }
 }
 
-/// The viewport of an `svg` or a `symbol` inside another: its box, the map from its own coordinates to those around it,
-/// and what lengths are parts of there; `None` of one without extent.
+/// The viewport of an `svg` or a `symbol` inside another: its box, the map from its coordinates to those around it, and
+/// the viewport for lengths inside; `None` where it has no extent.
 fn nested_viewport<'a>(
     node: Node,
     declared: &Declared<'a>,
@@ -392,7 +403,7 @@ fn nested_viewport<'a>(
     })
 }
 
-/// Whether a child of a switch is for a reader that has no extensions and reads English.
+/// Whether a child of a `switch` suits a reader without extensions that reads English.
 fn is_for_us(node: Node) -> bool {
     let english = |list: &str| list.split(',').any(|language| language.trim().to_ascii_lowercase().starts_with("en"));
     node.attribute("requiredExtensions").is_none() && node.attribute("systemLanguage").is_none_or(english)

@@ -1,4 +1,4 @@
-//! Bytes → text → tree, within bounds that no file can break.
+//! Bytes → text → XML tree, within limits.
 
 use super::ImportError;
 use roxmltree::{Document, ParsingOptions};
@@ -6,15 +6,16 @@ use std::borrow::Cow;
 use std::collections::BTreeSet;
 use std::io::Read;
 
-/// Bytes that a compressed file may unfold to.
+/// Largest size of a file after decompression, in bytes.
 const UNPACKED_MAX: u64 = 128 << 20;
-/// Bytes that the entities of a DOCTYPE may unfold to, together.
+/// Largest size of all entities of a DOCTYPE after expansion, in bytes.
 const ENTITIES_MAX: usize = 64 << 20;
-/// Attributes of one element, and namespace prefixes of one file: the parser compares each with each.
+/// Largest number of attributes of one element, and of namespace prefixes of one file. The parser compares each with
+/// each.
 const ATTRIBUTES_MAX: usize = 4096;
 const PREFIXES_MAX: usize = 256;
 
-/// The characters of a file, with a word on how they were found where they are not plain UTF-8.
+/// The text of a file, with a note on its encoding where that is not plain UTF-8.
 pub(super) fn text(bytes: &[u8]) -> Result<(Cow<'_, str>, Option<String>), ImportError> {
     if bytes.starts_with(b"\x1f\x8b") {
         let text = decoded(unpacked(bytes)?.into())?;
@@ -57,15 +58,16 @@ fn decoded(bytes: Cow<'_, [u8]>) -> Result<(Cow<'_, str>, Option<String>), Impor
     };
     let head = String::from_utf8_lossy(&bytes[..bytes.len().min(200)]).to_ascii_lowercase();
     if ["iso-8859-1", "iso-8859-15", "windows-1252", "us-ascii"].iter().any(|name| head.contains(name)) {
-        // The first 256 characters of Unicode are those of ISO 8859-1; only names and text can hold any beyond ASCII.
+        // The first 256 characters of Unicode are those of ISO 8859-1. Only names and text can have characters beyond
+        // ASCII.
         let text: String = bytes.iter().map(|&b| char::from(b)).collect();
         return Ok((text.into(), Some("The file was read as ISO 8859-1, as it says.".into())));
     }
     let line = 1 + bytes[..broken].iter().filter(|&&b| b == b'\n').count();
-    Err(ImportError::at(line, "a byte that is no UTF-8", "save the file as UTF-8"))
+    Err(ImportError::at(line, "a byte that is not UTF-8", "save the file as UTF-8"))
 }
 
-/// The text behind `<?xml … ?>`, which may name an encoding that the text no longer has.
+/// The text after `<?xml … ?>`. The declaration may name an encoding that the text no longer has.
 fn without_declaration(text: &str) -> &str {
     match text.find("?>").filter(|_| text.starts_with("<?xml")) {
         Some(end) => &text[end + 2..],
@@ -73,28 +75,28 @@ fn without_declaration(text: &str) -> &str {
     }
 }
 
-/// The tree. Entities of the DOCTYPE are unfolded, within bounds; nothing outside the file is read.
+/// The tree. Entities of the DOCTYPE are expanded within limits. Nothing outside the file is read.
 pub(super) fn parse(text: &str) -> Result<Document<'_>, ImportError> {
     check_cost(text)?;
     let options = ParsingOptions { allow_dtd: true, ..ParsingOptions::default() };
     Document::parse_with_options(text, options).map_err(|error| {
-        // The sentence of the parser ends in its own place.
+        // The message of the parser ends with a place of its own.
         let what = error.to_string();
         let what = what.split(" at ").next().unwrap_or_default();
-        // Of a file that breaks off the parser tells no place: it is the end.
+        // The parser gives no place for a file that ends too early. The place is the end.
         let cut_off = matches!(error, roxmltree::Error::UnexpectedEndOfStream | roxmltree::Error::UnclosedRootNode);
         let (line, column) = match cut_off {
             true => Lines::new(text).place(text.len()),
             false => (error.pos().row as usize, error.pos().col as usize),
         };
-        let help = "the file is cut off, or no SVG: export it again";
+        let help = "the file is cut off, or is not SVG: export it again";
         ImportError { column: Some(column), ..ImportError::at(line, format!("XML: {what}"), help) }
     })
 }
 
-/// Refuses what the parser takes time or memory for that grows with the square of the file, or faster.
+/// Refuses input on which the parser takes time or memory that grows with the square of the file, or faster.
 fn check_cost(text: &str) -> Result<(), ImportError> {
-    let refuse = |what: &str| Err(ImportError::new(what, "this looks like no drawing: export it again"));
+    let refuse = |what: &str| Err(ImportError::new(what, "this does not look like a drawing: export it again"));
     if entity_bytes(text) > ENTITIES_MAX {
         return refuse("the entities of the DOCTYPE unfold to more than 64 MiB");
     }
@@ -110,8 +112,8 @@ fn check_cost(text: &str) -> Result<(), ImportError> {
     Ok(())
 }
 
-/// A bound of what the entities unfold to: every reference to the longest of them. The parser allows 255 references
-/// within one.
+/// An upper bound of the size of the expanded entities: each reference expands to the longest of them. The parser
+/// allows 255 references within one.
 fn entity_bytes(text: &str) -> usize {
     let Some(first) = text.find("<!ENTITY") else { return 0 };
     let last = text.rfind("<!ENTITY").unwrap_or(first);
@@ -123,15 +125,16 @@ fn entity_bytes(text: &str) -> usize {
     references.saturating_mul(nested).saturating_mul(longest + declared.matches("<!ENTITY").count())
 }
 
-/// Where lines begin, to tell places.
+/// The beginnings of lines, by which places are found.
 pub(super) struct Lines(Vec<usize>);
 
 impl Lines {
+    /// The lines of a text.
     pub fn new(text: &str) -> Self {
         Self(std::iter::once(0).chain(text.match_indices('\n').map(|(i, _)| i + 1)).collect())
     }
 
-    /// Line and byte in the line, from 1, of a byte of the text.
+    /// Line and byte in the line, both from 1, of a byte of the text.
     pub fn place(&self, byte: usize) -> (usize, usize) {
         let line = self.0.partition_point(|&start| start <= byte);
         (line, byte - self.0[line - 1] + 1)

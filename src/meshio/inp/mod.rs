@@ -6,6 +6,7 @@ pub(super) mod write;
 use super::losses::Losses;
 use super::{Facts, Reading, begins, one_file};
 
+/// The facts of the input deck.
 pub(super) const FACTS: Facts = Facts {
     name: "inp",
     suffixes: &["inp"],

@@ -1,10 +1,10 @@
-//! Abaqus' and CalculiX's input deck: `*NODE`, `*ELEMENT` of triangles (CPS3, CPE3, CAX3, S3, STRI3 and their likes of
-//! 6 nodes) and of lines (T2D2, B21, … and of 3 nodes), the element set as region or boundary; `*SURFACE` of element
-//! faces as boundary. Other keywords are passed over.
+//! The input deck of Abaqus and CalculiX. Read are `*NODE`, `*ELEMENT` of triangles (CPS3, CPE3, CAX3, S3, STRI3 and
+//! similar ones, also of 6 nodes) and of lines (T2D2, B21 and similar ones, also of 3 nodes), and `*SURFACE` of element
+//! faces. The element set names the region or boundary; a surface is a boundary. Other keywords are skipped.
 //!
-//! The set of an element is the one that its `*ELEMENT` line names. Where that is none, or an entity of the program
-//! that wrote the deck (Gmsh's `Surface2`, `Line1`; FreeCAD's `Efaces`, `Eedges`), it is the smallest of the `*ELSET`
-//! lists that hold the element: there Gmsh writes its physical groups.
+//! The set of an element is the one on its `*ELEMENT` line. Where there is none, or it is an entity of the program that
+//! wrote the deck (Gmsh's `Surface2`, `Line1`; FreeCAD's `Efaces`, `Eedges`), it is the smallest of the `*ELSET` lists
+//! that hold the element. Gmsh writes its physical groups there.
 
 use crate::geometry::written::number;
 use crate::meshio::draft::{BOUNDARY, Draft, REGION};
@@ -12,6 +12,7 @@ use crate::meshio::names::NameComments;
 use crate::meshio::{MeshFile, Result, broken_at, lines, text, unsupported};
 use std::collections::BTreeMap;
 
+/// Reads a deck.
 pub fn read(bytes: &[u8]) -> Result<MeshFile> {
     let mut deck = Deck::default();
     for (n, line) in lines(bytes) {
@@ -33,33 +34,33 @@ enum Section {
     Triangles(usize, Option<String>),
     Lines(usize, Option<String>),
     Surface(String),
-    /// The last of the lists; whether its lines are ranges.
+    /// The last of the lists, and whether its lines are ranges.
     Set(bool),
     #[default]
     Other,
 }
 
-/// An element as it stands in the deck.
+/// An element of the deck.
 struct Element {
     tag: u64,
     nodes: Vec<usize>,
     set: Option<String>,
 }
 
-/// What bounds the triangles, in the order of the deck.
+/// The edges of boundaries, in the order of the deck.
 enum Boundary {
     Line(Element),
-    /// A side of a triangle, of the surface of this name.
+    /// A side of a triangle, in the surface of this name.
     Face {
         ends: [usize; 2],
         name: String,
     },
 }
 
-/// What a list of elements holds.
+/// A member of a list of elements.
 enum Member {
     Element(u64),
-    /// From, to, and the step between.
+    /// From, to, and the step.
     Range([u64; 3]),
     Set(String),
 }
@@ -78,9 +79,9 @@ struct Deck {
     triangles: Vec<Element>,
     boundaries: Vec<Boundary>,
     lists: Vec<List>,
-    /// Place among the triangles of an element's number.
+    /// The index of a triangle by its element number.
     places: BTreeMap<u64, usize>,
-    /// Numbers of an element that goes on in the next line.
+    /// The numbers of an element that continues on the next line.
     begun: Vec<u64>,
 }
 
@@ -123,14 +124,16 @@ impl Deck {
     fn data(&mut self, n: usize, line: &[u8]) -> Result<()> {
         let words: Vec<&[u8]> = line.split(|&b| b == b',').map(<[u8]>::trim_ascii).filter(|w| !w.is_empty()).collect();
         let whole = |word: &&[u8]| -> Result<u64> {
-            text(word).parse().map_err(|_| broken_at(n, format!("'{}' is no number of a node or element", text(word))))
+            text(word)
+                .parse()
+                .map_err(|_| broken_at(n, format!("'{}' is not a number of a node or element", text(word))))
         };
         match &self.section {
             Section::Nodes => {
                 let tag = words.first().map(whole).transpose()?.unwrap_or(0);
                 let value = |k: usize| words.get(k).map_or(Some(0.0), |word| number(word));
                 let (Some(x), Some(y), Some(z)) = (value(1), value(2), value(3)) else {
-                    return Err(broken_at(n, "a coordinate is no number"));
+                    return Err(broken_at(n, "a coordinate is not a number"));
                 };
                 if self.nodes.insert(tag, self.draft.nodes.len()).is_some() {
                     return Err(broken_at(n, format!("node {tag} is given twice")));
@@ -173,7 +176,7 @@ impl Deck {
         let triangle = tag.and_then(|tag: u64| self.places.get(&tag)).map(|&t| &self.triangles[t]);
         let side = face.strip_prefix(b"S").or(face.strip_prefix(b"s")).and_then(number);
         let (Some(triangle), Some(side @ (1.0 | 2.0 | 3.0))) = (triangle, side) else {
-            let what = format!("line {n}: '{}' is no face of a triangle", text(line));
+            let what = format!("line {n}: '{}' is not a face of a triangle", text(line));
             return Err(unsupported(what, "surfaces can be read as faces S1 to S3 of elements before them"));
         };
         let side = side as usize - 1;
@@ -196,7 +199,7 @@ impl Deck {
                 self.triangles.push(Element { tag, nodes, set: set.clone() });
             }
             Section::Lines(size, set) if nodes.len() == *size => {
-                // The second of three nodes is the one within.
+                // Of three nodes, the second lies within.
                 if nodes.len() == 3 {
                     nodes.swap(1, 2);
                 }
@@ -231,7 +234,7 @@ impl Deck {
         Ok(file)
     }
 
-    /// Which lists hold each element.
+    /// The lists that hold each element.
     fn sets(&mut self) -> Result<Sets> {
         let lines = self.boundaries.iter().filter_map(|boundary| match boundary {
             Boundary::Line(element) => Some(element),
@@ -245,7 +248,7 @@ impl Deck {
                 by_set.entry(set.to_ascii_lowercase()).or_default().push(element.tag);
             }
         }
-        // Ranges and sets of sets can say much in few bytes.
+        // Ranges and sets of sets can describe many elements in few bytes, so their total is limited.
         let mut left = 64 * by_tag.len() + 1000;
         let mut sizes = Vec::new();
         for (k, list) in self.lists.iter().enumerate() {
@@ -283,17 +286,17 @@ impl Deck {
     }
 }
 
-/// The lists of elements, by the elements that they hold.
+/// The lists of elements, by their elements.
 struct Sets {
     names: Vec<String>,
     sizes: Vec<usize>,
     by_tag: BTreeMap<u64, Vec<usize>>,
-    /// How many elements had a choice.
+    /// Number of elements in several lists.
     in_several: usize,
 }
 
 impl Sets {
-    /// The set of an element with its own, if it has one.
+    /// The set of an element whose line names `own`, if there is one.
     fn of(&mut self, tag: u64, own: Option<String>) -> Option<String> {
         if own.as_ref().is_some_and(|own| !is_entity(own)) {
             return own;
@@ -305,7 +308,7 @@ impl Sets {
     }
 }
 
-/// Whether a set stands for an entity of the program that wrote the deck, which nobody named.
+/// Whether a set is an entity of the program that wrote the deck, which no user named.
 fn is_entity(set: &str) -> bool {
     let numbered = ["Line", "Curve", "Surface", "Volume"];
     let is_number = |rest: &str| !rest.is_empty() && rest.bytes().all(|b| b.is_ascii_digit());
@@ -313,7 +316,7 @@ fn is_entity(set: &str) -> bool {
         || ["Efaces", "Eedges", "Evolumes"].contains(&set)
 }
 
-/// What elements of a type are, `None` where they are neither triangles nor lines.
+/// The cells of an element type; `None` where they are neither triangles nor lines.
 fn element(kind: &str, set: Option<String>) -> Option<Section> {
     let starts = |words: &[&str]| words.iter().any(|word| kind.starts_with(word));
     if starts(&["CPS3", "CPE3", "CAX3", "S3", "STRI3", "M3D3", "SFM3D3", "DC2D3", "DS3", "R3D3"]) {

@@ -1,13 +1,13 @@
 //! Abaqus' and CalculiX's input deck: the mesh and its sets, to be included in a deck (`*INCLUDE`).
 //!
-//! A mesh in the plane is of CPS3 or CPS6, plane stress; for plane strain or a body of revolution change the word to
-//! CPE or CAX. A mesh that lies in space is of shells S3 or S6. Each region is an `ELSET`; each boundary an `NSET` (mid
-//! nodes included) and, in the plane, a `SURFACE` of element faces S1 to S3 (S1 between corners 1 and 2): of an
-//! interface the faces on the left of its curve. Set names are ASCII letters, digits, `_` and `-`, begin with a letter,
-//! have at most 80 characters and are told apart whatever their case; a comment keeps what a name was.
+//! A mesh in the plane has elements CPS3 or CPS6, plane stress. For plane strain or a body of revolution change the
+//! type to CPE or CAX. A mesh in space has shells S3 or S6. Each region is an `ELSET`. Each boundary is an `NSET` (with
+//! mid nodes) and, in the plane, a `SURFACE` of element faces S1 to S3 (S1 is between corners 1 and 2); for an
+//! interface, of the faces on the left of its curve. Set names are ASCII letters, digits, `_` and `-`, begin with a
+//! letter, have at most 80 characters and differ not only in case. A comment keeps the original name.
 //!
-//! CalculiX reads the first 20 characters of a number, so a number has at most 20: as many digits as f64 holds, but for
-//! numbers below 1e-3 or of large exponents, which keep 13 or more.
+//! CalculiX reads the first 20 characters of a number, so a number has at most 20. They hold all digits of `f64`,
+//! except for numbers below 1e-3 and with large exponents, which keep 13 or more.
 //!
 //! meshio 5.3 knows no CPS6; CalculiX and Abaqus do.
 //!
@@ -23,8 +23,10 @@ use std::io::{self, Write};
 pub const LONGEST_NAME: usize = 80;
 const LONGEST_NUMBER: usize = 20;
 
+/// Writes the deck.
+///
 /// # Errors
-/// Those of `out`; `InvalidInput` where the mesh's lists do not fit together.
+/// Those of `out`; `InvalidInput` where the lists of the mesh do not fit together.
 pub fn write(mesh: &Mesh, out: &mut impl Write) -> io::Result<()> {
     let groups = Groups::of(mesh)?;
     let regions = legal_names(&groups.regions, LONGEST_NAME, identifier);

@@ -6,6 +6,7 @@ pub(super) mod write;
 use super::losses::Losses;
 use super::{Facts, Reading, begins, one_file};
 
+/// The facts of MSH 4.1.
 pub(super) const FACTS: Facts = Facts {
     name: "msh",
     suffixes: &["msh"],
@@ -22,6 +23,7 @@ pub(super) const FACTS: Facts = Facts {
     }),
 };
 
+/// The facts of MSH 2.2.
 pub(super) const FACTS_OF_22: Facts =
     Facts { name: "msh22", write: |mesh, _, _| one_file(|out| write::write_22(mesh, out)), ..FACTS };
 

@@ -1,11 +1,12 @@
-//! Gmsh's MSH 2.2 and 4.1, text or binary of either byte order. Physical groups are the names; a cell in several groups
-//! has the first. Nodes come in the order of their numbers.
+//! Gmsh's MSH 2.2 and 4.1, as text or binary of either byte order. The names are those of physical groups; a cell in
+//! several groups has the first. Nodes are sorted by their numbers.
 
 use crate::geometry::written::number;
 use crate::meshio::draft::{BOUNDARY, Draft, REGION};
 use crate::meshio::{MeshFile, Result, broken, text, unsupported};
 use std::collections::BTreeMap;
 
+/// Reads a file.
 pub fn read(bytes: &[u8]) -> Result<MeshFile> {
     let mut reader =
         Reader { words: Words { bytes, at: 0, binary: false, big_endian: false }, version: 0, ..Reader::default() };
@@ -30,7 +31,7 @@ pub fn read(bytes: &[u8]) -> Result<MeshFile> {
     reader.finish()
 }
 
-/// Numbers, as text between blanks or as bytes.
+/// Reads numbers, as text between blanks or as bytes.
 #[derive(Default)]
 struct Words<'a> {
     bytes: &'a [u8],
@@ -61,7 +62,7 @@ impl<'a> Words<'a> {
         None
     }
 
-    /// Goes behind the end of a section.
+    /// Moves past the end of a section.
     fn end(&mut self, section: &str) -> Result<()> {
         let mark = format!("$End{section}");
         let found = self.rest().windows(mark.len()).position(|w| w == mark.as_bytes());
@@ -91,7 +92,7 @@ impl<'a> Words<'a> {
     fn whole(&mut self) -> Result<i64> {
         let word = self.word()?;
         let value = std::str::from_utf8(word).ok().and_then(|t| t.parse().ok());
-        value.ok_or_else(|| broken(format!("'{}' is no whole number", text(word))))
+        value.ok_or_else(|| broken(format!("'{}' is not a whole number", text(word))))
     }
 
     fn int(&mut self) -> Result<i64> {
@@ -101,10 +102,10 @@ impl<'a> Words<'a> {
     /// A `size_t`.
     fn size(&mut self) -> Result<u64> {
         let value = if self.binary { i64::from_le_bytes(self.packed()?) } else { self.whole()? };
-        u64::try_from(value).map_err(|_| broken(format!("{value} is no count")))
+        u64::try_from(value).map_err(|_| broken(format!("{value} is not a count")))
     }
 
-    /// A count of things that take at least a byte each.
+    /// A count of things that take at least one byte each.
     fn count(&mut self, value: u64) -> Result<usize> {
         let most = self.rest().len();
         usize::try_from(value)
@@ -118,7 +119,7 @@ impl<'a> Words<'a> {
             return Ok(f64::from_le_bytes(self.packed()?));
         }
         let word = self.word()?;
-        number(word).ok_or_else(|| broken(format!("'{}' is no number", text(word))))
+        number(word).ok_or_else(|| broken(format!("'{}' is not a number", text(word))))
     }
 }
 
@@ -128,10 +129,10 @@ struct Reader<'a> {
     version: u8,
     /// Names of physical groups by dimension and number.
     names: BTreeMap<(i64, i64), String>,
-    /// First physical group of curves and surfaces, by dimension and number.
+    /// The first physical group of each curve and surface, by dimension and number.
     groups: BTreeMap<(i64, i64), i64>,
     nodes: BTreeMap<u64, [f64; 3]>,
-    /// Type, dimension and group, nodes by their numbers.
+    /// Type, dimension and group, node numbers.
     cells: Vec<(bool, i64, Vec<u64>)>,
     vertices: usize,
 }
@@ -158,7 +159,7 @@ impl Reader<'_> {
 
     fn names(&mut self) -> Result<()> {
         let count = text(self.words.line());
-        let count: usize = count.parse().map_err(|_| broken(format!("'{count}' is no count of names")))?;
+        let count: usize = count.parse().map_err(|_| broken(format!("'{count}' is not a count of names")))?;
         for _ in 0..count {
             let line = text(self.words.line());
             let mut parts = line.splitn(3, ' ');
@@ -166,7 +167,7 @@ impl Reader<'_> {
             let (dimension, tag) = (next(), next());
             let name = parts.next().map(str::trim).and_then(|name| name.strip_prefix('"')?.strip_suffix('"'));
             let (Some(dimension), Some(tag), Some(name)) = (dimension, tag, name) else {
-                return Err(broken(format!("'{line}' is no physical name")));
+                return Err(broken(format!("'{line}' is not a physical name")));
             };
             self.names.insert((dimension, tag), name.to_owned());
         }
@@ -230,14 +231,14 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// Nodes of 2.2. Parametric ones also say on which entity they lie, and where on it: a parameter on a curve, two on
-    /// a surface.
+    /// The nodes of 2.2. Parametric nodes also hold the entity on which they lie, and their parameters there: one on a
+    /// curve, two on a surface.
     fn nodes_2(&mut self, parametric: bool) -> Result<()> {
         let count = self.count_2()?;
         for _ in 0..count {
             let tag = self.words.int()?;
             let place = self.place()?;
-            self.node(u64::try_from(tag).map_err(|_| broken(format!("{tag} is no number of a node")))?, place)?;
+            self.node(u64::try_from(tag).map_err(|_| broken(format!("{tag} is not a number of a node")))?, place)?;
             if parametric {
                 let (dimension, _) = (self.words.int()?, self.words.int()?);
                 for _ in 0..if matches!(dimension, 1 | 2) { dimension } else { 0 } {
@@ -248,10 +249,10 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// A count of 2.2, which stands as text on a line of its own even in binary.
+    /// A count of 2.2, which is text on a line of its own, also in binary.
     fn count_2(&mut self) -> Result<usize> {
         let line = text(self.words.line());
-        let count = line.parse().map_err(|_| broken(format!("'{line}' is no count")))?;
+        let count = line.parse().map_err(|_| broken(format!("'{line}' is not a count")))?;
         self.words.count(count)
     }
 
@@ -277,7 +278,7 @@ impl Reader<'_> {
         let count = self.count_2()?;
         let mut read = 0;
         while read < count {
-            // In binary elements of one kind have one header; as text each has its own, its number first.
+            // In binary, elements of one type share a header. In text, each has its own, with its number first.
             let first = if self.words.binary { None } else { Some(self.words.int()?) };
             let kind = self.words.int()?;
             let follow = if first.is_none() { self.words.int()? } else { 1 };
@@ -296,7 +297,7 @@ impl Reader<'_> {
                     let tag = self.words.int()?;
                     group = if i == 0 { tag } else { group };
                 }
-                let node = |n: i64| u64::try_from(n).map_err(|_| broken(format!("{n} is no number of a node")));
+                let node = |n: i64| u64::try_from(n).map_err(|_| broken(format!("{n} is not a number of a node")));
                 let nodes = (0..nodes_of(kind)?).map(|_| node(self.words.int()?)).collect::<Result<_>>()?;
                 self.cell(kind, group, nodes);
             }
@@ -325,7 +326,7 @@ impl Reader<'_> {
             (_, Some(name)) => name.clone(),
             (number, None) => number.to_string(),
         };
-        // Regions in the order of their numbers, whatever the order of cells.
+        // Regions are sorted by number, whatever the order of cells.
         for (&(_, group), _) in self.names.range((2, i64::MIN)..(3, i64::MIN)) {
             draft.region(&name(2, group, REGION));
         }
@@ -342,7 +343,7 @@ impl Reader<'_> {
     }
 }
 
-/// How many nodes an element of this type has.
+/// The number of nodes of an element type.
 fn nodes_of(kind: i64) -> Result<usize> {
     let name = match kind {
         1 => return Ok(2),

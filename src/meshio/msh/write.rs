@@ -1,16 +1,16 @@
 //! Gmsh's MSH: 4.1 in binary, and 2.2 as text for readers that know no other (MFEM, `gmshToFoam`, …).
 //!
-//! Every region is a physical group of dimension 2, every boundary one of dimension 1, every name of nodes one of
-//! dimension 0, and no cell is outside a group: once there is a group, Gmsh's readers take grouped cells only. Tags
-//! count regions from 1, then boundaries, then names of nodes, so that no two groups share a tag even where a reader
-//! mixes the dimensions up. In 4.1 there is one surface a region, one curve a boundary and one point a named node.
-//! Order 2 is held (types 8 and 9, in our own order of nodes).
+//! Each region is a physical group of dimension 2, each boundary one of dimension 1, each name of nodes one of
+//! dimension 0. Each cell is in a group, because Gmsh's readers take only grouped cells once there is a group. Tags
+//! count regions from 1, then boundaries, then names of nodes, so no two groups share a tag even where a reader ignores
+//! dimensions. In 4.1 there is one surface for each region, one curve for each boundary and one point for each named
+//! node. Order 2 is held (types 8 and 9, in our own order of nodes).
 //!
-//! MFEM 4.10 and Gmsh read both. deal.II 9.4 and FreeFEM 4.11 read 2.2 only (deal.II reads no binary, FreeFEM ends
-//! without a word), and deal.II refuses a group of edges inside the domain. scikit-fem 12 loses such groups from 2.2,
-//! and every boundary of order 2.
+//! MFEM 4.10 and Gmsh read both. deal.II 9.4 and FreeFEM 4.11 read 2.2 only: deal.II reads no binary, FreeFEM exits
+//! without a message. deal.II refuses a group of edges inside the domain. scikit-fem 12 loses such groups from 2.2, and
+//! all boundaries of order 2.
 //!
-//! Not held: the unit, the plane of the mesh (its coordinates in space are), links to curves, balls. In names `"`
+//! Not held: the unit, the plane of the mesh (its coordinates in space are held), links to curves, balls. `"` in names
 //! becomes `'`.
 
 use crate::ids::{Id, NameId, RegionId, VertexId};
@@ -116,7 +116,7 @@ pub fn section(name: &str, bytes: &Bytes, out: &mut impl Write) -> io::Result<()
     writeln!(out, "\n$End{name}")
 }
 
-/// Words as MSH 4.1 has them in binary: `int` of 4, `size_t` and `double` of 8 bytes.
+/// Binary words of MSH 4.1: `int` has 4 bytes, `size_t` and `double` have 8.
 #[derive(Default)]
 pub struct Bytes(pub Vec<u8>);
 
@@ -135,11 +135,11 @@ impl Bytes {
     }
 }
 
-/// What MSH 4.1 hangs nodes and cells on: surface `r + 1` for region `r`, curve `b + 1` for boundary `b`, point `k + 1`
-/// for the named node `k`.
+/// The entities of MSH 4.1 to which nodes and cells belong: surface `r + 1` for region `r`, curve `b + 1` for boundary
+/// `b`, point `k + 1` for the named node `k`.
 struct Entities {
-    /// Nodes that each curve and each surface owns: a named node is its point's; another belongs to the first curve
-    /// that it lies on, else to the first surface, else, of no cell, to surface 1.
+    /// The nodes of each curve and each surface. A named node belongs to its point. Any other belongs to the first
+    /// curve on which it lies, else to the first surface, else (a node of no cell) to surface 1.
     on_curves: Vec<Vec<usize>>,
     on_surfaces: Vec<Vec<usize>>,
     /// Curves that bound each surface.

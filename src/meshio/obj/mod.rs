@@ -6,6 +6,7 @@ mod write;
 use super::losses::Losses;
 use super::{Choice, Facts, Reading, WriteOptions, begins, file};
 
+/// The facts of OBJ.
 pub(super) const FACTS: Facts = Facts {
     name: "obj",
     suffixes: &["obj", "mtl"],

@@ -1,11 +1,12 @@
-//! Wavefront OBJ: faces and lines; the group (`g`), else the object (`o`), is the name. Normals, textures and curves
-//! are passed over.
+//! Wavefront OBJ: faces and lines. The name is the group (`g`), else the object (`o`). Normals, textures and curves are
+//! skipped.
 
 use crate::geometry::written::number;
 use crate::meshio::draft::{BOUNDARY, Draft, REGION};
 use crate::meshio::names::NameComments;
 use crate::meshio::{MeshFile, Result, broken_at, lines, text, unsupported};
 
+/// Reads a file.
 pub fn read(bytes: &[u8]) -> Result<MeshFile> {
     let mut draft = Draft::default();
     let mut names = NameComments::default();
@@ -21,7 +22,7 @@ pub fn read(bytes: &[u8]) -> Result<MeshFile> {
                 let mut place = [0.0; 3];
                 for x in &mut place {
                     let word = words.next().and_then(number);
-                    *x = word.ok_or_else(|| broken_at(n, "a vertex has not three coordinates"))?;
+                    *x = word.ok_or_else(|| broken_at(n, "a vertex does not have three coordinates"))?;
                 }
                 draft.nodes.push(place);
             }
@@ -47,7 +48,7 @@ pub fn read(bytes: &[u8]) -> Result<MeshFile> {
     draft.finish()
 }
 
-/// The vertex of `7`, `7/1/2` or, counted back from the last one so far, `-1`.
+/// The vertex `7`, `7/1/2` or `-1`, which counts back from the last one so far.
 fn vertex(word: &[u8], so_far: usize, line: usize) -> Result<usize> {
     let head = text(word.split(|&b| b == b'/').next().unwrap_or_default());
     let found = match head.parse::<i64>() {
@@ -55,5 +56,5 @@ fn vertex(word: &[u8], so_far: usize, line: usize) -> Result<usize> {
         Ok(v @ ..=-1) => usize::try_from(v.unsigned_abs()).ok().and_then(|back| so_far.checked_sub(back)),
         _ => None,
     };
-    found.ok_or_else(|| broken_at(line, format!("'{head}' is no vertex")))
+    found.ok_or_else(|| broken_at(line, format!("'{head}' is not a vertex")))
 }

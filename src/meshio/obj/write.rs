@@ -1,11 +1,11 @@
-//! Wavefront OBJ: a group `g` of faces for every region and one of lines `l` for every boundary. Group names are words
-//! without blanks; a comment keeps what a name was. Coordinates have all their digits. Cells of order 2 are written as
-//! straight ones between all their nodes: four a triangle, two an edge.
+//! Wavefront OBJ: a group `g` of faces for each region and one of lines `l` for each boundary. Group names are words
+//! without blanks; a comment keeps the original name. Coordinates have all their digits. Cells of order 2 are written
+//! as straight ones between all their nodes: four for a triangle, two for an edge.
 //!
-//! A `.mtl` file beside it has a material for every region, under the name of its group: the colour of the drawing, in
-//! sRGB, and its opacity, else a colour of its own. Lines have one more.
+//! A `.mtl` file beside it has a material for each region, under the name of its group: the colour of the drawing, in
+//! sRGB, and its opacity, else a colour of a palette. Lines have a material, too.
 //!
-//! VTK's reader sets groups on the wrong cells beside lines: they can be left out (`lines` false).
+//! VTK's reader assigns groups to wrong cells in files with lines, so lines can be left out (`lines` false).
 //!
 //! Not held: order 2, the unit (a comment says it), links to curves, balls.
 
@@ -16,11 +16,11 @@ use crate::meshio::groups::{Groups, Kind, straight_edges, straight_triangles};
 use crate::meshio::names::{legal_names, name_comment, word};
 use std::io::{self, Write};
 
-/// The material of lines, where no region has the name.
+/// The material of lines, unless a region has this name.
 const INK: &str = "boundary";
 
-/// Writes the mesh, its boundaries as lines where asked for; `stem` is the name of the file of its materials without
-/// suffix, `None` where there is none.
+/// Writes the mesh, with its boundaries as lines if `lines`. `stem` is the name of the file of materials without
+/// suffix; `None` where there is none.
 ///
 /// # Errors
 /// Those of `out`; `InvalidInput` where the mesh's lists do not fit together.
@@ -62,7 +62,7 @@ pub fn write(mesh: &Mesh, lines: bool, stem: Option<&str>, out: &mut impl Write)
     Ok(())
 }
 
-/// Writes the materials that [`write`] speaks of.
+/// Writes the materials to which [`write`] refers.
 ///
 /// # Errors
 /// As [`write`].

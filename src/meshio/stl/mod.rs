@@ -6,6 +6,7 @@ mod write;
 use super::losses::Losses;
 use super::{Facts, Reading, begins, one_file};
 
+/// The facts of STL.
 pub(super) const FACTS: Facts = Facts {
     name: "stl",
     suffixes: &["stl"],

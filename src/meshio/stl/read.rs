@@ -1,18 +1,23 @@
-//! STL, text or binary. Equal coordinates are one node; each solid of a text is a region.
+//! STL, text or binary. Equal coordinates are one node. Each solid of a text is a region.
 
 use crate::geometry::written::number;
 use crate::meshio::draft::{Draft, REGION};
 use crate::meshio::{MeshFile, Result, broken, broken_at, lines, text};
 use std::collections::BTreeMap;
 
+/// Reads a file.
 pub fn read(bytes: &[u8]) -> Result<MeshFile> {
     let mut soup = Soup::default();
-    // The text form begins with `solid`; so do the headers of some binary files, which are as long as their count says.
+    // Text begins with `solid`. So do the headers of some binary files, whose length fits their count.
     let count = bytes.get(80..84).map(|c| u32::from_le_bytes([c[0], c[1], c[2], c[3]]));
     match count {
         Some(count) if bytes.len() as u64 == 84 + 50 * u64::from(count) => soup.binary(&bytes[84..]),
         _ if bytes.trim_ascii_start().starts_with(b"solid") => soup.text(bytes)?,
-        _ => return Err(broken("this is no STL: neither 'solid' nor as long as its count of triangles says")),
+        _ => {
+            return Err(broken(
+                "this is not STL: it neither begins with 'solid' nor is as long as its count of triangles says",
+            ));
+        }
     }
     soup.draft.finish()
 }
@@ -25,7 +30,7 @@ struct Soup {
 
 impl Soup {
     fn node(&mut self, place: [f64; 3]) -> usize {
-        // −0 is 0.
+        // Adding 0 turns −0 into 0.
         *self.seen.entry(place.map(|x| (x + 0.0).to_bits())).or_insert_with(|| {
             self.draft.nodes.push(place);
             self.draft.nodes.len() - 1
@@ -59,7 +64,7 @@ impl Soup {
                 Some(b"vertex") => {
                     let place: Vec<f64> = words.map_while(number).collect();
                     let &[x, y, z] = place.as_slice() else {
-                        return Err(broken_at(n, "a vertex has not three coordinates"));
+                        return Err(broken_at(n, "a vertex does not have three coordinates"));
                     };
                     corners.push(self.node([x, y, z]));
                 }

@@ -1,5 +1,5 @@
-//! STL as text, which unlike the binary form has names and all digits of a coordinate: one `solid` a region. Cells of
-//! order 2 are written as four straight ones.
+//! STL as text: one `solid` for each region. Unlike the binary form, text has names and all digits of a coordinate.
+//! Cells of order 2 are written as four straight ones.
 //!
 //! Not held: boundaries, shared nodes (readers join equal coordinates), order 2, the unit, links to curves, balls.
 
@@ -8,8 +8,10 @@ use crate::mesh::Mesh;
 use crate::meshio::groups::{Groups, straight_triangles};
 use std::io::{self, Write};
 
+/// Writes the triangles.
+///
 /// # Errors
-/// Those of `out`; `InvalidInput` where the mesh's lists do not fit together.
+/// Those of `out`; `InvalidInput` where the lists of the mesh do not fit together.
 pub fn write(mesh: &Mesh, out: &mut impl Write) -> io::Result<()> {
     let groups = Groups::of(mesh)?;
     let places: Vec<[f64; 3]> = mesh.places().collect();
@@ -33,7 +35,7 @@ pub fn write(mesh: &Mesh, out: &mut impl Write) -> io::Result<()> {
     Ok(())
 }
 
-/// The unit normal by the right hand, or zero, which tells readers to ask the corners.
+/// The unit normal by the right-hand rule, or zero. Zero tells readers to compute it from the corners.
 fn normal([a, b, c]: [[f64; 3]; 3]) -> [f64; 3] {
     let [u, v]: [[f64; 3]; 2] = [b, c].map(|p| std::array::from_fn(|k| p[k] - a[k]));
     let n = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];

@@ -6,6 +6,7 @@ pub(super) mod write;
 use super::losses::Losses;
 use super::{Facts, Reading, begins, one_file};
 
+/// The facts of SU2.
 pub(super) const FACTS: Facts = Facts {
     name: "su2",
     suffixes: &["su2"],

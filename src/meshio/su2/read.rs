@@ -1,10 +1,11 @@
-//! SU2's native mesh, in two dimensions, of one zone. Markers are the boundaries; the triangles are one region.
+//! SU2's native mesh, in two dimensions, of one zone. Markers are the boundaries. The triangles are one region.
 
 use crate::geometry::written::number;
 use crate::meshio::draft::{Draft, REGION};
 use crate::meshio::names::NameComments;
 use crate::meshio::{MeshFile, Result, broken_at, lines, text, unsupported};
 
+/// Reads a file.
 pub fn read(bytes: &[u8]) -> Result<MeshFile> {
     let mut file = File::default();
     for (n, line) in lines(bytes) {
@@ -16,7 +17,7 @@ pub fn read(bytes: &[u8]) -> Result<MeshFile> {
         if let Some(equals) = line.iter().position(|&b| b == b'=') {
             file.assignment(n, &text(line[..equals].trim_ascii()), &text(line[equals + 1..].trim_ascii()))?;
         } else if !line.is_empty() && file.left > 0 {
-            // Otherwise SEND_RECV and whatever else stands between the sections.
+            // SEND_RECV and other keys between the sections are skipped.
             file.left -= 1;
             file.row(n, line)?;
         }
@@ -36,15 +37,15 @@ enum Section {
     Marker,
 }
 
-/// The file as far as it is read.
+/// The file so far.
 #[derive(Default)]
 struct File {
     draft: Draft,
     names: NameComments,
-    /// The tag of the marker that is read.
+    /// The tag of the current marker.
     marker: String,
     section: Section,
-    /// Rows of the section that are still to come.
+    /// Number of rows of the section that are still to come.
     left: usize,
 }
 
@@ -79,13 +80,13 @@ impl File {
         let nodes = |k: usize| -> Result<Vec<usize>> {
             let whole = |v: &f64| (*v >= 0.0 && v.fract() == 0.0 && *v < 4e9).then_some(*v as usize);
             let nodes: Option<Vec<usize>> = words.get(1..=k).and_then(|words| words.iter().map(whole).collect());
-            nodes.ok_or_else(|| broken_at(n, format!("an element has not {k} nodes")))
+            nodes.ok_or_else(|| broken_at(n, format!("an element does not have {k} nodes")))
         };
         let kind = words.first().copied();
         match self.section {
             Section::Points => match words.as_slice() {
                 [x, y, ..] => self.draft.nodes.push([*x, *y, 0.0]),
-                _ => return Err(broken_at(n, "a point has not two coordinates")),
+                _ => return Err(broken_at(n, "a point does not have two coordinates")),
             },
             Section::Elements if kind == Some(5.0) => self.draft.triangle(nodes(3)?, REGION),
             Section::Marker if kind == Some(3.0) => self.draft.line(nodes(2)?, &self.names.boundary(&self.marker)),

@@ -1,12 +1,12 @@
 //! SU2's native mesh, in two dimensions.
 //!
-//! Every edge that has a triangle on one side only is in exactly one marker: its boundary's, or `boundary` where the
-//! mesh has no name for it. Edges between two kept regions are in none: to SU2 a marker is a border of the flow. Order
-//! 2 is refused: SU2 has straight cells only.
+//! Each edge with a triangle on one side only is in exactly one marker: that of its boundary, or `boundary` where the
+//! mesh has no name for it. Edges between two kept regions are in none, because a marker of SU2 is a border of the
+//! flow. Order 2 is refused: SU2 has straight cells only.
 //!
-//! A configuration must be able to name every marker: SU2 splits its values at blanks and `( ) { } : ,`, its lines at
-//! `=` and `;`, begins a comment at `%`, goes on after `\` and reads `NONE` as no marker. These become `_` in tags
-//! (`NONE` becomes `NONE_`), tags stay apart whatever their case, and a comment keeps what a name was.
+//! A configuration must be able to name each marker. SU2 splits values at blanks and `( ) { } : ,`, and lines at `=`
+//! and `;`; it begins a comment at `%`, continues a line after `\` and reads `NONE` as no marker. These characters
+//! become `_` in tags (`NONE` becomes `NONE_`). Tags differ not only in case. A comment keeps the original name.
 //!
 //! Not held: regions (SU2 has one zone), the names of interfaces, the unit, the plane in space, links to curves, balls.
 
@@ -17,11 +17,13 @@ use crate::meshio::names::{legal_names, name_comment, word};
 use std::collections::BTreeMap;
 use std::io::{self, Write};
 
-/// Name of edges at the rim that the mesh has no name for.
+/// Name of edges on the border for which the mesh has no name.
 const UNNAMED: &str = "boundary";
 
+/// Writes the mesh.
+///
 /// # Errors
-/// Those of `out`; `InvalidInput` where the mesh's lists do not fit together.
+/// Those of `out`; `InvalidInput` where the lists of the mesh do not fit together.
 pub fn write(mesh: &Mesh, out: &mut impl Write) -> io::Result<()> {
     let groups = Groups::of(mesh)?;
     writeln!(out, "NDIME= 2\nNELEM= {}", mesh.triangles.len())?;
@@ -55,7 +57,7 @@ pub fn tag(name: &str) -> String {
     if tag.eq_ignore_ascii_case("NONE") { format!("{tag}_") } else { tag }
 }
 
-/// The edges of the rim by boundary, each as its triangle has it: the domain on the left.
+/// The edges on the border by boundary, each in the direction of its triangle: the domain is on the left.
 fn markers<'m>(mesh: &Mesh, groups: &Groups<'m>) -> Vec<(&'m str, Vec<[VertexId; 2]>)> {
     let mut rim: BTreeMap<[VertexId; 2], [VertexId; 2]> = BTreeMap::new();
     for (edge, triangles) in sides(mesh) {

@@ -6,6 +6,7 @@ mod write;
 use super::losses::Losses;
 use super::{Facts, Reading, file};
 
+/// The facts of Triangle's files.
 pub(super) const FACTS: Facts = Facts {
     name: "triangle",
     suffixes: &["node", "ele", "poly"],
@@ -23,7 +24,7 @@ pub(super) const FACTS: Facts = Facts {
     reading: Some(Reading {
         suffix: "ele",
         beside: &["node", "poly"],
-        // Rows of numbers, as many files have.
+        // The files hold rows of numbers, as many others do.
         begins: |_| false,
         read: |bytes, beside| {
             let [nodes, segments] = [0, 1].map(|i| beside.get(i).and_then(Option::as_deref));

@@ -7,6 +7,7 @@ use crate::meshio::names::NameComments;
 use crate::meshio::{MeshFile, Result, broken, broken_at, lines, text, unsupported};
 use std::collections::BTreeMap;
 
+/// Reads the files.
 pub fn read(elements: &[u8], nodes: Option<&[u8]>, segments: Option<&[u8]>) -> Result<MeshFile> {
     let nodes =
         nodes.ok_or_else(|| unsupported("there is no .node file beside the .ele file", "put both in one folder"))?;
@@ -38,7 +39,7 @@ pub fn read(elements: &[u8], nodes: Option<&[u8]>, segments: Option<&[u8]>) -> R
         let tags = row.numbers.get(1..=corners).ok_or_else(|| broken_at(row.line, "a triangle lacks nodes"))?;
         let mut nodes: Vec<usize> = tags.iter().map(|&tag| find(&row, tag)).collect::<Result<_>>()?;
         if corners == 6 {
-            // Nodes opposite the corners 0, 1 and 2 are between 1 and 2, 2 and 0, 0 and 1.
+            // The nodes opposite corners 0, 1 and 2 are between 1 and 2, 2 and 0, 0 and 1.
             nodes[3..].rotate_right(1);
         }
         let region = row.numbers.get(corners + 1).map_or(REGION.into(), |r| names.region(&r.to_string()));
@@ -73,7 +74,7 @@ impl Row {
     }
 }
 
-/// Lines that hold something, comments cut off.
+/// Lines that are not empty, without comments.
 struct Rows<'a> {
     lines: Box<dyn Iterator<Item = (usize, &'a [u8])> + 'a>,
     bytes: usize,
@@ -89,14 +90,16 @@ impl<'a> Rows<'a> {
     fn next(&mut self, what: &str) -> Result<Row> {
         let (line, words) = self.lines.next().ok_or_else(|| broken(format!("the file ends before {what}")))?;
         let words = words.split(u8::is_ascii_whitespace).filter(|w| !w.is_empty());
-        let value = |word| number(word).ok_or_else(|| broken_at(line, format!("'{}' is no number", text(word))));
+        let value = |word| number(word).ok_or_else(|| broken_at(line, format!("'{}' is not a number", text(word))));
         Ok(Row { line, numbers: words.map(value).collect::<Result<_>>()? })
     }
 
-    /// A count in a header; a row takes at least two bytes.
+    /// A count in a header. A row takes at least two bytes.
     fn count(&self, header: &Row, at: usize) -> Result<usize> {
         let value =
             header.numbers.get(at).copied().filter(|v| v.fract() == 0.0 && *v >= 0.0 && *v <= self.bytes as f64);
-        value.map(|v| v as usize).ok_or_else(|| broken_at(header.line, "the count is none that the file has room for"))
+        value
+            .map(|v| v as usize)
+            .ok_or_else(|| broken_at(header.line, "the count is larger than the file has room for"))
     }
 }

@@ -1,8 +1,8 @@
 //! Triangle's files (Shewchuk): `.node` vertices, `.ele` triangles, `.poly` segments, numbered from 1.
 //!
-//! A region's number is the attribute of its triangles; a boundary's number is the marker of its segments and of its
-//! nodes (the first boundary of a node counts), 0 elsewhere. A comment keeps the name of every number. Order 2 is held:
-//! 6 nodes a triangle, the last three opposite the corners in turn.
+//! The number of a region is the attribute of its triangles. The number of a boundary is the marker of its segments and
+//! nodes (the first boundary of a node counts); other nodes have 0. A comment keeps the name of each number. Order 2 is
+//! held: 6 nodes for a triangle, the last three opposite the corners in turn.
 //!
 //! Not held: the plane in space, the unit, the mid nodes of segments (those of triangles are), links to curves, balls.
 

@@ -6,6 +6,7 @@ mod write;
 use super::losses::Losses;
 use super::{Choice, Facts, Reading, WriteOptions, begins, one_file};
 
+/// The facts of binary VTK.
 pub(super) const FACTS: Facts = Facts {
     name: "vtk",
     suffixes: &["vtk"],
@@ -25,6 +26,7 @@ pub(super) const FACTS: Facts = Facts {
     }),
 };
 
+/// The facts of VTK as text.
 pub(super) const FACTS_OF_TEXT: Facts = Facts {
     name: "vtk-text",
     choices: &[Choice::Lines],
@@ -38,7 +40,7 @@ pub(super) const FACTS_OF_TEXT: Facts = Facts {
     ..FACTS
 };
 
-/// Whether text has the boundaries as lines.
+/// Whether the text has the boundaries as lines.
 fn has_lines(options: &WriteOptions) -> bool {
     options.lines.unwrap_or(false)
 }

@@ -1,12 +1,13 @@
 //! Legacy VTK (`.vtk`), text or binary: unstructured grids of versions up to 4 (`CELLS` with sizes) and of 5.1
-//! (`OFFSETS`, `CONNECTIVITY`; meshio's types of numbers too). Groups are read as in VTU: the first of [`FOREIGN`]
-//! among the integer cell arrays, our own names from field arrays.
+//! (`OFFSETS`, `CONNECTIVITY`, also with meshio's number types). Groups are read as in VTU: from the first of
+//! [`FOREIGN`] among the integer cell arrays, with our own names from field arrays.
 
 use crate::geometry::written::number;
 use crate::meshio::draft::{BOUNDARY, Draft, FOREIGN, REGION};
 use crate::meshio::{MeshFile, Result, broken, text, unsupported};
 use std::collections::BTreeMap;
 
+/// Reads a file.
 pub fn read(bytes: &[u8]) -> Result<MeshFile> {
     let mut words = Words { bytes, at: 0, binary: false };
     if !words.line().starts_with(b"# vtk DataFile") {
@@ -43,7 +44,7 @@ impl<'a> Words<'a> {
         rest[..end].trim_ascii()
     }
 
-    /// The words of the next line that has some.
+    /// The words of the next line that is not empty.
     fn keyword(&mut self) -> Option<Vec<String>> {
         while !self.rest().is_empty() {
             let line = self.line();
@@ -65,7 +66,7 @@ impl<'a> Words<'a> {
             _ => return Err(unsupported(format!("an array is of '{kind}'"), "save it with plain numbers")),
         };
         if !self.binary {
-            // A number and the blank before it take two bytes.
+            // A number takes at least two bytes with its blank.
             if count > self.rest().len() {
                 return Err(short());
             }
@@ -106,12 +107,12 @@ enum Of {
 #[derive(Default)]
 struct Grid {
     points: Vec<f64>,
-    /// Cells as lists of nodes, one after the other, with the place where each ends.
+    /// The nodes of all cells, one cell after the other, and the end of each cell.
     corners: Vec<f64>,
     ends: Vec<f64>,
     types: Vec<f64>,
     data: BTreeMap<String, Vec<f64>>,
-    /// Of the data set as a whole: names, components, values.
+    /// Fields of the whole data set: names, components, values.
     fields: Vec<(String, usize, Vec<f64>)>,
     of: Of,
     cells: usize,
@@ -137,7 +138,7 @@ impl Grid {
                 for _ in 0..count(2)? {
                     let line = words.keyword().ok_or_else(|| broken("the file ends within a field"))?;
                     let [name, components, tuples, kind] = line.as_slice() else {
-                        return Err(broken(format!("'{}' is no field array", line.join(" "))));
+                        return Err(broken(format!("'{}' is not a field array", line.join(" "))));
                     };
                     let sizes = [components, tuples].map(|word| word.parse::<usize>().unwrap_or(usize::MAX));
                     let values = words.numbers(sizes[0].saturating_mul(sizes[1]), &kind.to_ascii_lowercase())?;
@@ -169,7 +170,7 @@ impl Grid {
         if let Some([word, kind]) = next.as_deref()
             && word.eq_ignore_ascii_case("OFFSETS")
         {
-            // Of 5.1: as many offsets as cells and one.
+            // Version 5.1 has one offset more than cells.
             let offsets = words.numbers(count, &kind.to_ascii_lowercase())?;
             self.ends = offsets.get(1..).unwrap_or_default().to_vec();
             let line = words.keyword().unwrap_or_default();
@@ -219,7 +220,8 @@ impl Grid {
             let corners = (end >= 0.0).then(|| self.corners.get(from..end as usize)).flatten();
             let corners = corners.ok_or_else(|| broken(format!("cell {cell} has no corners")))?;
             from = end as usize;
-            let nodes = nodes(corners).ok_or_else(|| broken(format!("cell {cell} has a corner that is no point")))?;
+            let nodes =
+                nodes(corners).ok_or_else(|| broken(format!("cell {cell} has a corner that is not a point")))?;
             match (kind as i64, nodes.len()) {
                 (5, 3) | (22, 6) => draft.triangle(nodes, &name(&region_names, regions, cell, REGION)),
                 (3, 2) | (21, 3) => draft.line(nodes, &name(&boundary_names, boundaries, cell, BOUNDARY)),
@@ -234,7 +236,8 @@ impl Grid {
         for (name, components, values) in &self.fields {
             let Some(name) = name.strip_prefix("boundary:").filter(|_| matches!(components, 2 | 3)) else { continue };
             for edge in values.chunks_exact(*components) {
-                let edge = nodes(edge).ok_or_else(|| broken(format!("an edge of '{name}' ends at no point")))?;
+                let edge = nodes(edge)
+                    .ok_or_else(|| broken(format!("an edge of '{name}' ends at a number that is not a point")))?;
                 draft.line(edge, name);
             }
         }
@@ -242,12 +245,12 @@ impl Grid {
     }
 }
 
-/// Numbers of points, where they can be some.
+/// Numbers of points, if all are valid.
 fn nodes(numbers: &[f64]) -> Option<Vec<usize>> {
     numbers.iter().map(|v| (*v >= 0.0 && v.fract() == 0.0).then_some(*v as usize)).collect()
 }
 
-/// A name with its `%20` undone.
+/// A name with `%20` and similar escapes decoded.
 fn decoded(name: &str) -> String {
     let mut bytes = Vec::with_capacity(name.len());
     let mut rest = name.as_bytes();

@@ -1,17 +1,17 @@
 //! Legacy VTK (`.vtk`, version 3.0): triangles, then boundary lines; binary (big-endian) or as text.
 //!
-//! Cell arrays `region` and `boundary` number the groups from 1, 0 of cells of the other kind. Field arrays
-//! `region:NAME` and `boundary:NAME` hold the number that bears the name; blanks, `%` and control characters of names
-//! are written `%20` as VTK itself does. Order 2 is held (types 22 and 21).
+//! Cell arrays `region` and `boundary` number the groups from 1; cells of the other kind have 0. Field arrays
+//! `region:NAME` and `boundary:NAME` hold the number of the name. Blanks, `%` and control characters of names are
+//! written as `%20`, as VTK does. Order 2 is held (types 22 and 21).
 //!
-//! The fields stand behind `CELL_TYPES`. Before `POINTS`, Gmsh (4.15) and FreeFEM (4.11) refuse the file and meshio
-//! (5.3) loses the names; as data of cells they would need a value a cell.
+//! The fields follow `CELL_TYPES`. Before `POINTS`, Gmsh (4.15) and FreeFEM (4.11) refuse the file and meshio (5.3)
+//! loses the names. As data of cells they would need a value for each cell.
 //!
-//! MFEM (4.10), deal.II (9.4) and Gmsh read text only. MFEM moreover refuses lines beside triangles, so that text has
-//! none unless asked for: there a field array `boundary:NAME` is a list of edges, each of the two nodes at its ends (of
-//! order 2, and of the one within). MFEM takes its attributes from the array `material`, which has to be the first;
-//! deal.II takes material ids, and with lines boundary ids, from `MaterialID`. Both hold the number of the region or,
-//! above those, of the boundary. Gmsh and FreeFEM read the cells, and no array of them.
+//! MFEM (4.10), deal.II (9.4) and Gmsh read text only. MFEM also refuses lines beside triangles, so text has none
+//! unless asked for. Then a field array `boundary:NAME` is a list of edges, each of the nodes at its ends (for order 2,
+//! also of the one within). MFEM takes its attributes from the array `material`, which must be the first. deal.II takes
+//! material ids, and with lines boundary ids, from `MaterialID`. Both arrays hold the number of the region; numbers of
+//! boundaries follow those of regions. Gmsh and FreeFEM read the cells, but no array of them.
 //!
 //! Not held: the unit, links to curves, balls: use VTU for those. deal.II has no cells of order 2.
 
@@ -20,7 +20,7 @@ use crate::mesh::Mesh;
 use crate::meshio::groups::{Groups, Kind};
 use std::io::{self, Write};
 
-/// Writes it in binary.
+/// Writes binary VTK.
 ///
 /// # Errors
 /// Those of `out`; `InvalidInput` where the mesh's lists do not fit together or are longer than 2³¹−1.
@@ -31,7 +31,7 @@ pub fn write(mesh: &Mesh, out: &mut impl Write) -> io::Result<()> {
     file.cell_data("FIELD FieldData 2", &[Array::Region, Array::Boundary])
 }
 
-/// Writes it as text, boundaries as lines where asked for, else as field arrays.
+/// Writes text, with boundaries as lines if `lines`, else as field arrays.
 ///
 /// # Errors
 /// As [`write`].
@@ -48,14 +48,14 @@ pub fn write_text(mesh: &Mesh, lines: bool, out: &mut impl Write) -> io::Result<
 enum Array {
     Region,
     Boundary,
-    /// Under this name the region or, numbered on behind the regions, the boundary.
+    /// An array of this name with the number of the region or, after those, of the boundary.
     Group(&'static str),
 }
 
 struct File<'a, W> {
     mesh: &'a Mesh,
     groups: Groups<'a>,
-    /// How many edges are cells: all or none.
+    /// Number of edges that are cells: all or none.
     lines: usize,
     text: bool,
     out: &'a mut W,
@@ -100,7 +100,7 @@ impl<W: Write> File<'_, W> {
         self.end()
     }
 
-    /// The names with their numbers, or with their edges where these are no cells, as fields of the whole data set.
+    /// Writes the names as fields of the data set, with their numbers, or with their edges where edges are not cells.
     fn names(&mut self) -> io::Result<()> {
         let (regions, boundaries) = (self.groups.regions.clone(), self.groups.boundaries.clone());
         if regions.len() + boundaries.len() > 0 {
@@ -128,7 +128,7 @@ impl<W: Write> File<'_, W> {
         self.column(std::iter::once(number))
     }
 
-    /// Arrays of the cells: of one field where it has a header, else each by itself.
+    /// Writes arrays of the cells: in one field if it has a header, else each by itself.
     fn cell_data(&mut self, field: &str, arrays: &[Array]) -> io::Result<()> {
         let (mesh, lines) = (self.mesh, self.lines);
         let cells = mesh.triangles.len() + lines;
@@ -154,7 +154,7 @@ impl<W: Write> File<'_, W> {
         Ok(())
     }
 
-    /// Numbers that belong together: as text a line of them.
+    /// Writes numbers that belong together; in text, on one line.
     fn words(&mut self, mut words: impl Iterator<Item = u32>) -> io::Result<()> {
         if !self.text {
             return words.try_for_each(|word| self.out.write_all(&word.to_be_bytes()));
@@ -163,13 +163,13 @@ impl<W: Write> File<'_, W> {
         writeln!(self.out, "{}", words.join(" "))
     }
 
-    /// An array of single numbers.
+    /// Writes an array of single numbers.
     fn column(&mut self, mut words: impl Iterator<Item = u32>) -> io::Result<()> {
         words.try_for_each(|word| self.words(std::iter::once(word)))?;
         self.end()
     }
 
-    /// The end of an array: binary is followed by a line end.
+    /// Ends an array. Binary data are followed by a line end.
     fn end(&mut self) -> io::Result<()> {
         if self.text { Ok(()) } else { writeln!(self.out) }
     }
@@ -179,7 +179,7 @@ fn nodes_of_edge(mesh: &Mesh, edge: usize) -> impl Iterator<Item = VertexId> {
     mesh.edges[edge].nodes.into_iter().chain(mesh.edge_mids.get(edge).copied())
 }
 
-/// A name as a word: what would end it is written by its bytes.
+/// A name as a word. Characters that would end it are written by their bytes.
 fn encoded(name: &str) -> String {
     let mut text = String::with_capacity(name.len());
     for c in name.chars() {

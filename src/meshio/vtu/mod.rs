@@ -9,6 +9,7 @@ mod xml;
 use super::losses::Losses;
 use super::{Choice, Facts, Reading, WriteOptions, one_file};
 
+/// The facts of VTU.
 pub(super) const FACTS: Facts = Facts {
     name: "vtu",
     suffixes: &["vtu"],

@@ -1,10 +1,10 @@
-//! VTK XML unstructured grids (`.vtu`) → Mesh, whoever wrote them: ASCII, inline or appended (base64 or raw), with
-//! zlib or without.
+//! VTK XML unstructured grids (`.vtu`) of any program → Mesh: ASCII, inline or appended data (base64 or raw), with zlib
+//! or without.
 //!
-//! Read are triangles (types 5 and 22) and lines (types 3 and 21) in a plane; vertices (types 1 and 2) are left out and
-//! counted, any other cell is an error. What our writer adds is read back bit for bit. In a foreign file, regions and
-//! boundaries are the values of the first of the cell arrays [`FOREIGN`] that it has, named by their numbers. A mesh in
-//! a plane in space is read into the coordinates of that plane, which our writer tells.
+//! Read are triangles (types 5 and 22) and lines (types 3 and 21) in a plane. Point cells (types 1 and 2) are left out
+//! and counted; any other cell is an error. Files of our writer are read back bit for bit. In other files, regions and
+//! boundaries are the values of the first array of [`FOREIGN`] among the cell arrays, and their numbers are their
+//! names. A mesh in a plane in space is read into the coordinates of that plane, which our writer stores.
 
 use super::unpack::Unpacker;
 use super::xml::{File, Kind, Section};
@@ -34,7 +34,7 @@ struct Builder {
 
 /// Numbers of regions or boundaries, and their names.
 struct Groups {
-    /// Where no array tells the groups apart, all cells are in one of this name.
+    /// The name of the only group, where no array distinguishes groups.
     only: &'static str,
     names: BTreeMap<i32, String>,
 }
@@ -61,7 +61,7 @@ impl Groups {
     }
 }
 
-/// What the cell arrays say of every cell.
+/// The cell arrays.
 struct CellData {
     region: Option<Vec<i32>>,
     boundary: Option<Vec<i32>>,
@@ -78,7 +78,7 @@ impl CellData {
             |name| matches!(file.array(Section::CellData, name)?.kind, Kind::Int(_) | Kind::UInt(_)).then_some(name);
         let groups = FOREIGN.into_iter().find_map(counts);
         let region = groups.map(|name| Self::integers(unpacker, name)).transpose()?.flatten();
-        // Others number lines and triangles in one array.
+        // Other programs number lines and triangles in one array.
         let boundary = Self::integers(unpacker, "boundary")?.or_else(|| region.clone());
         let curve = Self::integers(unpacker, "curve")?;
         let t = match unpacker.file.array(Section::CellData, "t") {
@@ -86,7 +86,7 @@ impl CellData {
             _ => None,
         };
         if let Some(t) = t.iter().flatten().find(|t| !(0.0..=1.0).contains(*t)) {
-            return Err(broken(format!("array 't' holds {t}, which is no parameter of a curve (0 to 1)")));
+            return Err(broken(format!("array 't' holds {t}, which is not a parameter of a curve (0 to 1)")));
         }
         let colour = unpacker.file.array(Section::CellData, "colour").filter(|array| array.kind == Kind::UInt(1));
         let most = unpacker.file.cells.saturating_mul(4);
@@ -179,7 +179,7 @@ impl Builder {
             let nodes = connectivity.get(from..to).ok_or_else(|| broken(format!("cell {cell} has no corners")))?;
             from = to;
             if let Some(node) = nodes.iter().find(|&&n| n as usize >= self.file.mesh.nodes.len()) {
-                return Err(broken(format!("cell {cell} has a corner {node} that is no point")));
+                return Err(broken(format!("cell {cell} has a corner {node} that is not a point")));
             }
             match (kind, nodes) {
                 (5, &[a, b, c]) | (22, &[a, b, c, ..]) if nodes.len() == if kind == 5 { 3 } else { 6 } => {
@@ -205,7 +205,7 @@ impl Builder {
         Ok(())
     }
 
-    /// Takes in a triangle, of order 2 with the nodes within its sides.
+    /// Adds a triangle, for order 2 with the nodes within its sides.
     fn triangle(&mut self, corners: [i32; 3], mids: &[i32], region: RegionId, colour: Option<Colour>) {
         let (mesh, id) = (&mut self.file.mesh, |n: i32| VertexId(n as u32));
         mesh.triangles.push(corners.map(id));
@@ -218,7 +218,7 @@ impl Builder {
         }
     }
 
-    /// Takes in a line, of order 2 with the node within.
+    /// Adds a line, for order 2 with the node within.
     fn line(&mut self, ends: [i32; 2], mid: Option<&i32>, name: &str, link: Option<CurveLink>) {
         let (mesh, id) = (&mut self.file.mesh, |n: i32| VertexId(n as u32));
         let name = mesh.names.intern(name);
@@ -226,8 +226,8 @@ impl Builder {
         mesh.edges.push(CurveEdge { nodes: ends.map(id), name, link });
     }
 
-    /// A region for every number that is named or that a triangle has, ascending; names of regions come before those
-    /// of boundaries.
+    /// A region for each number that is named or that a triangle has, ascending. Names of regions come before those of
+    /// boundaries.
     fn regions(&mut self, types: &[i32], data: &CellData, groups: &Groups) -> BTreeMap<Option<i32>, RegionId> {
         let used = types
             .iter()
@@ -274,7 +274,7 @@ impl Builder {
     }
 
     fn stamps(&mut self, unpacker: &mut Unpacker) -> Result<()> {
-        // Longer texts are no stamps of ours.
+        // A longer text is not a stamp of ours.
         const MOST: u64 = 1 << 20;
         for array in unpacker.file.arrays.iter().filter(|a| a.section == Section::Field) {
             let Some(key) = array.name.strip_prefix("squinch:") else { continue };
@@ -292,7 +292,7 @@ impl Builder {
     }
 }
 
-/// The frame of the plane that the mesh lies in, where our writer says so.
+/// The frame of the plane of the mesh, where our writer stored one.
 fn frame(unpacker: &mut Unpacker) -> Result<Option<Frame>> {
     let Some(array) = unpacker.file.array(Section::Field, "frame") else { return Ok(None) };
     let values = unpacker.numbers(array, 9)?;
@@ -300,15 +300,15 @@ fn frame(unpacker: &mut Unpacker) -> Result<Option<Frame>> {
         return Err(broken(format!("the frame has {} numbers, not 9", values.len())));
     };
     let frame = Frame { origin: [o0, o1, o2], x: [x0, x1, x2], y: [y0, y1, y2] };
-    // Orthonormal up to rounding; NaN is not.
+    // Orthonormal up to rounding. NaN is refused, too.
     let near = |value: f64, wanted: f64| (value - wanted).abs() <= 1e-12;
     let [xx, yy, xy] = [dot(frame.x, frame.x), dot(frame.y, frame.y), dot(frame.x, frame.y)];
     let right = frame.origin.iter().all(|v| v.is_finite()) && near(xx, 1.0) && near(yy, 1.0) && near(xy, 0.0);
     if right { Ok(Some(frame)) } else { Err(broken("the axes of the frame are not orthonormal")) }
 }
 
-/// The points in the coordinates of a plane: those that the file gives, where they are of these very points, else the
-/// points laid into the plane.
+/// The points in the coordinates of a plane: those of the file if they belong to these points, else the projections of
+/// the points.
 fn in_plane(unpacker: &mut Unpacker, places: &[[f64; 3]], frame: &Frame) -> Result<Vec<Point>> {
     if let Some(array) = unpacker.file.array(Section::PointData, "plane") {
         let values = unpacker.numbers(array, 2 * places.len() as u64)?;

@@ -1,32 +1,46 @@
 //! The bytes of arrays: base64, zlib, words.
 //!
-//! Nothing is believed: every count is held against the bytes at hand, and all arrays together may grow to no more
-//! than `GROWTH` times the file plus `ALLOWANCE`.
+//! ```text
+//!    plain       ┌─────┬────────┐                          n: bytes of the values
+//!                │  n  │ values │                          one base64 text, or (some writers) two
+//!                └─────┴────────┘
+//!    zlib        ┌────────┬──────┬──────┬──────────────┐ ┌─────────┬─────────┬───┐
+//!                │ blocks │ size │ last │ packed sizes │ │ block 0 │ block 1 │ … │     two base64 texts
+//!                └────────┴──────┴──────┴──────────────┘ └─────────┴─────────┴───┘
+//!    inline      <DataArray …> one array </DataArray>
+//!    appended    <AppendedData encoding="base64"> _ array array …     offsets count from the byte after `_`
+//!
+//!    Header words have 4 or 8 bytes (`header_type`). size: bytes of an unpacked block; last: of a partial last block
+//! ```
+//!
+//! Input is untrusted. Every count is checked against the bytes at hand. All arrays together may grow to at most
+//! `GROWTH` times the file plus `ALLOWANCE`.
 
 use super::xml::{Array, Encoding, File, Kind, Place};
 use crate::meshio::{Result, broken};
 use base64::Engine;
 use std::io::Read;
 
-/// Our own meshes grow about fivefold when they are unpacked; a thousandfold (the most that zlib can do) is an attack.
+/// Our own meshes grow about fivefold. zlib allows a thousandfold, which only a malicious file has.
 const GROWTH: usize = 32;
-/// Small files of constant arrays may grow by more: 64 MB hurt nobody.
+/// Small files of constant arrays may grow by more, up to 64 MB.
 const ALLOWANCE: usize = 64 << 20;
 
-/// Unpacks arrays until its allowance is used up.
+/// Unpacks arrays until the allowance is used up.
 pub struct Unpacker<'f, 'a> {
+    /// The file.
     pub file: &'f File<'a>,
     left: usize,
 }
 
-/// Bytes as they stand, or behind base64.
+/// Bytes, raw or as base64.
 struct Source<'a> {
     encoding: Encoding,
     rest: &'a [u8],
 }
 
 impl Source<'_> {
-    /// The next segment of `n` bytes. In base64 every segment begins with a group of its own.
+    /// The next segment of `n` bytes. In base64 each segment begins a new group of four characters.
     fn segment(&mut self, n: usize) -> Option<Vec<u8>> {
         match self.encoding {
             Encoding::Raw => {
@@ -43,7 +57,7 @@ impl Source<'_> {
         }
     }
 
-    /// The first `n` bytes of the next segment, which stays to be read; and whether the segment ends with them.
+    /// The first `n` bytes of the next segment, without consuming it, and whether the segment ends with them.
     fn peek(&self, n: usize) -> Option<(Vec<u8>, bool)> {
         match self.encoding {
             Encoding::Raw => Some((self.rest.get(..n)?.to_vec(), false)),
@@ -56,8 +70,8 @@ impl Source<'_> {
         }
     }
 
-    /// At least `n` bytes from whole groups of four characters, and how many characters they took, white space
-    /// included.
+    /// At least `n` bytes from whole groups of four characters, and the number of characters consumed, with white
+    /// space.
     fn decode(&self, n: usize) -> Option<(Vec<u8>, usize)> {
         let wanted = n.div_ceil(3).checked_mul(4).filter(|&w| w <= self.rest.len())?;
         let mut characters = Vec::with_capacity(wanted);
@@ -74,7 +88,7 @@ impl Source<'_> {
     }
 }
 
-/// Some writers leave the padding away or leave bits in it.
+/// Some writers omit the padding or set unused bits.
 const ANY_PADDING: base64::engine::GeneralPurpose = base64::engine::GeneralPurpose::new(
     &base64::alphabet::STANDARD,
     base64::engine::GeneralPurposeConfig::new()
@@ -83,13 +97,12 @@ const ANY_PADDING: base64::engine::GeneralPurpose = base64::engine::GeneralPurpo
 );
 
 impl<'f, 'a> Unpacker<'f, 'a> {
-    /// Of a file of so many bytes.
+    /// Unpacks a file of this many bytes.
     pub fn new(file: &'f File<'a>, bytes: usize) -> Self {
         Self { file, left: bytes.saturating_mul(GROWTH).saturating_add(ALLOWANCE) }
     }
 
-    /// The values of an array as numbers (integers up to 2⁵³ exactly, and nothing here counts further); at most
-    /// `most` of them.
+    /// The values of an array as numbers (integers up to 2⁵³ are exact), at most `most` of them.
     pub fn numbers(&mut self, array: &Array, most: u64) -> Result<Vec<f64>> {
         let size = array.kind.size().ok_or_else(|| broken(format!("array '{}' does not hold numbers", array.name)))?;
         if let Place::Ascii(text) = array.place {
@@ -108,7 +121,7 @@ impl<'f, 'a> Unpacker<'f, 'a> {
         Ok(bytes.chunks_exact(size).map(|word| number(array.kind, word, self.file.big_endian)).collect())
     }
 
-    /// As [`Self::numbers`], of integers in `lowest..=i32::MAX`.
+    /// As [`Self::numbers`], for integers in `lowest..=i32::MAX`.
     pub fn integers(&mut self, array: &Array, most: u64, lowest: i32) -> Result<Vec<i32>> {
         let integer = |v: f64| {
             let right = v >= f64::from(lowest) && v <= f64::from(i32::MAX) && v.fract() == 0.0;
@@ -132,7 +145,7 @@ impl<'f, 'a> Unpacker<'f, 'a> {
         let unpacked = if self.file.zlib { self.inflated(&mut source, most) } else { self.plain(&mut source, most) };
         let unpacked =
             unpacked.ok_or_else(|| broken(format!("array '{}' is cut short, too long or garbled", array.name)))?;
-        // What was read counts too: many arrays may share one stretch of appended data.
+        // The packed bytes count, too, because many arrays may share appended data.
         self.left = self.left.saturating_sub(unpacked.len()).saturating_sub(packed - source.rest.len());
         Ok(unpacked)
     }
@@ -141,7 +154,7 @@ impl<'f, 'a> Unpacker<'f, 'a> {
         usize::try_from(number(Kind::UInt(bytes.len()), bytes, self.file.big_endian) as u64).ok()
     }
 
-    /// Number of bytes, bytes: one segment, or (some writers) two.
+    /// Unpacked data: number of bytes, then the bytes, in one segment or (by some writers) two.
     fn plain(&self, source: &mut Source, most: usize) -> Option<Vec<u8>> {
         let header = self.file.header_bytes;
         let (length, apart) = source.peek(header)?;
@@ -155,8 +168,8 @@ impl<'f, 'a> Unpacker<'f, 'a> {
         Some(bytes)
     }
 
-    /// Number of blocks, their size, that of a last partial one, compressed sizes; then, a segment of its own, the
-    /// blocks.
+    /// Packed data: number of blocks, block size, size of a partial last block, packed sizes; then, in a second
+    /// segment, the blocks.
     fn inflated(&self, source: &mut Source, most: usize) -> Option<Vec<u8>> {
         let word = self.file.header_bytes;
         let blocks = self.word(&source.peek(word)?.0)?;
@@ -170,7 +183,7 @@ impl<'f, 'a> Unpacker<'f, 'a> {
         for (i, &n) in sizes.iter().enumerate() {
             let end = bytes.len() + unpacked(i);
             let block = packed.get(from..from + n)?;
-            // One byte more than there should be: so that the end, with its checksum, is read too.
+            // One byte more than expected, so that zlib reads its end and checksum.
             let most = (unpacked(i) as u64).saturating_add(1);
             flate2::read::ZlibDecoder::new(block).take(most).read_to_end(&mut bytes).ok()?;
             if bytes.len() != end {

@@ -3,7 +3,7 @@
 //!
 //! | place | array | holds |
 //! |---|---|---|
-//! | cells | `colour` UInt8 ×4 | red, green, blue and opacity of a triangle's region, where the drawing has colours; 0 of a line |
+//! | cells | `colour` UInt8 ×4 | red, green, blue, opacity of a triangle's region, if the drawing has one |
 //! | cells | `region` Int32 | region number of a triangle (from 1), 0 of a line |
 //! | cells | `boundary` Int32 | boundary number of a line (from 1), 0 of a triangle |
 //! | cells | `curve` Int32, `t` 2 × Float64 | a line's curve and the parameters of its ends; −1 and 0 elsewhere |
@@ -15,18 +15,17 @@
 //! | points | `plane` 2 × Float64 | of a mesh in a plane in space: every node in the coordinates of the plane |
 //! | field | `squinch:KEY` | a stamp: Float64 where the text is a number's, else its UTF-8 bytes as UInt8 |
 //!
-//! Names are names of arrays, not VTK string arrays: meshio 5.3 refuses a whole file that has an array of type
-//! `String` ("Illegal data type"), while both it and VTK list the names of field arrays as they are. For meshio, too,
-//! no empty array is compressed.
+//! Names are names of arrays, not VTK string arrays. meshio 5.3 refuses a file with an array of type `String` ("Illegal
+//! data type"), but both it and VTK list the names of field arrays. Empty arrays are not compressed, also because of
+//! meshio.
 //!
-//! MFEM 4.10 refuses field data that stand before the piece, and lines beside triangles: a plain file has neither. MFEM
-//! takes its attributes from the first array of the cells where `Scalars` of `CellData` says `material`, whatever the
-//! array is called, and makes all of them 1 otherwise: there the number of the region comes once more, as `material`.
-//! Names and boundaries reach MFEM by MSH.
+//! MFEM 4.10 refuses field data before the piece, and lines beside triangles. A plain file has neither. MFEM takes its
+//! attributes from the first cell array, whatever its name, if `Scalars` of `CellData` is `material`; otherwise all
+//! attributes are 1. So a plain file has the number of the region again, as `material`. Names and boundaries reach MFEM
+//! by MSH.
 //!
-//! Written here and not by the vtkio crate (0.7.0-rc2), which keeps a second model of the whole file in memory and
-//! compresses one block after the other; here each array is made, compressed in parallel blocks and written before
-//! the next.
+//! The vtkio crate (0.7.0-rc2) is not used, because it keeps a second model of the file in memory and compresses one
+//! block after the other. Here each array is made, compressed in parallel blocks and written before the next.
 
 use super::array::{Array, begin, boundary_numbers, write_names, write_stamps};
 use crate::geometry::Frame;
@@ -51,7 +50,7 @@ pub fn write(mesh: &Mesh, stamps: &[(String, String)], out: &mut impl Write) -> 
     write_piece(mesh, false, out)
 }
 
-/// Writes a mesh without field data, and so without names, boundaries as lines only where asked for.
+/// Writes a mesh without field data, and so without names. Boundaries are lines if `lines`.
 ///
 /// # Errors
 /// As [`write`].
@@ -134,7 +133,7 @@ fn write_cells(mesh: &Mesh, out: &mut impl Write) -> io::Result<()> {
     Array::of_u8("types", [vec![triangle; triangles], vec![line; lines]].concat()).write(out)
 }
 
-/// By cell: the number of the region, from 1; 0 of lines.
+/// For each cell the number of its region, from 1; 0 for lines.
 fn region_numbers(mesh: &Mesh) -> impl Iterator<Item = i32> {
     let regions = mesh.triangle_regions.iter().map(|r| r.0 as i32 + 1);
     regions.chain(std::iter::repeat_n(0, mesh.edges.len()))

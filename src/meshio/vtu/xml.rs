@@ -1,9 +1,10 @@
-//! The XML of a `.vtu`: which arrays there are, and where their bytes stand. Nothing is unpacked here.
+//! The XML of a `.vtu`: its arrays, and where their bytes are. Nothing is unpacked here.
 
 use crate::meshio::{Result, broken, unsupported};
 use quick_xml::Reader;
 use quick_xml::events::{BytesStart, Event};
 
+/// A section of arrays.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Section {
     Field,
@@ -34,7 +35,7 @@ pub enum Kind {
     Int(usize),
     UInt(usize),
     Float(usize),
-    /// Strings and whatever else: never unpacked.
+    /// Strings and other kinds, which are not unpacked.
     Other,
 }
 
@@ -55,6 +56,7 @@ impl Kind {
         }
     }
 
+    /// The size of a number; `None` where the kind is not numeric.
     pub fn size(self) -> Option<usize> {
         match self {
             Self::Int(n) | Self::UInt(n) | Self::Float(n) => Some(n),
@@ -63,6 +65,7 @@ impl Kind {
     }
 }
 
+/// Where the bytes of an array are.
 #[derive(Clone, Copy, Debug)]
 pub enum Place<'a> {
     Ascii(&'a [u8]),
@@ -70,33 +73,47 @@ pub enum Place<'a> {
     Appended(u64),
 }
 
+/// An array, not unpacked.
 #[derive(Clone, Debug)]
 pub struct Array<'a> {
+    /// Its section.
     pub section: Section,
+    /// Its name.
     pub name: String,
+    /// The kind of its numbers.
     pub kind: Kind,
+    /// The place of its bytes.
     pub place: Place<'a>,
 }
 
+/// The encoding of appended data.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Encoding {
     Raw,
     Base64,
 }
 
-/// What the XML says, nothing unpacked yet.
+/// The content of the XML, not unpacked.
 #[derive(Debug)]
 pub struct File<'a> {
+    /// Whether data are compressed by zlib.
     pub zlib: bool,
+    /// Whether words are big-endian.
     pub big_endian: bool,
+    /// Bytes of a header word.
     pub header_bytes: usize,
+    /// Number of points.
     pub points: u64,
+    /// Number of cells.
     pub cells: u64,
+    /// The arrays.
     pub arrays: Vec<Array<'a>>,
+    /// The appended data, from the byte after `_`.
     pub appended: Option<(Encoding, &'a [u8])>,
 }
 
 impl<'a> File<'a> {
+    /// Parses a file.
     pub fn parse(bytes: &'a [u8]) -> Result<Self> {
         let mut file = Self {
             zlib: false,
@@ -117,7 +134,7 @@ impl<'a> File<'a> {
                 Event::Start(start) => (start, false),
                 Event::Empty(start) => (start, true),
                 Event::End(end) => {
-                    // Not so after elements inside an array: VTK puts `InformationKey` there.
+                    // An element inside an array does not end the section: VTK puts `InformationKey` there.
                     if Section::begun_by(end.local_name().as_ref()).is_some() {
                         section = Section::Other;
                     }
@@ -144,7 +161,7 @@ impl<'a> File<'a> {
                 }
                 b"AppendedData" => {
                     file.appended = Some(appended(&start, bytes.get(position(&reader)..).unwrap_or_default())?);
-                    // What follows may be raw bytes, and nothing after it is of interest.
+                    // What follows may be raw bytes. Nothing after it is needed.
                     ended = true;
                     break;
                 }
@@ -182,12 +199,13 @@ impl<'a> File<'a> {
         Ok(())
     }
 
+    /// The array of this name in a section. The array of points may have any name.
     pub fn array(&self, section: Section, name: &str) -> Option<&Array<'a>> {
         self.arrays.iter().find(|a| a.section == section && (a.name == name || section == Section::Points))
     }
 }
 
-/// What stands in `AppendedData`, of which `rest` is what follows its tag.
+/// The content of `AppendedData`. `rest` is what follows its tag.
 fn appended<'a>(start: &BytesStart, rest: &'a [u8]) -> Result<(Encoding, &'a [u8])> {
     let encoding = match attribute(start, "encoding")?.as_deref() {
         Some("base64") => Encoding::Base64,
@@ -202,7 +220,7 @@ fn position(reader: &Reader<&[u8]>) -> usize {
     usize::try_from(reader.buffer_position()).unwrap_or(usize::MAX)
 }
 
-/// The character data from a place to the next tag.
+/// The character data from a position to the next tag.
 fn text_after(bytes: &[u8], from: usize) -> &[u8] {
     let rest = bytes.get(from..).unwrap_or_default();
     let end = rest.iter().position(|&b| b == b'<').unwrap_or(rest.len());
@@ -214,7 +232,7 @@ fn attribute(start: &BytesStart, key: &str) -> Result<Option<String>> {
         let attribute = attribute.map_err(|e| broken(format!("an attribute cannot be read: {e}")))?;
         if attribute.key.as_ref() == key.as_bytes() {
             let text = std::str::from_utf8(&attribute.value).map_err(|_| broken("an attribute is not UTF-8"))?;
-            // VTK itself writes names unescaped: what is no entity stands for itself.
+            // VTK writes names unescaped, so text that is not an entity is kept.
             return Ok(Some(quick_xml::escape::unescape(text).map_or_else(|_| text.to_owned(), |t| t.into_owned())));
         }
     }

@@ -1,5 +1,5 @@
-//! Random points in general position with random segments that do not cross, against slow oracles: building anew, and
-//! looking at every segment for every line of sight.
+//! Random points in general position with random segments that do not cross, against slow oracles: the triangulation
+//! built anew, and a test of every segment for every line of sight.
 
 use super::*;
 use crate::geometry::Vec2;
@@ -42,8 +42,8 @@ impl Scene {
         built
     }
 
-    /// Whether a point sees any place of a segment: between two neighbouring rays to ends of segments it sees all or
-    /// nothing.
+    /// Whether any place of a segment is visible from a point. Between two neighbouring rays to ends of segments all
+    /// places are visible or none.
     fn sees(&self, from: Point, [x, y]: [Point; 2]) -> bool {
         let share = |p: Point| (x - from).cross(p - from) / ((x - from).cross(p - from) - (y - from).cross(p - from));
         let rays = self.segments.iter().flatten().map(|&v| share(self.points[v]));
@@ -111,7 +111,7 @@ fn whatever_the_way_there_the_triangulation_is_the_same() {
             backwards.join(VertexId::from_index(b), VertexId::from_index(a), SubcurveId::from_index(i)).unwrap();
         }
         assert_eq!(triangles(&backwards), whole, "seed {seed}: joined in another order");
-        // Points that no segment ends at come last, or go and come again.
+        // Points at which no segment ends are removed and inserted again.
         let used: BTreeSet<usize> = scene.segments.iter().flatten().copied().collect();
         let mut cavity = Cavity::default();
         for v in (0..scene.points.len()).filter(|v| !used.contains(v)) {
@@ -127,7 +127,7 @@ fn whatever_the_way_there_the_triangulation_is_the_same() {
             backwards.fill(p, &cavity);
             assert_eq!(triangles(&backwards), whole, "seed {seed}: {v:?} removed and inserted");
         }
-        // Segments that go leave what is built without them.
+        // Without the released segments the triangulation is that built without them.
         let (gone, kept) = scene.segments.split_at(scene.segments.len() / 2);
         let left = Scene { points: scene.points.clone(), segments: kept.to_vec() };
         let mut released = scene.build();
@@ -139,7 +139,7 @@ fn whatever_the_way_there_the_triangulation_is_the_same() {
     }
 }
 
-/// At places on a segment and beside it, on the hull and within it.
+/// The places lie on a segment and beside it, on the hull and inside it.
 #[test]
 fn a_parted_segment_leaves_what_is_built_with_its_parts() {
     let (mut parted, mut on_hull) = (0, 0);
@@ -157,15 +157,15 @@ fn a_parted_segment_leaves_what_is_built_with_its_parts() {
             if !built.can_part(side, p) {
                 continue;
             }
-            let pieces = [i, scene.segments.len()].map(SubcurveId::from_index);
-            let v = built.part(side, p, pieces);
+            let subcurves = [i, scene.segments.len()].map(SubcurveId::from_index);
+            let v = built.part(side, p, subcurves);
             assert_eq!(built.flaws(), Vec::<String>::new(), "seed {seed}: segment {a} {b} at {p:?}");
             let mut with = Scene { points: scene.points.clone(), segments: scene.segments.clone() };
             with.points.push(p);
             with.segments[i] = [a, v.index()];
             with.segments.push([v.index(), b]);
             assert_eq!(triangles(&built), triangles(&with.build()), "seed {seed}: segment {a} {b} at {p:?}");
-            for (end, subcurve) in [a, b].into_iter().zip(pieces) {
+            for (end, subcurve) in [a, b].into_iter().zip(subcurves) {
                 let part = built.topology().side_between(v, VertexId::from_index(end)).unwrap();
                 assert_eq!(built.topology().subcurve(part), Some(subcurve));
             }
@@ -179,7 +179,7 @@ fn a_parted_segment_leaves_what_is_built_with_its_parts() {
 #[test]
 fn a_removed_vertex_of_any_degree_leaves_what_is_built_without_it() {
     for degree in [3, 4, 5, 8, 40] {
-        // A ring around the vertex, no four points on a circle; two segments behind which it is not seen.
+        // A ring around the vertex, no four points on a circle;
         let mut rng = Rng::new(degree);
         let mut points: Vec<Point> = (0..degree)
             .map(|k| {

@@ -1,4 +1,4 @@
-//! What a user can choose of the engine: its parameters, and who chooses points.
+//! The options of the engine: its parameters, and the strategy that chooses points.
 
 use super::SteinerStrategy;
 use super::parameters::{Regions, radius_edge_of};
@@ -10,13 +10,13 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// Parameters of generalized constrained refinement, and who chooses its points.
+/// Parameters of generalized constrained refinement, and the strategy that chooses its points.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case", default)]
 pub struct Choices {
     /// With gcdr: points in triangles lie within r(1 - delta2) of the circumcenter, off-centres and optimal points
-    /// within r - delta2 l/(2 sin angle), where l is the shortest edge
-    /// [default: 1; with strategies that choose within disks that are alike the least that the angle allows]
+    /// within r - delta2 l/(2 sin angle), where l is the shortest edge [default: 1; the least that the angle allows
+    /// with strategies that choose within equal disks]
     #[schemars(extend("group" = "gcdr", "value" = "D", "rare" = true))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub delta2: Option<f64>,
@@ -24,11 +24,12 @@ pub struct Choices {
     #[schemars(extend("group" = "gcdr", "value" = "D", "rare" = true))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub delta1: Option<f64>,
-    /// With gcdr: so do those with a vertex of another segment nearby, for |s|(1 - mu) [default: 1]
+    /// With gcdr: points on segments that have a vertex of another segment nearby lie in the middle part of length
+    /// |s|(1 - mu) [default: 1]
     #[schemars(extend("group" = "gcdr", "value" = "M", "rare" = true))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mu: Option<f64>,
-    /// With gcdr: who chooses the points in triangles; nothing is proven of the free ones.
+    /// With gcdr: the strategy that chooses the points in triangles; nothing is proven for the free ones.
     #[schemars(extend("group" = "gcdr", "value" = "WHO", "rare" = true))]
     pub steiner: Steiner,
     /// With --steiner snap: the pitch of a square grid through the origin, or a file of places: `x y` on every line.
@@ -38,8 +39,8 @@ pub struct Choices {
     /// With --steiner random.
     #[schemars(extend("group" = "gcdr", "value" = "N", "rare" = true))]
     pub seed: u64,
-    /// With gcdr: measure how much nearer to others every point was inserted than the drawing asks for, and hold it to
-    /// the bounds known.
+    /// With gcdr: measure the density of every inserted point (local feature size over distance to the nearest visible
+    /// vertex), and check it against the known bounds.
     #[schemars(extend("group" = "gcdr", "value" = "on|off", "rare" = true))]
     pub densities: Switch,
 }
@@ -79,8 +80,8 @@ impl Choices {
         }
     }
 
-    /// δ₂, δ₁ and μ as given; where not: 1, but the widest disks that the angle leaves to a strategy whose disks are
-    /// alike and that would not take centres.
+    /// δ₂, δ₁ and μ as given. Those not given are 1; but for a strategy with equal disks that does not choose centres,
+    /// δ₂ is the least that the angle (radians) allows.
     pub fn regions(&self, angle_min_rad: f64) -> Regions {
         let default = match self.steiner {
             Steiner::Center | Steiner::Offcenter | Steiner::Optimal | Steiner::OffcenterFree | Steiner::OptimalFree => {
@@ -97,7 +98,7 @@ impl Choices {
         }
     }
 
-    /// Who chooses the points, for a smallest angle.
+    /// The strategy, for a smallest angle in radians.
     pub fn strategy(&self, angle_min_rad: f64) -> Box<dyn SteinerStrategy> {
         match self.steiner {
             Steiner::Center => Box::new(steiner::Center),
@@ -120,7 +121,7 @@ impl Choices {
     }
 }
 
-/// Who chooses the points that refine triangles.
+/// The strategy that chooses the points that refine triangles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Steiner {
@@ -136,7 +137,7 @@ pub enum Steiner {
     Random,
     /// The points of a grid, or places of a file, by --snap, where the regions hold any.
     Snap,
-    /// Where new edges are as long as the sizes ask for.
+    /// Where new edges have the length that the size limits permit.
     Size,
     /// Off-centres wherever they lie: nothing is proven.
     OffcenterFree,
@@ -158,7 +159,7 @@ impl Steiner {
         Self::OptimalFree,
     ];
 
-    /// Whether its points are taken wherever they lie, as [`SteinerStrategy::is_free`] says: nothing is promised then.
+    /// Whether its points are taken wherever they lie ([`SteinerStrategy::is_free`]). Then nothing is guaranteed.
     pub fn is_free(self) -> bool {
         match self {
             Self::OffcenterFree | Self::OptimalFree => true,
@@ -173,7 +174,7 @@ impl Steiner {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum SnapTo {
-    /// The points of a square grid through the origin, so far apart.
+    /// The points of a square grid through the origin, at this distance from each other.
     Pitch(f64),
     /// Given places, each [x, y].
     Places(Vec<[f64; 2]>),

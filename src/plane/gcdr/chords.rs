@@ -1,12 +1,22 @@
-//! The beginning: pieces of curves whose chords are a valid PSLG, and stay one however the pieces are split.
+//! The start: subcurves whose chords are a valid PSLG, and stay one however the subcurves are split.
 //!
-//! What is split later stays within the convex hull of its subcurve, and so does every chord of it. A subcurve of lens angle
-//! λ lies in its lens, which is convex and lies in the rhombus on its chord with angles 2λ at the ends. So curved
-//! pieces are split until no two rhombi meet but in a common end: at the bisector, or on curves that end at a sharp
-//! corner on [shells](shell_between) around it, so that edges across a cusp have their ends equally far from it and may
-//! stay. Two curves that share an end at a sharp corner may lie in each other's hulls however short they are: there all
+//! The parts of a subcurve, and their chords, stay within its convex hull. A subcurve of lens angle λ lies in its lens.
+//! The lens is convex and lies in the rhombus on the chord with angles 2λ at the ends. So curved subcurves are split
+//! until no two rhombi meet but in a common end. They are split at the bisector, or, on curves that end at a sharp
+//! corner, on [shells](shell_between) around it: then edges across a cusp have ends equally far from it, and may stay.
+//! Two curves that share an end at a sharp corner may lie in each other's hulls however short they are. There all
 //! curves are cut at one distance from the corner, and from then on together ([`Fan`]): equal distances keep their
 //! order.
+//!
+//! ```text
+//!              h             The subcurve x y lies in its lens, and that in the rhombus x h′ y h,
+//!         .-´  ┆  `-.        with the angle λ between its sides and the chord, on both sides of it.
+//!      .-´.─~~~~~~~─.`-.     The rhombi of two subcurves are apart if a line separates them.
+//!     x ───────┼─────── y    Of two that share the end x, they are apart if the chords turn by
+//!      `-.     ┆     .-´     more than the sum of both λ at x.
+//!         `-.  ┆  .-´
+//!              h′
+//! ```
 
 use super::{Fan, VertexSource};
 use crate::curve::{Curve, End};
@@ -18,28 +28,34 @@ use crate::plane::subcurves::{Carrier, Standing, Subcurve, Subcurves};
 use crate::size::SizeField;
 use crate::watch::{Progress, Stopped, Watch};
 
-/// What stands before there is a triangulation.
+/// The state before there is a triangulation.
 pub(super) struct Beginning<'a> {
     domain: &'a Domain,
-    /// Whether curves meet at less than 60°.
+    /// By point: whether curves meet there at less than 60°.
     sharp: &'a IdVec<PointId, bool>,
+    /// Coordinates of the vertices so far; first those of the points of the domain.
     pub(super) points: Vec<Point>,
+    /// The source of every vertex.
     pub(super) origins: IdVec<VertexId, VertexSource>,
+    /// C′.
     pub(super) subcurves: Subcurves,
+    /// The fans at sharp corners.
     pub(super) fans: IdVec<FanId, Fan>,
-    /// No lengths below this are told apart.
+    /// Lengths below this cannot be distinguished.
     resolution: f64,
 }
 
-/// A subcurve as the search for meetings sees it.
+/// A subcurve by its chord and lens angle: the rhombus that holds it.
 pub(super) struct Hull {
     subcurve: Option<SubcurveId>,
     ends: [Point; 2],
-    /// λ, 0 of what is straight.
+    /// λ, in radians; 0 where it is straight.
     lambda: f64,
 }
 
 impl<'a> Beginning<'a> {
+    /// The points of a domain as vertices 0, 1, …, and no subcurves. `resolution`: lengths below it cannot be
+    /// distinguished.
     pub(super) fn new(domain: &'a Domain, sharp: &'a IdVec<PointId, bool>, resolution: f64) -> Self {
         Self {
             domain,
@@ -57,7 +73,7 @@ impl<'a> Beginning<'a> {
         self.origins.push(origin)
     }
 
-    /// Cuts every curve at the fans of its ends.
+    /// Cuts every curve at the fans of its ends: a spoke at each fan, and one ordinary subcurve.
     pub(super) fn cut_curves(&mut self, field: &SizeField) {
         let fan_of = self.place_fans(field);
         for (id, curve) in self.domain.curves().enumerate() {
@@ -79,8 +95,8 @@ impl<'a> Beginning<'a> {
         }
     }
 
-    /// A fan at every sharp corner that a bent curve ends at: of a radius that is a power of two, at most a third of
-    /// lfs(p), so that two never meet and nothing else comes in.
+    /// Places a fan at every sharp corner at which a bent curve ends. Its radius is a power of two and at most
+    /// lfs(p)/3, so that two fans never meet and no other feature lies in one.
     fn place_fans(&mut self, field: &SizeField) -> IdVec<PointId, Option<FanId>> {
         let bent = |p: PointId| self.domain.star(p).iter().any(|i| !self.domain.curves()[i.curve].curve.is_straight());
         let wanted: Vec<PointId> = self.domain.points().ids().filter(|&p| self.sharp[p] && bent(p)).collect();
@@ -97,7 +113,10 @@ impl<'a> Beginning<'a> {
         fan_of
     }
 
-    /// Splits bent pieces until the hulls of any two are apart, as far as the budget and the watch allow.
+    /// Splits bent subcurves until the hulls of any two are apart, or the budget is used up.
+    ///
+    /// # Errors
+    /// Where the watch says to stop.
     pub(super) fn part_hulls(&mut self, max_vertices: usize, watch: &mut Watch) -> Result<(), Stopped> {
         let mut dirty: Vec<SubcurveId> = self.subcurves.ids().collect();
         while !dirty.is_empty() && self.points.len() <= max_vertices {
@@ -111,7 +130,7 @@ impl<'a> Beginning<'a> {
         Ok(())
     }
 
-    /// Bent pieces that meet another, where one of the two is among `dirty`; ascending.
+    /// Bent subcurves whose hull meets another, where one of the two is among `dirty`; ascending.
     fn meeting(&self, dirty: &[SubcurveId]) -> Vec<SubcurveId> {
         let live = self.subcurves.ids().filter(|&id| !self.subcurves.get(id).is_gone());
         let mut hulls: Vec<Hull> = live.map(|id| self.hull(id)).collect();
@@ -147,12 +166,12 @@ impl<'a> Beginning<'a> {
         Hull { subcurve: Some(id), ..Hull::of(self.domain, subcurve, subcurve.t) }
     }
 
-    /// Whether two hulls meet at most in a common end.
+    /// Whether two hulls meet at most in a common end of their subcurves.
     fn are_apart(&self, a: &Hull, b: &Hull) -> bool {
         let [Some(first), Some(second)] = [a.subcurve, b.subcurve].map(|id| id.map(|id| self.subcurves.get(id))) else {
             return a.is_apart(b, self.resolution);
         };
-        // Of two that are noise, joining tells whether their chords cross.
+        // Whether the chords of two that are noise cross is found when they are joined.
         if self.share_a_fan(first, second) || a.is_noise(self.resolution) && b.is_noise(self.resolution) {
             return true;
         }
@@ -166,13 +185,13 @@ impl<'a> Beginning<'a> {
                 let other = subcurve.ends[usize::from(subcurve.ends[0] == x)];
                 self.points[other.index()] - self.points[x.index()]
             };
-            // Beyond a millionth of a radian directions of rounded points can be told apart.
+            // Directions of rounded points differ by more than rounding above a millionth of a radian.
             turn_from(away(first), away(second)).abs() > a.lambda + b.lambda + 1e-6
         })
     }
 
-    /// Whether one is a spoke and the other lies on a curve of the same corner: spokes keep their order, and the others
-    /// lie outside.
+    /// Whether one is a spoke and the other lies on a curve of the same corner: spokes keep their order, and the other
+    /// subcurves lie outside the fan.
     fn share_a_fan(&self, first: &Subcurve, second: &Subcurve) -> bool {
         let meets = |spoke: &Subcurve, other: &Subcurve| {
             let Standing::OfFan(fan) = spoke.standing else { return false };
@@ -182,8 +201,8 @@ impl<'a> Beginning<'a> {
         meets(first, second) || meets(second, first)
     }
 
-    /// Splits a bent subcurve on a shell around a sharp corner, or at its bisector; `None` of a spoke, and where
-    /// coordinates cannot hold it: joining will tell.
+    /// Splits a bent subcurve on a shell around a sharp corner, or at its bisector. `None` for a spoke, and where
+    /// coordinates cannot hold the point: then joining reports it.
     fn split(&mut self, id: SubcurveId) -> Option<[SubcurveId; 2]> {
         let subcurve = *self.subcurves.get(id);
         let shape = shape_of(self.domain, &subcurve);
@@ -212,7 +231,7 @@ pub(super) fn shape_of<'a>(domain: &'a Domain, subcurve: &Subcurve) -> &'a Curve
     &domain.curves()[curve_of(subcurve)].curve
 }
 
-/// Its id.
+/// The id of the curve that a subcurve is a part of.
 pub(super) fn curve_of(subcurve: &Subcurve) -> CurveId {
     match subcurve.carrier {
         Carrier::Curve(curve) => curve,
@@ -220,9 +239,16 @@ pub(super) fn curve_of(subcurve: &Subcurve) -> CurveId {
     }
 }
 
-/// On a curve that ends at a sharp corner: which end that is, and the distance from it at which a subcurve is split: the
-/// roundest binary number in the middle third. Next to the corner that is a power of two (Ruppert's concentric shells);
-/// and wherever they are split, the two curves of a narrow corner are split at the same distances.
+/// The shell on which a subcurve is split, if its curve ends at a sharp corner: the end, and the distance from it. The
+/// distance is the roundest binary number in the middle third. Next to the corner it is a power of two (Ruppert's
+/// concentric shells). So the two curves of a narrow corner are split at the same distances. `None` where the subcurve
+/// does not run away from the corner: far − near is at most half its chord.
+///
+/// ```text
+///   p ●───────── x ─────┤░░░░░│░░░░░├───── y        near = |px|, far = |py|, third = (far − near)/3
+///                near          radius       far     radius: the multiple of the largest power of two in the
+///                                                   middle third: the same for both curves of a narrow corner
+/// ```
 pub(super) fn shell_between(
     domain: &Domain,
     sharp: &IdVec<PointId, bool>,
@@ -241,10 +267,10 @@ pub(super) fn shell_between(
     (far - near > 0.5 * chord).then(|| (end, roundest_between(near + third, far - third)))
 }
 
-/// The multiple of the largest power of two between two positive numbers.
+/// The number between two positive ones that is a multiple of the largest power of two.
 fn roundest_between(low: f64, high: f64) -> f64 {
     let mut exponent = libm::ilogb(high);
-    // A step no longer than the interval has a multiple in it.
+    // A step no longer than the interval has a multiple in the interval.
     loop {
         let step = libm::ldexp(1.0, exponent);
         let multiple = (high / step).floor() * step;
@@ -256,19 +282,19 @@ fn roundest_between(low: f64, high: f64) -> f64 {
 }
 
 impl Hull {
-    /// Of the part t of the curve of a subcurve.
+    /// The hull of the part `t` of the curve of a subcurve.
     pub(super) fn of(domain: &Domain, subcurve: &Subcurve, t: [f64; 2]) -> Self {
         let shape = shape_of(domain, subcurve);
         let lambda = if shape.is_straight() { 0.0 } else { shape.lens_angle(t[0], t[1]) };
         Self { subcurve: None, ends: t.map(|t| shape.point(t)), lambda }
     }
 
-    /// Whether it is so short that its shape is mostly rounding: splitting would find no end.
+    /// Whether the subcurve is so short that its shape is mostly rounding: splits would not end.
     fn is_noise(&self, resolution: f64) -> bool {
         self.ends[0].distance(self.ends[1]) < 4096.0 * resolution
     }
 
-    /// The rhombus; of what is straight its chord.
+    /// The corners x, h′, y, h of the rhombus; of a straight subcurve, of its chord.
     fn corners(&self) -> [Point; 4] {
         let [x, y] = self.ends;
         let half = 0.5 * (y - x);
@@ -282,7 +308,7 @@ impl Hull {
         bounds_of(self.corners()).unwrap_or_default().inflate(slack, slack)
     }
 
-    /// Whether a line along a side of either parts two convex quadrilaterals, with `slack` between them.
+    /// Whether a line parallel to a side or the chord of one separates the two rhombi, with `slack` between them.
     pub(super) fn is_apart(&self, other: &Self, slack: f64) -> bool {
         let (p, q) = (self.corners(), other.corners());
         let sides = [p, q].into_iter().flat_map(|r| [r[1] - r[0], r[2] - r[1], r[2] - r[0]]);

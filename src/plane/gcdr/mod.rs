@@ -1,40 +1,46 @@
 //! Generalized constrained Delaunay refinement, GCDR (Foteinos, Chernikov & Chrisochoides 2010, Algorithm 2).
 //!
-//! The engine keeps a constrained Delaunay triangulation of what stands. As long as a triangle is skinny, a point p of
-//! its selection disk is chosen (type A). If a segment s hides p from the triangle, p is rejected: the free vertices in
-//! the diametral circle of the nearest such s that see s are deleted, and s is split within its selection interval, of
-//! type C if another vertex in its diametral circle sees it, else of type B. Otherwise p goes in. Whose point it is, a
-//! [`SteinerStrategy`] says.
+//! The engine keeps a constrained Delaunay triangulation of vertices and segments. As long as a triangle is skinny, a
+//! point p of its selection disk is chosen (type A). If a segment occludes p from the triangle, p is rejected. Let s be
+//! the nearest such segment. The free vertices in the diametral circle of s that are visible from s are deleted, and s
+//! is split within its selection interval: by a point of type C if another vertex in its diametral circle is visible
+//! from s, else of type B. If no segment occludes p, p is inserted. A [`SteinerStrategy`] chooses the points.
 //!
-//! *What is proven.* It ends, on segments that meet at 60° and more, for angles up to 30° and points within their
+//! ```text
+//!   t skinny ──▶ p chosen in its disk ──┬─ p visible from t ─────▶ p is inserted                     (type A)
+//!                                       └─ s occludes p ─────────▶ free vertices near s are deleted,
+//!                                                                  s is split                  (type B or C)
+//! ```
+//!
+//! *What is proven.* It terminates on segments that meet at 60° and more, for angles up to 30° and points within their
 //! regions (Theorem 6.1). Good grading is proven where C₁C₂ > 1, up to 26.57° for centres
-//! ([`Regions::least_densities`]); beyond, it is observed. Off-centres and locally optimal points have larger
-//! [disks](steiner::Disks::ByShape) without loss of the bounds on insertion radii: that refinement ends is proven to
-//! the same angle, that it is well graded is observed. Above 30°, with a [free](SteinerStrategy::is_free) strategy, on
-//! curves and at sharper corners, that it ends is observed, and the budget ends what does not.
+//! ([`Regions::least_densities`]); above, it is observed. Off-centres and locally optimal points have larger
+//! [disks](steiner::Disks::ByShape) with the same bounds on insertion radii. Their termination is proven to the same
+//! angle, their grading is observed. Above 30°, with a [free](SteinerStrategy::is_free) strategy, on curves and at
+//! sharper corners, termination is observed, and the budget ends a run that does not end.
 //!
 //! What the paper leaves open, and how it is done here:
 //!
-//! - *Curves.* A segment is a subcurve of a curve, seen as its chord; its point is taken on the curve, above the place
-//!   chosen on the chord. `chords` splits curves at the beginning until chords are a valid PSLG, whatever is split
-//!   later. To move a segment to its curve, its chord is taken out of the triangulation, the point inserted and the two
-//!   new chords joined; regions are labelled anew there.
+//! - *Curves.* A segment is the chord of a subcurve. Its split point is taken on the curve, above the place chosen on
+//!   the chord. At the start `chords` splits curves until their chords are a valid PSLG, and stay one whatever is split
+//!   later. To split a subcurve, its chord is removed from the triangulation, the point is inserted and the two new
+//!   chords are joined; regions are labelled anew there.
 //! - *Corners sharper than 60°.* Segments that end there are split on concentric shells (Ruppert 1995), at distances
-//!   from the corner that are round binary numbers; a triangle whose shortest edge lies across the corner, from one
-//!   curve to the other, with ends equally far from the corner is left as it is: its small angle is the input's. Curves
-//!   that leave a sharp corner are cut together: `chords` says why.
-//! - *Order.* Algorithm 2 leaves open which triangle comes first. Segments that a vertex which will stay sees at more
-//!   than 180° − 2κ come before all else: they cannot stand, and split late they would undo what was refined beside
-//!   them. Then comes what the strategy says.
+//!   from the corner that are round binary numbers. A triangle is exempt if its shortest edge lies across the corner,
+//!   from one curve to the other, with ends equally far from the corner: its small angle is that of the input. Curves
+//!   that leave a sharp corner are split together, for the reason given in `chords`.
+//! - *Order.* Algorithm 2 leaves open which triangle comes first. First come segments that subtend more than 180° − 2κ
+//!   at a vertex that will not be deleted. They must be split in any case, and a late split would delete vertices that
+//!   were inserted beside them. Then comes the order of the strategy.
 //! - *Rounding.* Decisions are made on the rounded point. A point that would not remove its triangle is not inserted,
-//!   and unresolved.
+//!   and the triangle is unresolved.
 //!
-//! *Which engine.* Of 180 drawings at 20.7° with free optimal points (outlines, maps, DXF, SVG) all end that end with
-//! corner lopping, all but one with fewer triangles: a fourth to a half of them by folder, in the geometric mean. That
-//! holds of straight input and curved, with sharp corners and without. So the drawing does not tell which engine is the
-//! better one, and there is none called `auto`: what is asked of the mesh tells. Corner lopping proves its angle on
-//! more input, bounds the largest angle, and makes a whole Delaunay triangulation with empty diametral circles; this
-//! engine makes fewer triangles, and larger angles.
+//! *Which engine.* Of 180 drawings (outlines, maps, DXF, SVG) at 20.7° with free optimal points, this engine ends on
+//! all on which corner lopping ends, and on all but one with fewer triangles: a fourth to a half of them by folder, in
+//! the geometric mean. That holds for straight and curved input, with and without sharp corners. So the choice does not
+//! depend on the drawing but on what is asked of the mesh, and there is no engine `auto`. Corner lopping proves its
+//! angle on more input, bounds the largest angle, and makes a whole Delaunay triangulation with empty diametral
+//! circles. This engine makes fewer triangles, and larger angles.
 
 mod choices;
 mod chords;
@@ -64,10 +70,10 @@ pub use parameters::{Regions, Violation};
 use std::f64::consts::FRAC_PI_3;
 pub use steiner::SteinerStrategy;
 
-/// What is asked of the engine.
+/// The options of the engine.
 #[derive(Clone, Debug)]
 pub struct Options {
-    /// Smallest angle; ρ̄ = 1/(2 sin κ).
+    /// κ, the smallest angle asked for, in radians; ρ̄ = 1/(2 sin κ).
     pub angle_min_rad: f64,
     /// The sizes of the selection regions: δ₂, δ₁ and μ.
     pub regions: Regions,
@@ -75,16 +81,16 @@ pub struct Options {
     pub sizing: Sizing,
     /// Vertices after which nothing is split any more.
     pub max_vertices: usize,
-    /// Keep what every insertion was, for densities.
+    /// Whether every insertion is recorded, for densities.
     pub record: bool,
 }
 
-/// Corners up to this angle are sharp: less than 60° by more than rounding explains.
+/// Corners up to this angle (radians) are sharp: less than 60°, by more than rounding.
 pub const SHARP_RAD: f64 = FRAC_PI_3 - 1e-8;
 
 impl Options {
-    /// What the judge holds a mesh to that was made by these options and a strategy that is `free` or not; `foreign`:
-    /// it comes from elsewhere, without links to curves.
+    /// What the verifier checks a mesh for that was made by these options and a strategy that is `free` or not;
+    /// `foreign`: it comes from elsewhere, without links to curves.
     pub fn promise(&self, free: bool, foreign: bool) -> Promise {
         let proven = self.regions.proven_above(self.angle_min_rad);
         Promise {
@@ -96,13 +102,13 @@ impl Options {
     }
 }
 
-/// The smallest angle of the domain at which curves are not cut on shells: 60° or more; π where there is none.
+/// The smallest angle of the domain that is not sharp: 60° or more, in radians; π where there is none.
 pub fn least_angle(domain: &Domain) -> f64 {
     let angles = domain.points().ids().filter_map(|p| domain.corner(p)).map(|corner| corner.angle_rad);
     angles.filter(|&a| a > SHARP_RAD).fold(std::f64::consts::PI, f64::min)
 }
 
-/// Where a vertex came from.
+/// The source of a vertex.
 #[derive(Clone, Copy, PartialEq, Debug)]
 enum VertexSource {
     Input(PointId),
@@ -110,33 +116,42 @@ enum VertexSource {
     Free,
 }
 
-/// Curves around a sharp corner, cut at one distance from it.
+/// A fan: the subcurves from a sharp corner to one distance from it, which are split together.
+///
+/// ```text
+///                x        p x and p y are the spokes of the fan of the corner p, at its radius |px| = |py|.
+///              ╱  :       Cut at half the radius, p x₁ and p y₁ are the new spokes.
+///           x₁     :      x₁x and y₁y are ordinary; where their chords might cross, they are cut once more.
+///         ╱   :     :
+///       ╱      :     :
+///     p ────── y₁─── y
+/// ```
 struct Fan {
     corner: PointId,
     radius: f64,
     spokes: Vec<SubcurveId>,
 }
 
-/// The engine, held at a step.
+/// The engine between two steps.
 pub struct Gcdr<'s> {
     state: Refinement,
     options: Options,
     mesh: Constrained,
     origins: IdVec<VertexId, VertexSource>,
-    /// Vertices that were not deleted.
+    /// Number of vertices that were not deleted.
     alive: usize,
-    /// Of these, the free ones.
+    /// Number of free vertices among them.
     free: usize,
     fans: IdVec<FanId, Fan>,
     /// Whether curves meet at less than 60°.
     sharp: IdVec<PointId, bool>,
     strategy: &'s mut dyn SteinerStrategy,
-    /// Triangles to be judged; empty between steps, kept for its memory.
+    /// Triangles to be assessed; empty between steps, kept to reuse its memory.
     touched: Vec<TriangleId>,
     insertions: Vec<Insertion>,
 }
 
-/// Meshes a domain whose curves turn at most π/3 each, as long as `watch` says to go on.
+/// Meshes a domain whose curves turn at most π/3 each, until `watch` says to stop.
 ///
 /// # Errors
 /// Where coordinates cannot tell features apart.
@@ -154,8 +169,9 @@ pub fn refine(
 }
 
 impl Options {
-    /// What the densities of a domain's mesh are held to by a strategy whose disks are alike, and that keeps to them:
-    /// `None` on curves, at angles below 60°, and where sizes are asked for, which insert vertices of their own.
+    /// The bounds on the densities of a mesh of `domain`, for a strategy with [`Disks::Alike`](steiner::Disks::Alike)
+    /// that is not free. `None` on curves, at angles below 60°, and where sizes are asked for, since those insert
+    /// vertices of their own.
     pub fn density_promise(&self, domain: &Domain) -> Option<DensityPromise> {
         let straight = domain.curves().iter().all(|c| c.curve.is_straight());
         let sharp = |p: PointId| domain.corner(p).is_some_and(|corner| corner.angle_rad <= SHARP_RAD);
@@ -168,16 +184,16 @@ impl Options {
     }
 }
 
-/// What came of the beginning.
+/// The result of the start.
 pub enum Start<'s> {
     /// There is a triangulation to refine.
     Ready(Box<Gcdr<'s>>),
-    /// The watch said stop, or the budget ended, before there was a triangulation.
+    /// The watch stopped the run, or the budget was used up, before there was a triangulation.
     Ended(Box<Refined>),
 }
 
 impl<'s> Gcdr<'s> {
-    /// The constrained Delaunay triangulation of chords, regions given.
+    /// The constrained Delaunay triangulation of chords, with regions.
     ///
     /// # Errors
     /// As [`refine`].
@@ -235,8 +251,7 @@ impl<'s> Gcdr<'s> {
         Ok(Start::Ready(Box::new(gcdr)))
     }
 
-    /// Notes an insertion. The nearest vertex that a vertex sees is its neighbour in a constrained Delaunay
-    /// triangulation.
+    /// Records an insertion. In a constrained Delaunay triangulation the nearest visible vertex is a neighbour.
     fn record(&mut self, v: VertexId, kind: InsertionKind, parent: Option<VertexId>) {
         let topology = self.mesh.topology();
         let at = self.mesh.point(v);
@@ -245,7 +260,7 @@ impl<'s> Gcdr<'s> {
         self.insertions.push(Insertion { kind, at, radius, parent: parent.map(|p| self.mesh.point(p)) });
     }
 
-    /// Whether there are as many vertices as may be; also where most of what is inserted is deleted again.
+    /// Whether the budget is used up: by vertices, or by four times as many insertions, where most are deleted again.
     fn is_spent(&self) -> bool {
         let most = self.options.max_vertices;
         self.alive >= most || self.origins.len() >= most.saturating_mul(4)
@@ -261,13 +276,13 @@ impl<'s> Gcdr<'s> {
 impl Engine for Gcdr<'_> {
     type Outcome = Result<Refined, RefineError>;
 
-    /// Splits the first of: a subcurve that is too large, the worst skinny triangle, the largest triangle. `false`: there
-    /// is none, or the run is over.
+    /// Splits the first of these: a subcurve that is too large, the first skinny triangle, the largest triangle.
+    /// `false`: there is none, or the run is over.
     fn step(&mut self) -> bool {
         if self.state.reason == StopReason::Done
             && let Some(subcurve) = self.state.queue.pop()
         {
-            self.look_at_piece(subcurve);
+            self.look_at_subcurve(subcurve);
             return true;
         }
         if self.state.reason != StopReason::Done {
@@ -292,7 +307,7 @@ impl Engine for Gcdr<'_> {
     /// The mesh of the kept regions, in the domain's own scale.
     ///
     /// # Errors
-    /// Where a split had to be given up half-way.
+    /// Where coordinates ended a split half-way.
     fn finish(mut self) -> Self::Outcome {
         if self.state.subcurves.ids().any(|id| !self.state.subcurves.get(id).is_gone() && !self.is_side(id)) {
             return Err(self.state.too_near_error());

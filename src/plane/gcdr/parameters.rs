@@ -1,4 +1,4 @@
-//! δ₂, δ₁ and μ, which say how large the selection regions are, and what is known of the mesh for them.
+//! δ₂, δ₁ and μ, the sizes of the selection regions, and what is known of the mesh for them.
 
 use crate::promise::{Densities, DensityPromise};
 use std::f64::consts::FRAC_PI_2;
@@ -6,8 +6,8 @@ use std::f64::consts::FRAC_PI_2;
 /// The sizes of the selection regions (Definitions 3.1–3.3); 1: the region is its centre.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Regions {
-    /// Type A points lie within r(1−δ₂) of the circumcenter, or, where
-    /// [disks are by shape](super::steiner::Disks::ByShape), within r − δ₂ρ̄l.
+    /// Type A points lie within r(1−δ₂) of the circumcenter, or, where [disks are by
+    /// shape](super::steiner::Disks::ByShape), within r − δ₂ρ̄l.
     pub delta2: f64,
     /// Type B points lie in the middle part of length |s|(1−δ₁).
     pub delta1: f64,
@@ -31,27 +31,27 @@ pub struct Violation {
     pub least: f64,
 }
 
-/// ρ̄ of an angle: the smallest angle of a triangle with radius-edge ratio ρ is arcsin 1/(2ρ).
+/// ρ̄ of an angle in radians: the smallest angle of a triangle with radius-edge ratio ρ is arcsin 1/(2ρ).
 pub fn radius_edge_of(angle_rad: f64) -> f64 {
     0.5 / libm::sin(angle_rad)
 }
 
 impl Regions {
-    /// All regions are their centres: Chew's second algorithm (1993), where disks are alike.
+    /// All regions are their centres: with equal disks Chew's second algorithm (1993).
     pub const CENTERS: Self = Self { delta2: 1.0, delta1: 1.0, mu: 1.0 };
 
-    /// All freedom that ρ̄ leaves to the points inside triangles; none for those on segments.
+    /// The largest disks for points in triangles that ρ̄ allows (3.1); midpoints on segments.
     pub fn widest_disks(rho: f64) -> Self {
         Self { delta2: (1.0 / rho).min(1.0), ..Self::CENTERS }
     }
 
-    /// Whether (3.1)–(3.3) hold; `angle_rad` is the smallest input angle of 60° or more. Above 30°, where ρ̄ < 1,
-    /// centres are all that is left.
+    /// Whether (3.1)–(3.3) hold; `angle_rad` is the smallest input angle of 60° or more. Above 30°, where ρ̄ < 1, only
+    /// centres satisfy them.
     ///
     /// # Errors
     /// The first inequality that is violated.
     pub fn check(&self, rho: f64, angle_rad: f64) -> Result<(), Violation> {
-        // A bound that was computed from rounded angles.
+        // The bounds are computed from rounded angles.
         const ROUNDING: f64 = 1e-9;
         let cos = libm::cos(angle_rad.min(FRAC_PI_2));
         let bounds = [
@@ -79,18 +79,18 @@ impl Regions {
         ([rho * delta2, 0.5 * delta1 * 3f64.sqrt(), c3, c4], [(2.0 - delta2) / delta2, b3, (2.0 - mu) / mu])
     }
 
-    /// The input angle above which refinement of segments is proven to end, and where disks are alike, well graded;
-    /// `None` where it is not.
+    /// The input angle (radians) above which refinement of segments is proven to terminate, and with equal disks to be
+    /// well graded; `None` where it is not.
     ///
-    /// That is where (5.11)–(5.19) have a solution. The proof of Theorem 4.6 has C₂ = δ₁cos κ before it puts in 30°:
-    /// with that centres are proven up to 26.57°, as Shewchuk (2002) has it for Chew's algorithm.
+    /// It is where (5.11)–(5.19) have a solution. The proof of Theorem 4.6 has C₂ = δ₁cos κ before it sets κ = 30°.
+    /// With that, centres are proven up to 26.57°, which is the angle of Shewchuk (2002) for Chew's algorithm.
     pub fn proven_above(&self, angle_min_rad: f64) -> Option<f64> {
         let ([c1, _, c3, _], _) = self.constants(radius_edge_of(angle_min_rad), FRAC_PI_2);
         let c2 = self.delta1 * libm::cos(angle_min_rad);
         (c1 > 1.0 && c1 * c2 > 1.0 && c3 > 1.0).then(|| libm::acos(0.5 * self.mu))
     }
 
-    /// What densities are held to: the least solution where there is one; else what (5.23) prints, of which nothing is
+    /// The bounds on densities: the least solution where there is one; else those that (5.23) prints, which are not
     /// proven.
     pub fn density_promise(&self, rho: f64, angle_rad: f64) -> DensityPromise {
         let least = self.least_densities(rho, angle_rad);
@@ -113,18 +113,19 @@ impl Regions {
         }
     }
 
-    /// The least solution of (5.11)–(5.19); `None` where there is none, which is so unless C₁C₂ > 1, C₃ > 1 and C₄ > 1.
+    /// The least solution of (5.11)–(5.19). `None` where there is none: one exists exactly where C₁C₂ > 1, C₃ > 1 and
+    /// C₄ > 1.
     ///
-    /// *Corrected*: (5.12) asks for D_A ≥ B₁ + D_B/C₁, which the printed (5.23) does not keep. Each inequality bounds
-    /// one density from below by an increasing function of another, so the least solution is where repeated
-    /// substitution from 1 ends.
+    /// *Corrected*: (5.12) demands D_A ≥ B₁ + D_B/C₁, which the printed (5.23) violates. Each inequality bounds one
+    /// density from below by an increasing function of another. So repeated substitution, beginning with 1, converges
+    /// to the least solution.
     pub fn least_densities(&self, rho: f64, angle_rad: f64) -> Option<Densities> {
         let ([c1, c2, c3, c4], [b1, b3, b4]) = self.constants(rho, angle_rad);
         if !(c1 > 1.0 && c1 * c2 > 1.0 && c3 > 1.0 && c4 > 1.0) {
             return None;
         }
-        // Every round trip shrinks what is missing by 1/(C₁C₂), 1/C₃ or 1/C₄; near 1 that takes long, and the rest is
-        // no news.
+        // Each round multiplies the error by 1/(C₁C₂), 1/C₃ or 1/C₄. Near 1 that takes long, and a small error does no
+        // harm.
         let mut d = Densities { a: 1.0, b: 1.0, c: 1.0 };
         for _ in 0..100_000 {
             let next = Densities {

@@ -1,4 +1,12 @@
 //! Points of types B and C: segments that are encroached or too large, and where they are split.
+//!
+//! ```text
+//!           . - ~ ~ - .         Type B: no vertex but free ones in the circle is visible from x y.
+//!        .´      u      `.      The free ones, here u, are deleted; x y is split in its middle part |s|(1 − δ₁).
+//!      x ──┤░░░░░░░░░░░├── y    Type C: a vertex w that is not free is visible. It stays, the free ones are
+//!        `.      w      .´      deleted, and x y is split in its middle part |s|(1 − μ).
+//!           ` - ~ ~ - ´
+//! ```
 
 use super::chords::{Hull, curve_of, shape_of, shell_between};
 use super::steiner::Encroached;
@@ -16,21 +24,22 @@ use crate::refine::StopReason;
 /// Vertices in the diametral circle of a subcurve.
 #[derive(Default)]
 struct Encroachers {
-    /// Free ones that see the subcurve.
+    /// Free vertices from which the subcurve is visible.
     free: Vec<VertexId>,
-    /// All that are not free, seen or not.
+    /// All vertices that are not free, visible or not.
     others: Vec<VertexId>,
-    /// Whether any of those sees it.
+    /// Whether the subcurve is visible from one of `others`: its split point is of type C.
     type_c: bool,
 }
 
 impl Gcdr<'_> {
+    /// The coordinates of the ends of a subcurve.
     pub(super) fn ends_of(&self, subcurve: &Subcurve) -> [Point; 2] {
         subcurve.ends.map(|v| self.mesh.point(v))
     }
 
-    /// Splits a subcurve that is larger than asked.
-    pub(super) fn look_at_piece(&mut self, id: SubcurveId) {
+    /// Tests a subcurve from the queue: splits it where it is larger than permitted.
+    pub(super) fn look_at_subcurve(&mut self, id: SubcurveId) {
         self.state.subcurves.get_mut(id).queued = false;
         let subcurve = *self.state.subcurves.get(id);
         if subcurve.is_gone() || self.is_spent() {
@@ -42,9 +51,9 @@ impl Gcdr<'_> {
         }
     }
 
-    /// Lines 7–14 of Algorithm 2: free vertices in the diametral circle go, and a point of type B or C comes. A spoke
-    /// takes its whole fan with it. `latest` is the parent where no vertex crowds the segment. `false` where
-    /// coordinates cannot hold it.
+    /// Lines 7–14 of Algorithm 2: deletes the free vertices in the diametral circle and inserts a point of type B or C.
+    /// A spoke is split together with its whole fan. `latest` is the parent of a point of type B, and `why` names the
+    /// counter. `false` where coordinates cannot hold the point.
     pub(super) fn split_segment(&mut self, id: SubcurveId, latest: Option<VertexId>, why: &'static str) -> bool {
         let subcurve = *self.state.subcurves.get(id);
         if let Standing::OfFan(fan) = subcurve.standing {
@@ -64,7 +73,7 @@ impl Gcdr<'_> {
         true
     }
 
-    /// The parameter that the strategy chooses: the place on the curve above its place on the chord.
+    /// The parameter of the strategy's point: on the curve above the place that the strategy chooses on the chord.
     fn choose(&mut self, subcurve: &Subcurve, type_c: bool) -> Option<f64> {
         let shape = shape_of(&self.state.domain, subcurve);
         let [t0, t1] = subcurve.t;
@@ -85,7 +94,7 @@ impl Gcdr<'_> {
         Some(found.first().copied().unwrap_or_else(|| shape.bisector_crossing(t0, t1)))
     }
 
-    /// Rule 4 of Definition 2.5.
+    /// The nearest of some vertices that is visible from `v`: Rule 4 of Definition 2.5.
     fn nearest_seen(&self, v: VertexId, vertices: Vec<VertexId>) -> Option<VertexId> {
         let away = |w: &VertexId| self.mesh.point(*w).distance_squared(self.mesh.point(v));
         let seen = vertices.into_iter().filter(|&w| self.mesh.see_each_other(v, w));
@@ -96,7 +105,7 @@ impl Gcdr<'_> {
         let mut found = Encroachers::default();
         let Some(side) = self.side_of(id) else { return found };
         for side in [side, self.mesh.topology().twin(side)] {
-            // The apex sees the segment, and if it lies outside the circle, so does whatever else sees it from there.
+            // If the apex lies outside the circle, so do all vertices on its side from which the segment is visible.
             if !self.mesh.has_apex_in_half_circle(side) {
                 continue;
             }
@@ -121,7 +130,7 @@ impl Gcdr<'_> {
         self.origins[v] == VertexSource::Free
     }
 
-    /// Deletes free vertices, some of which may be given twice.
+    /// Deletes free vertices; some may be listed twice.
     fn delete(&mut self, mut vertices: Vec<VertexId>) {
         vertices.sort_unstable();
         vertices.dedup();
@@ -133,7 +142,7 @@ impl Gcdr<'_> {
 
     fn side_of(&self, id: SubcurveId) -> Option<HalfEdge> {
         let [x, y] = self.state.subcurves.get(id).ends;
-        // A corner may have as many neighbours as there are curves at it; the other end has a handful.
+        // A corner has as many neighbours as it has curves, the other end a few: the search starts there.
         let topology = self.mesh.topology();
         match self.origins[x] {
             VertexSource::Input(_) => topology.side_between(y, x).map(|s| topology.twin(s)),
@@ -141,8 +150,16 @@ impl Gcdr<'_> {
         }
     }
 
-    /// Cuts all curves of a fan at half its radius, and where their chords between there and the old radius might come
-    /// to cross, at more distances in between.
+    /// Cuts all curves of a fan at half its radius. Where their chords between there and the old radius might cross,
+    /// they are cut at more distances in between.
+    ///
+    /// ```text
+    ///                  x      |px| = |py| is the old radius, |px₁| = |py₁| the new one, half of it.
+    ///              x₂-´ :     From there to the old radius the spokes are cut in 1, 2, 4, … equal steps,
+    ///          x₁-´ :    :    here 2: |px₂| = |py₂|. The number is the least for which the hulls of
+    ///      .-´   :   :   :    x₁x₂ and x₂x are apart from those of y₁y₂ and y₂y.
+    ///   p────────y₁──y₂──y
+    /// ```
     fn cut_fan(&mut self, id: FanId, why: &'static str) -> bool {
         let fan = &self.fans[id];
         let (corner, radius) = (VertexId(fan.corner.0), 0.5 * fan.radius);
@@ -161,7 +178,7 @@ impl Gcdr<'_> {
         true
     }
 
-    /// Parameters, ascending, at which spokes are cut from `radius` on outward: so many shells that the hulls of
+    /// The ascending parameters at which each spoke is cut, from `radius` outward: so many shells that the hulls of
     /// neighbours are apart.
     fn shells(&self, corner: VertexId, radius: f64, spokes: &[SubcurveId]) -> Vec<(SubcurveId, Vec<f64>)> {
         const SHELLS_MOST: u32 = 64;
@@ -190,8 +207,8 @@ impl Gcdr<'_> {
         }
     }
 
-    /// Ascending parameters at which a spoke leaves the circles of ascending radii around its corner; NaN where it does
-    /// not.
+    /// Ascending parameters at which a spoke leaves the circles of ascending `radii` around its corner; NaN where it
+    /// does not.
     fn leaves(&self, spoke: SubcurveId, corner: VertexId, radii: &[f64]) -> Vec<f64> {
         let subcurve = self.state.subcurves.get(spoke);
         let end = if subcurve.ends[0] == corner { End::Start } else { End::Finish };
@@ -204,7 +221,7 @@ impl Gcdr<'_> {
         ts
     }
 
-    /// The hulls of the parts of a spoke that do not end at its corner.
+    /// The hulls of the parts of a spoke, cut at `ts`, that do not end at its corner.
     fn hulls_outside(&self, spoke: SubcurveId, corner: VertexId, ts: &[f64]) -> Vec<Hull> {
         let subcurve = self.state.subcurves.get(spoke);
         let bounds: Vec<f64> =
@@ -212,8 +229,8 @@ impl Gcdr<'_> {
         bounds.windows(2).map(|t| Hull::of(&self.state.domain, subcurve, [t[0], t[1]])).collect()
     }
 
-    /// Splits a subcurve at a parameter, after the deletion of `free` vertices that encroach it. `None` where coordinates
-    /// cannot hold it.
+    /// Splits a subcurve at a parameter, after it has deleted the `free` vertices that encroach it. Returns the new
+    /// vertex; `None` where coordinates cannot hold it.
     fn split_at(&mut self, id: SubcurveId, t: f64, free: Vec<VertexId>, why: &'static str) -> Option<VertexId> {
         let subcurve = *self.state.subcurves.get(id);
         if !self.has_room(&subcurve, &[t]) {
@@ -232,14 +249,14 @@ impl Gcdr<'_> {
         let parts = self.add_parts(&subcurve, &[(t, v)]);
         self.mesh.part(side, at, [parts[0], parts[1]]);
         parts.into_iter().for_each(|part| self.state.enqueue(part));
-        // What lies to the left and right of a subcurve lies there of its parts.
+        // Regions stay: what lies to the left or right of the subcurve lies on the same side of its parts.
         self.settle(false);
         Some(v)
     }
 
-    /// Splits pieces at ascending parameters, all at once: between two of a fan chords may cross. `free` vertices,
-    /// those that encroach, are deleted first. `None` where coordinates cannot hold it: the place is unresolved; if that
-    /// shows only half-way, the run is over.
+    /// Splits subcurves at ascending parameters, all at once: if those of a fan were split one after the other, chords
+    /// might cross in between. The `free` vertices that encroach are deleted first. `None` where coordinates cannot
+    /// hold a point: its place is unresolved. If that is found half-way, the run ends.
     fn split_together(
         &mut self,
         cuts: &[(SubcurveId, Vec<f64>)],
@@ -290,8 +307,8 @@ impl Gcdr<'_> {
         at.iter().copied().chain([(subcurve.t[1], subcurve.ends[1])]).map(&mut add).collect()
     }
 
-    /// Whether points of a subcurve can part it: coordinates tell them from each other and from the ends, and they lie in
-    /// the diametral circle.
+    /// Whether a subcurve can be split at ascending parameters: its points differ from each other and from the ends by
+    /// the resolution, and lie in the diametral circle.
     fn has_room(&self, subcurve: &Subcurve, ts: &[f64]) -> bool {
         let [x, y] = self.ends_of(subcurve);
         let shape = shape_of(&self.state.domain, subcurve);
@@ -306,7 +323,7 @@ impl Gcdr<'_> {
             && follows(subcurve.t[1], y)
     }
 
-    /// Inserts the point of a subcurve at a parameter; the subcurve lies on no side any more.
+    /// Inserts the point of a subcurve at a parameter. The subcurve must not lie on an edge any more.
     fn insert_on(&mut self, subcurve: &Subcurve, t: f64, why: &'static str) -> Option<VertexId> {
         let at = shape_of(&self.state.domain, subcurve).point(t);
         let near = self.mesh.topology().sides_from(subcurve.ends[1]).next().map_or(TriangleId(0), HalfEdge::triangle);
@@ -320,13 +337,14 @@ impl Gcdr<'_> {
         Some(self.add_on(subcurve, why))
     }
 
-    /// Counts a vertex on a subcurve, the next of all.
+    /// Notes a vertex on a subcurve, whose number is the next one.
     fn add_on(&mut self, subcurve: &Subcurve, why: &'static str) -> VertexId {
         self.alive += 1;
         self.state.counters.add(why, 1);
         self.origins.push(VertexSource::OnCurve(curve_of(subcurve)))
     }
 
+    /// Ends the run: coordinates cannot separate points at a place.
     pub(super) fn stop_too_near(&mut self, at: Point) {
         self.state.too_near.push(at);
         self.state.reason = StopReason::Arithmetic;

@@ -1,4 +1,16 @@
-//! Who chooses the point inside a selection region.
+//! Steiner strategies: the choice of the point inside a selection region.
+//!
+//! ```text
+//!         . - ~ ~ - .      Selection disk of the skinny triangle p q r, whose shortest edge is p q:
+//!      .´   . - .   `.     around the circumcenter c, of radius reach = r(1 − δ₂) or r − δ₂ρ̄|pq|,
+//!     r    : reach :  :    where r is the circumradius. The point is chosen in it.
+//!     :    :   c   :  :
+//!      `.   ` - ´   .´
+//!       p ─ ~ ~ ─ q
+//!
+//!   x ●──────┤░░░░░░░░░░░░░░├──────● y   Selection interval of the segment s = x y: shares of the way
+//!       interval[0]    interval[1]       from x to y, in the middle part |s|(1 − δ₁) or |s|(1 − μ).
+//! ```
 
 use super::parameters::radius_edge_of;
 use crate::geometry::boxes::BoxHierarchy;
@@ -6,13 +18,13 @@ use crate::geometry::rng::Rng;
 use crate::geometry::{Point, Rect, direction};
 use std::f64::consts::TAU;
 
-/// A skinny triangle, and the disk from which its point is chosen; in the domain's own coordinates.
+/// A skinny triangle, and the disk in which its point is chosen; in the domain's own coordinates.
 #[derive(Clone, Copy, Debug)]
 pub struct Skinny {
     /// Counter-clockwise; the first two are the ends of its shortest edge.
     pub corners: [Point; 3],
-    /// The corner across each side (0: between corners 0 and 1, and so on); `None` where a segment stands, or nothing
-    /// is beyond.
+    /// The corner across each side (0: between corners 0 and 1, and so on); `None` where the side is a segment, or on
+    /// the hull.
     pub across: [Option<Point>; 3],
     /// The circumcenter.
     pub center: Point,
@@ -20,22 +32,23 @@ pub struct Skinny {
     pub radius: f64,
     /// Radius of the disk around `center`, as the strategy's [`Disks`] say.
     pub reach: f64,
-    /// The longest edge that is asked for there; infinite where none is.
+    /// The longest edge permitted there; infinite where there is no limit.
     pub size: f64,
 }
 
-/// An encroached segment, and the interval from which its point is chosen.
+/// An encroached segment, and the interval in which its point is chosen.
 #[derive(Clone, Copy, Debug)]
 pub struct Encroached {
     /// The start and the end of the segment.
     pub ends: [Point; 2],
     /// Shares of the way from end to end: the middle part of 1−δ₁ (type B) or 1−μ (type C).
     pub interval: [f64; 2],
-    /// Whether a vertex of a segment lies in the diametral circle and is seen.
+    /// Whether a visible vertex that is not free lies in the diametral circle.
     pub type_c: bool,
 }
 
-/// Which skinny triangle is refined first: Algorithm 2 leaves it open, and it makes up to a fourth of the triangles.
+/// Which skinny triangle is refined first. Algorithm 2 leaves it open; it changes the number of triangles by up to a
+/// fourth.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Order {
     /// The triangle with the smallest angle.
@@ -51,43 +64,43 @@ pub enum Order {
 pub enum Disks {
     /// r(1−δ₂), as printed (Definition 3.1).
     Alike,
-    /// r − δ₂ρ̄l: the skinnier the triangle, the larger a part of its circle, as in the second kind of disk of
-    /// Chernikov & Chrisochoides (2009).
+    /// r − δ₂ρ̄l: a larger part of the circle for a skinnier triangle, as in the second kind of disk of Chernikov &
+    /// Chrisochoides (2009).
     ///
-    /// That is Definition 3.1 with a δ₂ of the triangle's own, δ = δ₂ρ̄l/r, and Theorem 4.6 holds with the constants
-    /// printed: case (1) since R(p) ≥ δr = C₁l; case (2) since Lemma 4.5 needs no more than δ ≥ l/r, and δ₂ρ̄ ≥ 1 by
-    /// (3.1); case (3) since half the segment, √(r² − (r − δ₂ρ̄l)²) at least, grows with r, and for r = ρ̄l is what
-    /// (4.5) says. So insertion radii are bounded, and refinement ends, where C₁C₂ > 1. Densities are not bounded so:
+    /// That is Definition 3.1 with δ = δ₂ρ̄l/r in place of δ₂, a value for each triangle. Theorem 4.6 holds with the
+    /// constants as printed. Case (1): R(p) ≥ δr = C₁l. Case (2): Lemma 4.5 needs only δ ≥ l/r, and δ₂ρ̄ ≥ 1 by (3.1).
+    /// Case (3): half the segment is at least √(r² − (r − δ₂ρ̄l)²). That grows with r, and at r = ρ̄l it is the value
+    /// of (4.5). So insertion radii are bounded, and refinement terminates, where C₁C₂ > 1. Densities are not bounded:
     /// B₁ = (2−δ)/δ has no largest value.
     ByShape,
 }
 
-/// F_A, F_B and F_C of Algorithm 2. What it answers is moved to the nearest place in the region, unless it is
+/// F_A, F_B and F_C of Algorithm 2. The point is moved to the nearest place in the region, unless the strategy is
 /// [free](Self::is_free).
 pub trait SteinerStrategy {
-    /// F_A: a point of the selection disk. Triangles that are only too large are asked for, too, unless the strategy is
-    /// free.
+    /// F_A: a point of the selection disk. It is also called for triangles that are only too large, unless the strategy
+    /// is free.
     fn in_disk(&mut self, triangle: &Skinny) -> Point;
 
-    /// F_B and F_C: a share of the way from end to end, within the interval.
+    /// F_B and F_C: the split point, as a share of the way from end to end within the interval.
     fn on_segment(&mut self, _segment: &Encroached) -> f64 {
         0.5
     }
 
-    /// Which triangle comes first: another order than by angle is for strategies whose points are far from the shortest
+    /// Which triangle comes first. Another order than by angle suits strategies whose points are far from the shortest
     /// edge.
     fn order(&self) -> Order {
         Order::SmallestAngle
     }
 
-    /// How large the disks are that its points of type A are kept in. `ByShape` is for points that are kept far from
-    /// the shortest edge by themselves: above 30° only disks that are alike shrink to centres, and points that come
-    /// near edges there may go on to the budget.
+    /// The size of the disks for its points of type A. `ByShape` is for strategies whose points are far from the
+    /// shortest edge in any case. Above 30° only equal disks shrink to centres, and a strategy that places points near
+    /// edges there may not end before the budget.
     fn disks(&self) -> Disks {
         Disks::Alike
     }
 
-    /// Whether its points of type A are taken as they are, region or not. Then nothing is proven.
+    /// Whether its points of type A are taken as they are, in the region or not. Then nothing is proven.
     fn is_free(&self) -> bool {
         false
     }
@@ -103,20 +116,20 @@ impl SteinerStrategy for Center {
     }
 }
 
-/// The off-centre (Üngör 2004): on the way to the circumcenter, no farther from the shortest edge than makes a triangle
-/// with it that is not skinny. It is never nearer than 0.95cos²(κ/2)/sin κ > ρ̄ edges, so it lies in its
-/// [disk](Disks::ByShape) as long as δ₂ ≤ 1.
+/// The off-centre (Üngör 2004): the place on the way to the circumcenter that is farthest from the shortest edge while
+/// its triangle with that edge is not skinny. It is at least 0.95cos²(κ/2)/sin κ > ρ̄ edge lengths from that edge, so
+/// it lies in its [disk](Disks::ByShape) as long as δ₂ ≤ 1.
 #[derive(Clone, Copy, Debug)]
 pub struct OffCenter {
-    /// Length from the shortest edge, in units of it.
+    /// Distance from the shortest edge, in lengths of that edge.
     height: f64,
     free: bool,
 }
 
 impl OffCenter {
-    /// `free`: outside the selection disks, too.
+    /// `free`: points may lie outside the selection disks.
     pub fn new(angle_min_rad: f64, free: bool) -> Self {
-        // A triangle of that very height would be on the brink: it is 5 % flatter.
+        // A triangle of exactly that height might be skinny by rounding: it is 5 % lower.
         Self { height: 0.475 / libm::tan(0.5 * angle_min_rad), free }
     }
 
@@ -146,11 +159,12 @@ impl SteinerStrategy for OffCenter {
     }
 }
 
-/// On the border of a petal triangles would be on the brink.
+/// A point on the border of a petal might make a skinny triangle by rounding: the petal is smaller by this factor.
 const PETAL: f64 = 0.98;
 
-/// The locally optimal point (Erten & Üngör 2007): of the places that make a triangle with the shortest edge which is
-/// not skinny (its *petal*), the one farthest from all vertices that the triangle and its neighbours know.
+/// The locally optimal point (Erten & Üngör 2007). The *petal* of the shortest edge holds the places whose triangle
+/// with that edge is not skinny. The point is the place in it that is farthest from the vertices of the triangle and
+/// its neighbours.
 #[derive(Clone, Copy, Debug)]
 pub struct Optimal {
     off_center: OffCenter,
@@ -158,7 +172,7 @@ pub struct Optimal {
 }
 
 impl Optimal {
-    /// `free`: outside the selection disks, too.
+    /// `free`: points may lie outside the selection disks.
     pub fn new(angle_min_rad: f64, free: bool) -> Self {
         Self { off_center: OffCenter::new(angle_min_rad, free), rho: radius_edge_of(angle_min_rad) }
     }
@@ -174,8 +188,8 @@ impl SteinerStrategy for Optimal {
         let petal = p.midpoint(q) + toward * height;
         let known = || [p, q, r].into_iter().chain(triangle.across.into_iter().flatten());
         let room = |at: Point| known().map(|v| v.distance(at)).fold(f64::INFINITY, f64::min);
-        // Centers of the circles through a longer side and what lies across it; where they lie outside, the way to them
-        // leaves the petal.
+        // Circumcenters of the neighbours across the longer sides. If one lies outside the petal, the candidate is
+        // where the way to it leaves the petal.
         let around = [(q, r, triangle.across[1]), (r, p, triangle.across[2])];
         let vertices = around.into_iter().filter_map(|(a, b, across)| circumcenter([b, a, across?]));
         let candidates = vertices.filter_map(|voronoi| {
@@ -210,7 +224,7 @@ fn circumcenter([a, b, c]: [Point; 3]) -> Option<Point> {
     Some(a + to_center / double).filter(|p| double != 0.0 && p.is_finite())
 }
 
-/// Where the segment from `a` to `b` first leaves a disk or enters it: the last place on it that the disk's border has.
+/// The last place on the segment from `a` to `b` that lies on the border of a disk.
 fn leaves_disk(a: Point, b: Point, center: Point, radius: f64) -> Option<Point> {
     let (d, f) = (b - a, a - center);
     let (dd, df, ff) = (d.hypot2(), d.dot(f), f.hypot2() - radius * radius);
@@ -224,7 +238,8 @@ fn leaves_disk(a: Point, b: Point, center: Point, radius: f64) -> Option<Point> 
         .map(|t| a + d * t)
 }
 
-/// The border of every region, as near to a corner or an end as may be (experiment 1 of the paper).
+/// The place on the border of the region that is nearest to a corner of the triangle or an end of the segment
+/// (experiment 1 of the paper).
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Extreme;
 
@@ -238,12 +253,12 @@ impl SteinerStrategy for Extreme {
     }
 }
 
-/// Anywhere in the region, by seeded chance (experiment 2).
+/// A random place in the region, seeded (experiment 2).
 #[derive(Clone, Debug)]
 pub struct Random(Rng);
 
 impl Random {
-    /// The strategy with a seed: equal seeds choose equal points in equal runs.
+    /// The strategy with a seed: the same seed gives the same points in the same run.
     pub fn new(seed: u64) -> Self {
         Self(Rng::new(seed))
     }
@@ -261,7 +276,7 @@ impl SteinerStrategy for Random {
     }
 }
 
-/// The point of a square grid nearest to the centre, where the region has one; else the centre.
+/// The point of a square grid nearest to the centre, if it lies in the region; else the centre.
 #[derive(Clone, Copy, Debug)]
 pub struct Grid {
     /// The distance between neighbouring grid points; the origin is one of them.
@@ -276,7 +291,7 @@ impl SteinerStrategy for Grid {
     }
 }
 
-/// The given place nearest to the centre, where the region has one; else the centre.
+/// The given place nearest to the centre, if it lies in the region; else the centre.
 pub struct Places {
     places: Vec<Point>,
     boxes: BoxHierarchy,
@@ -299,8 +314,8 @@ impl SteinerStrategy for Places {
     }
 }
 
-/// On the way from the shortest edge to the centre, where the new edges to its ends have the length that is asked for;
-/// the centre where that is farther, or nothing is asked for.
+/// The place on the way from the shortest edge to the centre at which the new edges to its ends have the permitted
+/// length. The centre, where that is nearer or there is no limit.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct BySize;
 

@@ -1,4 +1,17 @@
-//! Points of type A: which triangles miss a bound, whom a corner exempts, and what mends the others.
+//! Points of type A: which triangles miss a bound, which of them a corner exempts, and how the others are removed.
+//!
+//! ```text
+//!           b                        b     x                           ╱
+//!        .´ │                     .´ │     ┃                         a
+//!     .´  t │                  .´  t │     ┃ s                     ╱ │`.
+//!   d    ·┄┄┼┄┄┄┄ p          d    ·┄┄┼┄┄┄┄┄╋┄┄┄ p                ╱   │  `.
+//!     `.    │                  `.    │     ┃                   q     │ t  c
+//!        `. │                     `. │     ┃                     ╲   │  .´
+//!           a                        a     y                       ╲ │.´
+//!                                                                    b ╲
+//!   p is visible from t:     s occludes p:                 a b, the shortest edge of t, lies across
+//!   p is inserted            p is rejected, s is split     the sharp corner q, |qa| = |qb|: t is exempt
+//! ```
 
 use super::parameters::radius_edge_of;
 use super::steiner::{Disks, Order, Skinny};
@@ -14,10 +27,10 @@ use crate::plane::refinement::Flaw;
 use crate::plane::triangulation::{GHOST, HalfEdge};
 use crate::refine::{Patience, StopReason};
 
-/// Badness of an octave of length: 2^-40 is as short as it gets.
+/// The badness of an octave of length: 2^-40 has badness 1.
 const OCTAVE: f64 = 1.0 / 40.0;
 
-/// How long angles may take to get larger with a strategy's order of triangles.
+/// The patience for a strategy's order of triangles.
 pub(super) fn patience(order: Order, angle_min_rad: f64) -> Patience {
     match order {
         Order::SmallestAngle => queue::by_angle(1.0 - libm::sin(DETAIL_RAD) / libm::sin(angle_min_rad)),
@@ -26,11 +39,12 @@ pub(super) fn patience(order: Order, angle_min_rad: f64) -> Patience {
 }
 
 impl Gcdr<'_> {
+    /// The coordinates of the corners of a triangle.
     pub(super) fn corners(&self, t: TriangleId) -> [Point; 3] {
         self.mesh.topology().corners(t).map(|v| self.mesh.point(v))
     }
 
-    /// Judges the triangles made since the last time; where a subcurve has moved, they get their regions first.
+    /// Assesses the triangles made since the last call. `label`: gives them regions first, since a chord has changed.
     pub(super) fn settle(&mut self, label: bool) {
         let mut touched = std::mem::take(&mut self.touched);
         self.mesh.take_touched(&mut touched);
@@ -59,11 +73,11 @@ impl Gcdr<'_> {
     }
 
     fn push_skinny(&mut self, candidate: Candidate, corners: [Point; 3], sin2: f64) {
-        // Lengths by octaves below the unit to which the domain is scaled.
+        // Lengths in octaves below the unit of the unit frame.
         let octaves = |length: f64| -libm::log2(length) * OCTAVE;
         let badness = match self.strategy.order() {
             _ if self.unavoidable_split(candidate.0).is_some() => 1.0,
-            // By the sine: its square would crowd what is nearly good enough.
+            // By the sine: its square would put mild cases too near to each other.
             Order::SmallestAngle => 1.0 - (sin2 / self.state.sin2_min).sqrt(),
             Order::ShortestEdge => octaves((0..3).map(|i| edge2(corners, i)).fold(f64::INFINITY, f64::min).sqrt()),
             Order::SmallestCircle => octaves(circumcircle(corners).1),
@@ -75,6 +89,8 @@ impl Gcdr<'_> {
         queue::is_stale(self.mesh.topology(), candidate)
     }
 
+    /// Refines a queued triangle, if it still exists and is not exempt: chooses a point and inserts it, or splits a
+    /// segment.
     pub(super) fn split_triangle(&mut self, candidate: Candidate) {
         if self.is_stale(&candidate) {
             return;
@@ -102,12 +118,12 @@ impl Gcdr<'_> {
             return self.encroach(candidate, subcurve, parent);
         }
         let p = self.choose_in_disk(t, region, (center, radius), skinny);
-        self.kill(candidate, p, parent);
+        self.remove_triangle(candidate, p, parent);
     }
 
-    /// The segment of a triangle that must be split whatever else is: a vertex that will stay sees it at an angle so
-    /// wide that the triangle on it will be skinny as long as it stands. Split at once, it spares free vertices that
-    /// would be deleted later. Its point is of type C, which needs no rejected point to be proven.
+    /// The segment of a triangle that must be split in any case: it subtends so wide an angle at a vertex that is never
+    /// deleted that the triangle on it stays skinny. An early split avoids free vertices that would be deleted later.
+    /// Its point is of type C, for which the proof needs no rejected point.
     fn unavoidable_split(&self, t: TriangleId) -> Option<SubcurveId> {
         let topology = self.mesh.topology();
         let widest = 1.0 - 2.0 * self.state.sin2_min;
@@ -129,14 +145,15 @@ impl Gcdr<'_> {
         turns.into_iter().min_by(|e, f| length(e).total_cmp(&length(f))).expect("three edges")
     }
 
-    /// Rules 2 and 3 of Definition 2.5. Ids are given in the order of insertion.
+    /// The later one of the ends of the shortest edge: Rules 2 and 3 of Definition 2.5. Ids ascend in the order of
+    /// insertion.
     fn latest_of_shortest(&self, vertices: [VertexId; 3]) -> VertexId {
         let [a, b, _] = self.shortest_edge_first(vertices);
         a.max(b)
     }
 
-    /// Whether the shortest edge of a triangle lies across a sharp corner, with its ends equally far from it: an angle
-    /// that the input has.
+    /// Whether the shortest edge of a triangle lies across a sharp corner, with its ends equally far from it: its small
+    /// angle is that of the input.
     fn is_exempt(&self, vertices: [VertexId; 3]) -> bool {
         let shortest = self.shortest_edge_first(vertices);
         let [u, v] = [shortest[0], shortest[1]].map(|v| self.origins[v]);
@@ -155,7 +172,7 @@ impl Gcdr<'_> {
         }
     }
 
-    /// F_A, moved into the disk unless the strategy is free.
+    /// The point of F_A, moved into the disk unless the strategy is free.
     fn choose_in_disk(&mut self, t: TriangleId, region: RegionId, circle: (Point, f64), skinny: bool) -> Point {
         let (center, radius) = circle;
         let reach = self.reach(t, radius);
@@ -191,8 +208,8 @@ impl Gcdr<'_> {
         }
     }
 
-    /// The radius of a triangle's selection disk. What is only too large has no shorter edge than r/ρ̄: to it disks are
-    /// alike.
+    /// The radius of a triangle's selection disk. A triangle that is only too large has no edge shorter than r/ρ̄: both
+    /// kinds of disks are equal for it.
     fn reach(&self, t: TriangleId, radius: f64) -> f64 {
         let spared = match self.strategy.disks() {
             Disks::Alike => radius,
@@ -205,8 +222,8 @@ impl Gcdr<'_> {
         radius - self.options.regions.delta2 * spared
     }
 
-    /// Inserts a point that removes a triangle, or splits the nearest segment that hides it from there.
-    fn kill(&mut self, candidate: Candidate, p: Point, parent: Option<VertexId>) {
+    /// Removes a triangle: inserts `p`, or splits the nearest segment that occludes `p` from the triangle.
+    fn remove_triangle(&mut self, candidate: Candidate, p: Point, parent: Option<VertexId>) {
         let (t, vertices) = candidate;
         let place = self.mesh.point(vertices[0]);
         if !insert::in_range(p) {
@@ -222,7 +239,7 @@ impl Gcdr<'_> {
         };
         self.mesh.cavity(p, location, &mut self.state.cavity);
         if !self.state.cavity.triangles.contains(&t) {
-            // Rounding took the point out of the triangle's circle, or onto a vertex.
+            // By rounding the point lies outside the triangle's circle, or on a vertex.
             return self.state.too_near.push(place);
         }
         let v = self.mesh.fill(p, &self.state.cavity);
@@ -236,14 +253,14 @@ impl Gcdr<'_> {
         self.settle(false);
     }
 
-    /// The chosen point is rejected: Definition 2.1.
+    /// Rejects the chosen point and splits the segment on `side` (Definition 2.1).
     fn reject(&mut self, candidate: Candidate, side: HalfEdge, parent: Option<VertexId>) {
         let Some(subcurve) = self.mesh.topology().subcurve(side) else { return };
         self.state.counters.add("rejected", 1);
         self.encroach(candidate, subcurve, parent);
     }
 
-    /// Splits a segment that a triangle encroaches, and comes back to the triangle if it still stands.
+    /// Splits a segment that a triangle encroaches, and assesses the triangle again if it still exists.
     fn encroach(&mut self, candidate: Candidate, subcurve: SubcurveId, parent: Option<VertexId>) {
         if self.split_segment(subcurve, parent, "vertices_segment") && !self.is_stale(&candidate) {
             self.assess(candidate.0);

@@ -1,7 +1,15 @@
 //! Protecting balls around acute corners: B(p), open, of radius d(p) (Pav & Walkington 2005, section 3).
 //!
-//! At birth d(p) = (√2−1)·lfs₀(p), capped so that what lies inside, which is never refined, meets the size limits. A
-//! ball then only shrinks, by β, when a vertex of a curve that does not end at p comes in. The closed balls never meet.
+//! At first d(p) = (√2−1)·lfs₀(p). It is capped so that the triangles inside, which are never refined, meet the size
+//! limits. From then on a ball only shrinks, by β, when a vertex of a curve that does not end at p lies in it. The
+//! closed balls never meet.
+//!
+//! ```text
+//!             ╱ x `.
+//!           ╱       :     x, y: where the curves leave B(p), at the distance d(p) from p
+//!         ╱   B(p)   :    p x, p y: the spokes, counter-clockwise as in the star of p
+//!       p ────────── y    pxy has the angle of the drawing: it is exempt
+//! ```
 
 use crate::curve::Curve;
 use crate::domain::Domain;
@@ -10,35 +18,39 @@ use crate::ids::{BallId, IdVec, PointId, SubcurveId, TriangleId, VertexId};
 use crate::mesh::BallReason;
 use crate::size::SizeField;
 
-/// A ball that stands.
+/// A protecting ball.
 #[derive(Clone, Debug)]
 pub struct Ball {
+    /// The corner p.
     pub corner: PointId,
+    /// The place of p.
     pub center: Point,
+    /// d(p), in the unit frame.
     pub radius: f64,
+    /// What set the radius.
     pub why: BallReason,
     /// The spoke of each incident curve, counter-clockwise as in the domain's star.
     pub spokes: Vec<SubcurveId>,
-    /// Distance of the nearest vertex that came in since the last shrinking.
+    /// Distance from p to the nearest vertex of a curve that does not end at p; only those inside are noted.
     pub intruder: f64,
-    /// Corner arcs as placed; empty while they wait to be placed.
+    /// Corner arcs as placed; empty while they are due.
     pub arcs: Vec<Curve>,
-    /// Live pieces of those arcs.
-    pub arc_pieces: Vec<SubcurveId>,
-    /// Triangles that this ball exempt when they were last looked at (their circumcenters lay in it).
+    /// The subcurves of those arcs in C′.
+    pub arc_subcurves: Vec<SubcurveId>,
+    /// Triangles that this ball exempted when they were last tested: their circumcenters lay in it.
     pub exempt: Vec<(TriangleId, [VertexId; 3])>,
 }
 
-/// All balls, and who has one.
+/// All balls, by id and by point.
 pub struct Balls {
     balls: IdVec<BallId, Ball>,
     of_point: IdVec<PointId, Option<BallId>>,
-    /// Boxes of the balls at birth: radii only shrink.
+    /// Boxes of the balls at first: radii only shrink.
     index: BoxHierarchy,
 }
 
 impl Balls {
-    /// Balls at every acute corner of a domain.
+    /// A ball at every acute corner of a domain, of its first radius.
     pub fn at_birth(domain: &Domain, field: &SizeField) -> Self {
         let lfs0 = domain.lfs0();
         let mut balls = IdVec::new();
@@ -57,7 +69,7 @@ impl Balls {
                     spokes: Vec::new(),
                     intruder: f64::INFINITY,
                     arcs: Vec::new(),
-                    arc_pieces: Vec::new(),
+                    arc_subcurves: Vec::new(),
                     exempt: Vec::new(),
                 })
             });
@@ -67,24 +79,28 @@ impl Balls {
         Self { balls, of_point, index }
     }
 
+    /// The ball of a point, if it has one.
     pub fn of_point(&self, p: PointId) -> Option<BallId> {
         self.of_point[p]
     }
 
+    /// A ball.
     pub fn get(&self, id: BallId) -> &Ball {
         &self.balls[id]
     }
 
+    /// A ball, to be changed.
     pub fn get_mut(&mut self, id: BallId) -> &mut Ball {
         &mut self.balls[id]
     }
 
+    /// All ids, ascending by corner.
     pub fn ids(&self) -> impl DoubleEndedIterator<Item = BallId> + use<> {
         self.balls.ids()
     }
 
-    /// The ball that holds a place, and the place's distance from its corner. The balls are disjoint: there is at most
-    /// one.
+    /// The open ball in which a place lies, and the distance of the place from the corner. The balls are disjoint, so
+    /// there is at most one.
     pub fn holding(&self, at: Point) -> Option<(BallId, f64)> {
         let mut held = None;
         self.index.meeting(Rect::from_points(at, at), |i| {
@@ -98,7 +114,8 @@ impl Balls {
         held
     }
 
-    /// The ball that wholly holds the corners of a triangle, border included up to the rounding of points on it.
+    /// The ball in which all three corners of a triangle lie. Its border is included, up to `rounding` of the points on
+    /// it.
     pub fn holding_all(&self, corners: [Point; 3], rounding: f64) -> Option<BallId> {
         let mut held = None;
         self.index.meeting(Rect::from_points(corners[0], corners[0]).inflate(rounding, rounding), |i| {
@@ -115,15 +132,15 @@ impl Balls {
 }
 
 fn box_of(ball: &Ball) -> Rect {
-    // Points on the border are rounded: a box a hair larger holds them.
+    // Points on the border are rounded: a slightly larger box holds them.
     let r = ball.radius * (1.0 + 1e-9);
     let c = ball.center;
     Rect::new(c.x - r, c.y - r, c.x + r, c.y + r)
 }
 
 impl Ball {
-    /// The radius at the next step of shrinking by `beta`, or, `batched`, at the first step that is clear of every
-    /// vertex that came in.
+    /// The radius after one step of shrinking by `beta`; `batched`: after the first step at which no vertex lies
+    /// inside.
     pub fn shrunk(&self, beta: f64, batched: bool) -> f64 {
         let mut radius = self.radius * beta;
         while batched && self.intruder < radius {

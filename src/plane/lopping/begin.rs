@@ -1,4 +1,5 @@
-//! The beginning: P, the points where curves leave the balls of their ends (splitball(p, 1)), and D of both.
+//! The start: P, the points where curves leave the balls of their ends (splitball(p, 1)), and the Delaunay
+//! triangulation of both.
 
 use super::balls::Balls;
 use super::{RefineError, VertexOrigin};
@@ -9,16 +10,21 @@ use crate::ids::{CurveId, Id, IdVec, SubcurveId, VertexId};
 use crate::plane::insert::{Degenerate, Kernel};
 use crate::plane::subcurves::{Carrier, Midpoint, Standing, Subcurves, split_parameter};
 
-/// What stands before there is a triangulation.
+/// The state before there is a triangulation.
 pub(super) struct Beginning<'a> {
+    /// The domain in the unit frame.
     pub(super) domain: &'a Domain,
+    /// The balls, of their first radius.
     pub(super) balls: Balls,
     points: Vec<Point>,
+    /// The source of every vertex so far.
     pub(super) origins: IdVec<VertexId, VertexOrigin>,
+    /// C′.
     pub(super) subcurves: Subcurves,
 }
 
 impl<'a> Beginning<'a> {
+    /// The points of a domain as vertices 0, 1, …, and no subcurves.
     pub(super) fn new(domain: &'a Domain, balls: Balls) -> Self {
         Self {
             domain,
@@ -34,7 +40,7 @@ impl<'a> Beginning<'a> {
         self.origins.push(origin)
     }
 
-    /// splitball(p, 1) at every ball: each curve is cut where it leaves the balls of its ends.
+    /// splitball(p, 1) at every ball: each curve is split where it leaves the balls of its ends.
     pub(super) fn cut_curves(&mut self) {
         for (id, curve) in self.domain.curves().enumerate() {
             let carrier = Carrier::Curve(id);
@@ -43,7 +49,7 @@ impl<'a> Beginning<'a> {
             for (i, end) in [End::Start, End::Finish].into_iter().enumerate() {
                 let Some(ball) = self.balls.of_point(curve.ends[i]) else { continue };
                 let radius = self.balls.get(ball).radius;
-                // d(p) < lfs₀(p)/2 and the far end is farther than lfs₀(p): every curve at p leaves the ball.
+                // d(p) < lfs₀(p)/2, and the other end is no nearer than lfs₀(p): every curve at p leaves the ball.
                 let Some(leave) = curve.curve.leaves_ball(end, radius, 0.0, 1.0) else { continue };
                 let x = self.add(curve.curve.point(leave), VertexOrigin::OnCurve(id));
                 let (spoke_t, spoke_ends) = match end {
@@ -59,12 +65,12 @@ impl<'a> Beginning<'a> {
         self.sort_spokes();
     }
 
-    /// Spokes in the order of the star of their corner.
+    /// Sorts the spokes of each ball in the order of the star of its corner.
     fn sort_spokes(&mut self) {
         for id in self.balls.ids() {
             let ball = self.balls.get(id);
             let star = self.domain.star(ball.corner);
-            // Spokes come in ascending order of their curves, of which none ends twice at one point.
+            // Spokes were added in ascending order of their curves, and no curve has both ends at one point.
             let curve_of = |&s: &SubcurveId| match self.subcurves.get(s).carrier {
                 Carrier::Curve(curve) => curve,
                 Carrier::Arc(..) => unreachable!("no arc is a spoke"),
@@ -76,7 +82,11 @@ impl<'a> Beginning<'a> {
         }
     }
 
-    /// D of what there is. Where all of it lies on one line (a lens, a D), bent pieces are split first.
+    /// The Delaunay triangulation of the points so far. Where all lie on one line (a lens, a half disk), curved
+    /// subcurves are split first.
+    ///
+    /// # Errors
+    /// Where the points have no triangulation.
     pub(super) fn triangulate(&mut self, midpoint: Midpoint) -> Result<Kernel, RefineError> {
         match Kernel::new(self.points.clone()) {
             Err(Degenerate::TooFew | Degenerate::Collinear) => self.split_bent(midpoint),
@@ -93,8 +103,8 @@ impl<'a> Beginning<'a> {
     }
 
     fn split_bent(&mut self, midpoint: Midpoint) {
-        let pieces: Vec<SubcurveId> = self.subcurves.ids().collect();
-        for id in pieces {
+        let subcurves: Vec<SubcurveId> = self.subcurves.ids().collect();
+        for id in subcurves {
             let subcurve = *self.subcurves.get(id);
             let Carrier::Curve(curve) = subcurve.carrier else { continue };
             let shape = &self.domain.curves()[curve].curve;

@@ -1,4 +1,12 @@
-//! Rule 3, corner arcs (section 6): pseudo-input on the border of a ball, placed once there is room.
+//! Rule 3, corner arcs (section 6): pseudo-input on the border of a ball, placed once there is room for it.
+//!
+//! ```text
+//!             to             A kept sector of B(p), from one spoke counter-clockwise to the next, gets
+//!           ╱    `.          count = ⌈sweep/arc_turning⌉ equal arcs; here 2, with one pseudo midpoint m.
+//!         ╱        m         A vertex nearer to m than d/2 (arcs of π/3): the ball shrinks (Tight).
+//!       ╱           :        m encroaches a subcurve shorter than d:      the ball shrinks (Tight).
+//!     p ──────────── from    m encroaches a longer one:                   it is split first (Blocked).
+//! ```
 
 use super::{Lopping, VertexOrigin};
 use crate::curve::{Curve, End};
@@ -9,16 +17,17 @@ use crate::plane::subcurves::{Carrier, Standing};
 use crate::plane::triangulation::GHOST;
 use std::f64::consts::{FRAC_PI_3, TAU};
 
-/// What was seen where an arc's vertices would go.
+/// Whether the vertices of arcs have room.
 enum Room {
     Clear,
     /// The ball must shrink.
     Tight,
-    /// This subcurve must be split first.
+    /// A vertex of an arc would encroach this subcurve, which must be split first.
     Blocked(SubcurveId),
 }
 
 impl Lopping {
+    /// Rule 3 at a ball whose arcs are due: shrinks the ball, splits a subcurve, or inserts the arcs.
     pub(super) fn place_arcs(&mut self, id: BallId) {
         let Some(arc_turning) = self.options.corner_arcs else { return };
         if !self.balls.get(id).arcs.is_empty() {
@@ -36,7 +45,7 @@ impl Lopping {
                 }
                 Room::Blocked(subcurve) => {
                     self.arcs_due.push_back(id);
-                    return self.split_piece(subcurve, None, "vertices_encroached");
+                    return self.split_subcurve(subcurve, None, "vertices_encroached");
                 }
                 Room::Clear if radius < born => return self.cut_ball(id, radius),
                 Room::Clear => return self.insert_arcs(id, arcs),
@@ -44,7 +53,7 @@ impl Lopping {
         }
     }
 
-    /// The arcs of the kept sectors of a ball at a radius: for each, the directions of its ends and the number of equal
+    /// The kept sectors of a ball, if it had a radius: for each the directions of its ends and the number of equal
     /// arcs.
     fn arcs_at(&self, id: BallId, radius: f64, arc_turning: f64) -> Vec<Sector> {
         let ball = self.balls.get(id);
@@ -83,7 +92,7 @@ impl Lopping {
             .collect()
     }
 
-    /// Looks at every pseudo midpoint: is there room?
+    /// Tests every pseudo midpoint for room.
     fn room_for(&mut self, id: BallId, radius: f64, sectors: &[Sector]) -> Room {
         let center = self.balls.get(id).center;
         let near = self.triangle_at(VertexId(self.balls.get(id).corner.0));
@@ -99,7 +108,7 @@ impl Lopping {
             if self.is_crowded(id, radius, at) {
                 return Room::Tight;
             }
-            for (_, subcurve) in self.cavity_pieces() {
+            for (_, subcurve) in self.cavity_subcurves() {
                 match self.room_beside(id, radius, at, subcurve) {
                     Room::Clear => {}
                     room => return room,
@@ -109,10 +118,10 @@ impl Lopping {
         Room::Clear
     }
 
-    /// Whether a vertex lies nearer to a pseudo midpoint than half the radius, for arcs of π/3; finer arcs have their
-    /// vertices nearer to each other and to the spokes, and crowd in proportion (equal arcs turn at least half of what
-    /// they may, and 2·sin(T/4) > 3T/2π). A vertex on another ball's arc does not count: the balls keep apart by
-    /// themselves.
+    /// Whether a vertex lies nearer to a pseudo midpoint than half the radius, for arcs of π/3. Finer arcs have their
+    /// vertices nearer to each other and to the spokes, so the distance shrinks in proportion: equal arcs turn at least
+    /// half of what they may, and 2·sin(T/4) > 3T/2π. A vertex on the arc of another ball does not count, since the
+    /// balls are apart already.
     fn is_crowded(&self, id: BallId, radius: f64, at: Point) -> bool {
         let arc_turning = self.options.corner_arcs.unwrap_or(FRAC_PI_3);
         let nearest = 0.5 * radius * (arc_turning / FRAC_PI_3);
@@ -125,14 +134,14 @@ impl Lopping {
         })
     }
 
-    /// Whether a pseudo midpoint leaves a subcurve alone.
+    /// Whether a pseudo midpoint encroaches a subcurve, and what follows.
     fn room_beside(&self, id: BallId, radius: f64, at: Point, subcurve: SubcurveId) -> Room {
         let entry = self.state.subcurves.get(subcurve);
         if entry.standing == Standing::Spoke(id) || !self.encroaches(at, subcurve) {
             return Room::Clear;
         }
-        // The curve strays up to half its chord times tan(λ/2) from it: with that, lfs(p) ≤ 1.5·d(p) of a subcurve that is
-        // short.
+        // A curve lies within half its chord times tan(λ/2) of the chord. With that, lfs(p) ≤ 1.5·d(p) where the
+        // subcurve is short.
         let [x, y] = entry.ends.map(|v| self.delaunay.point(v));
         let lens = self.shape(entry.carrier).lens_angle(entry.t[0], entry.t[1]);
         let reach = x.distance(y) * (1.0 + libm::tan(0.5 * lens));
@@ -140,6 +149,7 @@ impl Lopping {
         if entry.is_spoke() || short { Room::Tight } else { Room::Blocked(subcurve) }
     }
 
+    /// Inserts the pseudo midpoints of all sectors and adds the arcs between them to C′.
     fn insert_arcs(&mut self, id: BallId, sectors: Vec<Sector>) {
         let (center, radius) = (self.balls.get(id).center, self.balls.get(id).radius);
         for sector in sectors {
@@ -165,7 +175,7 @@ impl Lopping {
                 let carrier = Carrier::Arc(id, ball.arcs.len() as u32);
                 ball.arcs.push(arc);
                 let subcurve = self.state.subcurves.add(carrier, [0.0, 1.0], [from, to], Standing::Ordinary);
-                self.balls.get_mut(id).arc_pieces.push(subcurve);
+                self.balls.get_mut(id).arc_subcurves.push(subcurve);
                 self.state.enqueue(subcurve);
                 from = to;
             }
@@ -173,22 +183,28 @@ impl Lopping {
     }
 }
 
-/// A kept sector of a ball: from one spoke counter-clockwise to the next.
+/// A kept sector of a ball, from one spoke counter-clockwise to the next; directions in radians.
 struct Sector {
+    /// The end of the first spoke.
     from: VertexId,
+    /// The end of the next spoke.
     to: VertexId,
+    /// Direction of `from` from the corner.
     start: f64,
+    /// Angle from `from` to `to`, counter-clockwise, above 0.
     sweep: f64,
     /// Number of equal arcs.
     count: u32,
 }
 
 impl Sector {
+    /// The place where arc `i` begins, on the border of the ball.
     fn inner_point(&self, center: Point, radius: f64, i: u32) -> Point {
         let angle = self.start + self.sweep * f64::from(i) / f64::from(self.count);
         center + Vec2::new(libm::cos(angle), libm::sin(angle)) * radius
     }
 
+    /// The pseudo midpoints.
     fn inner_points(&self, center: Point, radius: f64) -> impl Iterator<Item = Point> + '_ {
         (1..self.count).map(move |i| self.inner_point(center, radius, i))
     }

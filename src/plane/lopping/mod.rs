@@ -1,38 +1,40 @@
 //! Corner lopping (Pav & Walkington 2005, *Delaunay Refinement by Corner Lopping*, Algorithm 1, with the corner arcs of
 //! section 6).
 //!
-//! The engine keeps P′ ⊇ P, the subcurves C′ and D(P′), the whole Delaunay triangulation, and applies the first rule
-//! that can be:
+//! The engine keeps P′ ⊇ P, the subcurves C′ and D(P′), the whole Delaunay triangulation. A step applies the first of
+//! these rules whose condition holds:
 //!
-//! 1. *splitball*: a vertex lies in the ball B(p) of an acute corner: d(p) shrinks by β, and each curve at p is cut
+//! 1. *splitball*: a vertex lies in the ball B(p) of an acute corner. d(p) shrinks by β, and each curve at p is split
 //!    where it leaves the ball.
-//! 2. *splitcurve*: a vertex lies in the open diametral circle of a subcurve's chord, or the subcurve is larger than asked.
-//! 3. *corner arcs*: a ball whose arcs are due gets them, once they would neither crowd a vertex nor encroach a subcurve.
-//! 4. *splittri*: a triangle has an angle below κ, or is larger than asked: its circumcenter goes in, unless it
+//! 2. *splitcurve*: a vertex lies in the open diametral circle of a subcurve's chord, or the subcurve is larger than
+//!    permitted. The subcurve is split.
+//! 3. *corner arcs*: the arcs of a ball are due. They are inserted once they are neither too near to a vertex nor
+//!    encroach a subcurve.
+//! 4. *splittri*: a triangle has an angle below κ, or is larger than permitted. Its circumcenter is inserted, unless it
 //!    encroaches a subcurve, which is split instead.
 //!
 //! Where this differs from the printed algorithm, and why:
 //!
-//! - *Order.* Section 6 looks for room for the arcs whenever a ball is cut; here the cut is made first, rules 1 and 2
-//!   run until neither applies, and only then are the arcs looked at. Every subcurve is an edge at that moment, so what an
-//!   arc's vertex would encroach is read off its cavity. The conditions are those of the corrected section 6: a pseudo
-//!   midpoint with a vertex nearer than d/2, or that encroaches a subcurve shorter than d, shrinks the ball; a longer
-//!   subcurve is split.
-//! - *Neighbouring arcs.* A vertex on the arc of another ball does not crowd a pseudo midpoint, and an arc subcurve that
-//!   it encroaches is split, however short. Were they to shrink the ball, lfs(p) ≤ C₀·d(p) would fail: with |pq| =
-//!   lfs₀(p) and both balls at birth, the two arcs come within (√2−1)·d(p) < d(p)/2 of each other. Nothing is lost:
-//!   d(p) + d(q) ≤ 2(√2−1)|pq| keeps them at least (3−2√2)·|pq| apart at all times, and arc pieces shorter than twice
-//!   that are not encroached.
-//! - *Batched shrinking.* d(p) ← β·d(p) is repeated until the ball is clear, and the curves are cut once. The literal
-//!   rule cuts at every step, which leaves a shell of vertices a step ([`Shrinking::Literal`]).
-//! - *Incident vertices.* Ball points are rounded. Lemma 3 says that only vertices of curves that do not end at p come
-//!   into B(p); so only those are looked for.
+//! - *Order.* Section 6 tests the room for the arcs whenever a ball shrinks. Here the ball shrinks first, rules 1 and 2
+//!   run until neither applies, and only then the arcs are tested. Every subcurve is an edge then, so the cavity of a
+//!   vertex of an arc contains all that it would encroach. The conditions are those of the corrected section 6. The
+//!   ball shrinks where a vertex is nearer to a pseudo midpoint than d/2, or where the midpoint encroaches a subcurve
+//!   shorter than d; a longer subcurve is split.
+//! - *Neighbouring arcs.* A vertex on the arc of another ball does not count as too near to a pseudo midpoint. A
+//!   subcurve of an arc that a pseudo midpoint encroaches is split, however short. If they shrank the ball, lfs(p) ≤
+//!   C₀·d(p) would fail: with |pq| = lfs₀(p) and both balls of their first radius, the two arcs come within (√2−1)·d(p)
+//!   < d(p)/2 of each other. The proof holds all the same: since d(p) + d(q) ≤ 2(√2−1)|pq|, the arcs are always at
+//!   least (3−2√2)·|pq| apart, and subcurves of arcs shorter than twice that are not encroached.
+//! - *Batched shrinking.* d(p) ← β·d(p) is repeated until no vertex lies in the ball, and the curves are split once.
+//!   The literal rule splits at every step, which leaves a shell of vertices for each ([`Shrinking::Literal`]).
+//! - *Incident vertices.* Points on the border of a ball are rounded. By Lemma 3 only vertices of curves that do not
+//!   end at p can lie in B(p). So only those are tested.
 //! - *Rounded circumcenters.* Each decision (ball, encroachment, cavity) is made on the rounded point. A circumcenter
-//!   outside its own cavity would not remove its triangle: it is not inserted, and the triangle is unresolved.
+//!   whose cavity lacks its triangle would not remove it. It is not inserted, and the triangle is unresolved.
 //!
-//! Termination is Corollary 3's for κ below [`guaranteed_angle`](crate::promise::guaranteed_angle); beyond it the
-//! vertex budget ends what does not end by itself. The result says which it was. A subcurve that coordinates cannot split
-//! any more ends the run with its place.
+//! It terminates by Corollary 3 for κ below [`guaranteed_angle`](crate::promise::guaranteed_angle). Above that the
+//! vertex budget ends a run that does not end by itself. The result says which it was. If coordinates can no longer
+//! split a subcurve, the run ends with its place.
 
 mod balls;
 mod begin;
@@ -63,14 +65,14 @@ use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
 use std::f64::consts::FRAC_PI_3;
 
-/// What is asked of the engine.
+/// The options of the engine.
 #[derive(Clone, Debug)]
 pub struct Options {
-    /// κ.
+    /// κ, the smallest angle asked for, in radians.
     pub angle_min_rad: f64,
     /// The choices that the algorithm leaves open: β, shrinking and midpoints.
     pub rules: Rules,
-    /// Largest turning of a corner arc; `None`: no corner arcs.
+    /// Largest turning of a corner arc, in radians; `None`: no corner arcs.
     pub corner_arcs: Option<f64>,
     /// The limits on edges and areas.
     pub sizing: Sizing,
@@ -91,8 +93,8 @@ impl Default for Options {
 }
 
 impl Options {
-    /// What the judge holds a mesh to that was made by these options; `foreign`: it comes from elsewhere, without links
-    /// to curves.
+    /// What the verifier checks a mesh for that was made by these options; `foreign`: it comes from elsewhere, without
+    /// links to curves.
     pub fn promise(&self, foreign: bool) -> Promise {
         let lopping = LoppingPromise {
             beta: self.rules.beta,
@@ -141,7 +143,7 @@ impl Rules {
     }
 }
 
-/// How a ball shrinks when a vertex comes in.
+/// How a ball shrinks when a vertex lies in it.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Shrinking {
@@ -152,7 +154,7 @@ pub enum Shrinking {
     Literal,
 }
 
-/// Meshes a domain whose curves turn at most π/3 each, as long as `watch` says to go on; what a valid mesh needs is
+/// Meshes a domain whose curves turn at most π/3 each, until `watch` says to stop. What is needed for a valid mesh is
 /// still done then.
 ///
 /// # Errors
@@ -161,44 +163,44 @@ pub fn refine(domain: &Domain, options: &Options, until: Until, watch: &mut Watc
     drive(Lopping::start(domain, options)?, until, watch)
 }
 
-/// Where a vertex came from.
+/// The source of a vertex.
 #[derive(Clone, Copy, PartialEq, Debug)]
 enum VertexOrigin {
     Input(PointId),
     OnCurve(CurveId),
-    /// On a corner arc of a ball, now or once.
+    /// On a corner arc of a ball, present or withdrawn.
     OnArc(BallId),
     Free,
 }
 
-/// The engine, held at a step.
+/// The engine between two steps.
 pub struct Lopping {
     state: Refinement,
     options: Options,
     delaunay: Kernel,
     origins: IdVec<VertexId, VertexOrigin>,
     balls: Balls,
-    /// Balls that a vertex came into.
+    /// Balls in which a vertex lies.
     intruded: VecDeque<BallId>,
     /// Balls whose arcs are due.
     arcs_due: VecDeque<BallId>,
-    /// Triangles made since regions were last given.
+    /// Triangles made since the last labelling.
     fresh: Vec<TriangleId>,
     labelled: bool,
 }
 
-/// What a step works on; the first that applies.
+/// The rule that a step applies: the first that can be applied.
 enum Rule {
     ShrinkBall(BallId),
     Look(SubcurveId),
-    Carve,
+    Label,
     PlaceArcs(BallId),
     Split(Candidate),
     Rest,
 }
 
 impl Lopping {
-    /// P, its balls, and D of both.
+    /// P, its balls, and the Delaunay triangulation of P and the points on the balls.
     ///
     /// # Errors
     /// Where the points have no triangulation: two of them coincide, all lie on one line, or a coordinate is out of the
@@ -230,10 +232,10 @@ impl Lopping {
     }
 
     fn first_rule(&mut self) -> Rule {
-        // A run that is stopped before there was a valid mesh has nothing to make valid again.
-        let hopeless =
+        // A run that is stopped before there was a valid mesh has none to restore.
+        let stuck =
             self.state.reason == StopReason::Arithmetic || self.state.reason == StopReason::Cancelled && !self.labelled;
-        if hopeless || self.origins.len() > self.most_vertices() {
+        if stuck || self.origins.len() > self.most_vertices() {
             return Rule::Rest;
         }
         if let Some(ball) = self.intruded.pop_front() {
@@ -243,7 +245,7 @@ impl Lopping {
             return Rule::Look(subcurve);
         }
         if !self.labelled || !self.fresh.is_empty() {
-            return Rule::Carve;
+            return Rule::Label;
         }
         if self.state.reason != StopReason::Done {
             return Rule::Rest;
@@ -257,7 +259,8 @@ impl Lopping {
         }
     }
 
-    /// The budget; once there was a valid mesh, twice as much, so that what is begun can be made valid again.
+    /// The vertex budget. Once there was a valid mesh it is twice as much, so that a step under way can end in a valid
+    /// mesh.
     fn most_vertices(&self) -> usize {
         self.options.max_vertices.saturating_mul(if self.labelled { 2 } else { 1 })
     }
@@ -275,13 +278,14 @@ impl Lopping {
         Mesh { balls, ..extraction.mesh() }
     }
 
-    /// Pieces and triangles that still miss a bound, and some of their places, the most crowded pieces first.
+    /// The number of subcurves and triangles that still miss a bound, and some of their places: shortest subcurves
+    /// first.
     fn unresolved(&mut self) -> (usize, Vec<Point>) {
         const PLACES: usize = 16;
-        let mut pieces: Vec<(f64, Point)> = self.state.queue.iter().map(|&id| self.length_and_place(id)).collect();
-        pieces.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
-        let mut unresolved = pieces.len();
-        let mut places: Vec<Point> = pieces.into_iter().map(|(_, at)| at).take(PLACES).collect();
+        let mut subcurves: Vec<(f64, Point)> = self.state.queue.iter().map(|&id| self.length_and_place(id)).collect();
+        subcurves.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+        let mut unresolved = subcurves.len();
+        let mut places: Vec<Point> = subcurves.into_iter().map(|(_, at)| at).take(PLACES).collect();
         let (triangles, more) = self.state.bad.unresolved(&self.delaunay, PLACES - places.len());
         unresolved += triangles;
         places.extend(more);
@@ -297,12 +301,12 @@ impl Lopping {
 impl Engine for Lopping {
     type Outcome = Result<Refined, RefineError>;
 
-    /// Applies the first rule that can be. `false`: none can, or the run is over.
+    /// Applies the first rule whose condition holds. `false`: none holds, or the run is over.
     fn step(&mut self) -> bool {
         match self.first_rule() {
             Rule::ShrinkBall(ball) => self.shrink_ball(ball),
-            Rule::Look(subcurve) => self.look_at_piece(subcurve),
-            Rule::Carve => self.label(),
+            Rule::Look(subcurve) => self.look_at_subcurve(subcurve),
+            Rule::Label => self.label(),
             Rule::PlaceArcs(ball) => self.place_arcs(ball),
             Rule::Split(candidate) => self.split_triangle(candidate),
             Rule::Rest => return false,
@@ -310,7 +314,7 @@ impl Engine for Lopping {
         true
     }
 
-    /// Splits no more triangles; what is needed for a valid mesh is still done.
+    /// Ends the refinement of triangles. What is needed for a valid mesh is still done.
     fn cancel(&mut self) {
         self.state.cancel();
     }

@@ -1,4 +1,4 @@
-//! Rule 2, splitcurve: who encroaches a subcurve, and where it is split.
+//! Rule 2, splitcurve: which vertex encroaches a subcurve, and where the subcurve is split.
 
 use super::{Lopping, VertexOrigin};
 use crate::curve::Curve;
@@ -11,6 +11,7 @@ use crate::plane::triangulation::{GHOST, HalfEdge};
 use crate::refine::StopReason;
 
 impl Lopping {
+    /// The curve of a carrier, whole.
     pub(super) fn shape(&self, carrier: Carrier) -> &Curve {
         match carrier {
             Carrier::Curve(id) => &self.state.domain.curves()[id].curve,
@@ -18,8 +19,9 @@ impl Lopping {
         }
     }
 
+    /// The half-edge from the first end of a subcurve to the last; `None` where they are not joined.
     pub(super) fn side_of(&self, subcurve: SubcurveId) -> Option<HalfEdge> {
-        // The rim of a spoke has a handful of neighbours, its corner as many as there are curves.
+        // A corner has as many neighbours as it has curves, the other end of a spoke a few: the search starts there.
         let subcurve = self.state.subcurves.get(subcurve);
         let [x, y] = subcurve.ends;
         if subcurve.is_spoke() && matches!(self.origins[x], VertexOrigin::Input(_)) {
@@ -28,8 +30,8 @@ impl Lopping {
         self.delaunay.topology().side_between(x, y)
     }
 
-    /// Marks a subcurve as the edge that it is, or splits it where it is encroached or too large.
-    pub(super) fn look_at_piece(&mut self, id: SubcurveId) {
+    /// Tests a subcurve: marks its edge where nothing encroaches it, and splits it where it is encroached or too large.
+    pub(super) fn look_at_subcurve(&mut self, id: SubcurveId) {
         self.state.subcurves.get_mut(id).queued = false;
         let subcurve = *self.state.subcurves.get(id);
         if subcurve.is_gone() {
@@ -37,19 +39,19 @@ impl Lopping {
         }
         match self.encroacher(id) {
             Look::Free(side) => {
-                self.delaunay.topology_mut().set_piece(side, Some(id));
+                self.delaunay.topology_mut().set_subcurve(side, Some(id));
                 if self.is_too_large(id) {
-                    self.split_piece(id, None, "vertices_size");
+                    self.split_subcurve(id, None, "vertices_size");
                 }
             }
             Look::Encroached(_) if subcurve.is_spoke() => {
-                // The open ball holds no vertex but its corner: only rounding can hide the spoke.
+                // The open ball holds no vertex but its corner, so the spoke is an edge but for rounding.
                 let at = self.delaunay.point(subcurve.ends[0]);
                 self.stop_too_near(at);
             }
             Look::Encroached(z) => {
                 let z = self.delaunay.point(z);
-                self.split_piece(id, Some(z), "vertices_encroached");
+                self.split_subcurve(id, Some(z), "vertices_encroached");
             }
         }
     }
@@ -64,17 +66,26 @@ impl Lopping {
             && self.state.field.edge_too_large(curve, self.shape(subcurve.carrier), t0, t1)
     }
 
-    /// Whether a vertex lies in the open diametral circle of a subcurve.
+    /// Tests whether a vertex lies in the open diametral circle of a subcurve x y.
     ///
-    /// If the subcurve is an edge of D, one of the two apexes does if any vertex does. If it is not, look at the
-    /// quadrilateral of the subcurve `x y` and the first edge `a b` that crosses it: y lies not inside the circle of
-    /// `x a b`, so the angles at a and b sum up to at least 180°, and the larger is at least 90°; both are 90° only if
-    /// all four are cocircular: then the edge is flipped.
+    /// If x y is an edge of D, one of its two apexes lies inside if any vertex does. If it is not, let a b be the first
+    /// edge that crosses it. y does not lie inside the circle of `x a b`, so the angles at a and b sum up to at least
+    /// 180°, and the larger is at least 90°. Both are 90° only if all four are cocircular; then a b is flipped.
+    ///
+    /// ```text
+    ///        . - ~ - .     z lies in the open diametral          b        x y is no edge: a b crosses it.
+    ///      .´    z    `.   circle of x y: it encroaches        ╱ │ ╲      ∠xay + ∠ybx ≥ 180°: a or b lies in
+    ///     x ─────────── y  the subcurve.                     ╱   │   ╲    the circle of x y, or all four are
+    ///      `.         .´                                   x ┄┄┄┄┼┄┄┄┄ y  cocircular, and a b is flipped.
+    ///        ` - ~ - ´                                       ╲   │   ╱
+    ///                                                          ╲ │ ╱
+    ///                                                            a
+    /// ```
     fn encroacher(&mut self, id: SubcurveId) -> Look {
         let subcurve = *self.state.subcurves.get(id);
         let [x, y] = subcurve.ends;
         let (px, py) = (self.delaunay.point(x), self.delaunay.point(y));
-        // Each flip gives x one more neighbour on the same circle, so the degree bounds the flips; the rest is a guard.
+        // Each flip gives x one more neighbour on the same circle, so the number of vertices bounds the flips.
         for _ in 0..self.origins.len() {
             let Some(side) = self.side_of(id) else {
                 match self.crossing_side(x, py) {
@@ -106,8 +117,8 @@ impl Lopping {
         Look::Encroached(y)
     }
 
-    /// The side opposite to x, in the triangle that the segment from x to y enters; `None` where a vertex blocks the
-    /// way.
+    /// The half-edge a→b opposite x, in the triangle that the segment from x to y enters; `None` where the segment
+    /// passes through a neighbour of x.
     fn crossing_side(&self, x: VertexId, y: Point) -> Option<HalfEdge> {
         let topology = self.delaunay.topology();
         let px = self.delaunay.point(x);
@@ -134,16 +145,16 @@ impl Lopping {
         blocking.unwrap_or(x)
     }
 
-    /// The end of a crossing side that lies inside the diametral circle of `x y`. Spokes are not encroached, only
-    /// hidden by ties.
+    /// The end of a crossing half-edge that lies inside the diametral circle of `x y`. A spoke is never encroached; it
+    /// may only be the other diagonal of cocircular points.
     fn inside_diametral_of(&self, x: Point, y: Point, crossing: HalfEdge, spoke: bool) -> Option<VertexId> {
         let topology = self.delaunay.topology();
         let inside = |&v: &VertexId| in_diametral(x, y, self.delaunay.point(v)) == CircleSide::Inside;
         [topology.origin(crossing), topology.target(crossing)].into_iter().filter(|_| !spoke).find(inside)
     }
 
-    /// Flips a side between cocircular triangles (both triangulations are Delaunay); `false` where they are not, or a
-    /// subcurve lies on it.
+    /// Flips an edge between cocircular triangles: the triangulation stays Delaunay. `false`, and no change, where they
+    /// are not cocircular or a subcurve lies on the edge.
     fn flip_to_reach(&mut self, side: HalfEdge) -> bool {
         let topology = self.delaunay.topology();
         let far = topology.apex(topology.twin(side));
@@ -160,16 +171,17 @@ impl Lopping {
         true
     }
 
-    /// splitcurve at the point that the midpoint rule chooses.
-    pub(super) fn split_piece(&mut self, id: SubcurveId, z: Option<Point>, why: &'static str) {
+    /// splitcurve: splits a subcurve at the point that the midpoint rule gives. `z` is the vertex that encroaches it,
+    /// if one does; `why` names the counter.
+    pub(super) fn split_subcurve(&mut self, id: SubcurveId, z: Option<Point>, why: &'static str) {
         let subcurve = *self.state.subcurves.get(id);
         let t = split_parameter(self.shape(subcurve.carrier), subcurve.t, z, self.options.rules.midpoint);
-        self.split_piece_at(id, t, why);
+        self.split_subcurve_at(id, t, why);
     }
 
-    /// Splits a subcurve at a parameter: a vertex, two pieces. `None`, and the run is over, where coordinates cannot hold
-    /// it.
-    pub(super) fn split_piece_at(&mut self, id: SubcurveId, t: f64, why: &'static str) -> Option<[SubcurveId; 2]> {
+    /// Splits a subcurve at a parameter into two. Returns them in order. `None`, and the run ends, where coordinates
+    /// cannot hold the vertex.
+    pub(super) fn split_subcurve_at(&mut self, id: SubcurveId, t: f64, why: &'static str) -> Option<[SubcurveId; 2]> {
         let subcurve = *self.state.subcurves.get(id);
         let at = self.shape(subcurve.carrier).point(t);
         let [x, y] = subcurve.ends.map(|v| self.delaunay.point(v));
@@ -186,7 +198,7 @@ impl Lopping {
         let near = side.map_or_else(|| self.triangle_at(subcurve.ends[0]), HalfEdge::triangle);
         self.look_at_cavity(at, near, x)?;
         if let Some(side) = side {
-            self.delaunay.topology_mut().set_piece(side, None);
+            self.delaunay.topology_mut().set_subcurve(side, None);
         }
         self.state.subcurves.retire(id);
         self.disturb(at, Some(id));
@@ -197,18 +209,20 @@ impl Lopping {
         self.state.enqueue(head);
         self.state.enqueue(tail);
         if let Carrier::Arc(ball, _) = subcurve.carrier {
-            self.balls.get_mut(ball).arc_pieces.extend([head, tail]);
+            self.balls.get_mut(ball).arc_subcurves.extend([head, tail]);
         }
         self.watch_balls(at, origin);
         Some([head, tail])
     }
 
+    /// A triangle with this corner.
     pub(super) fn triangle_at(&self, v: VertexId) -> TriangleId {
         let topology = self.delaunay.topology();
         topology.sides_from(v).next().expect("every vertex has a side").triangle()
     }
 
-    /// Looks: fills `cavity` for a point; `None`, and the run is over, where the point is a vertex already.
+    /// Looks: finds the cavity of a point. `None`, and the run ends at `place`, where the point is a vertex already or
+    /// out of range.
     pub(super) fn look_at_cavity(&mut self, at: Point, near: TriangleId, place: Point) -> Option<()> {
         if !insert::in_range(at) {
             self.stop_too_near(place);
@@ -223,13 +237,14 @@ impl Lopping {
         Some(())
     }
 
-    /// Requeues every subcurve that a point is about to hide or encroach; `split`: the subcurve that it splits.
+    /// Queues every subcurve that the point of the cavity encroaches, or that is no edge any more once the cavity is
+    /// filled. `split`: the subcurve that the point splits.
     pub(super) fn disturb(&mut self, at: Point, split: Option<SubcurveId>) {
         let border = self.sorted_border();
-        for (side, subcurve) in self.cavity_pieces() {
+        for (side, subcurve) in self.cavity_subcurves() {
             let inner = border.binary_search(&side).is_err();
             if inner {
-                self.delaunay.topology_mut().set_piece(side, None);
+                self.delaunay.topology_mut().set_subcurve(side, None);
             }
             if Some(subcurve) != split && (inner || self.encroaches(at, subcurve)) {
                 self.state.enqueue(subcurve);
@@ -237,16 +252,16 @@ impl Lopping {
         }
     }
 
-    /// The cavity's border to search in: within points on one circle it has as many sides as there are points, and as
-    /// many pieces.
+    /// The cavity's border, sorted for binary search: among points on one circle it has as many edges as there are
+    /// points, and as many subcurves.
     pub(super) fn sorted_border(&self) -> Vec<HalfEdge> {
         let mut border = self.state.cavity.border.clone();
         border.sort_unstable();
         border
     }
 
-    /// Pieces on the sides of the cavity's triangles, each once, with a side.
-    pub(super) fn cavity_pieces(&self) -> Vec<(HalfEdge, SubcurveId)> {
+    /// The subcurves on edges of the cavity's triangles, each once, with a half-edge.
+    pub(super) fn cavity_subcurves(&self) -> Vec<(HalfEdge, SubcurveId)> {
         let topology = self.delaunay.topology();
         let mut found: Vec<(SubcurveId, HalfEdge)> = Vec::new();
         for &t in &self.state.cavity.triangles {
@@ -257,12 +272,13 @@ impl Lopping {
         found.into_iter().map(|(subcurve, side)| (side, subcurve)).collect()
     }
 
+    /// Whether a point lies in the open diametral circle of the chord of a subcurve.
     pub(super) fn encroaches(&self, at: Point, subcurve: SubcurveId) -> bool {
         let [x, y] = self.state.subcurves.get(subcurve).ends.map(|v| self.delaunay.point(v));
         in_diametral(x, y, at) == CircleSide::Inside
     }
 
-    /// Acts: inserts a point whose cavity has been looked at, and notes the new triangles.
+    /// Acts: inserts a point whose cavity has been found, and notes the new triangles. `why` names the counter.
     pub(super) fn act(&mut self, at: Point, origin: VertexOrigin, why: &'static str) -> VertexId {
         let v = self.delaunay.fill(at, &self.state.cavity);
         self.origins.push(origin);
@@ -272,7 +288,7 @@ impl Lopping {
         v
     }
 
-    /// A new vertex on a curve may lie in the ball of a corner that the curve does not end at.
+    /// Notes a new vertex that lies in a ball, if it is on a curve that does not end at the ball's corner.
     fn watch_balls(&mut self, at: Point, origin: VertexOrigin) {
         let VertexOrigin::OnCurve(curve) = origin else { return };
         let Some((id, away)) = self.balls.holding(at) else { return };
@@ -284,15 +300,16 @@ impl Lopping {
         self.intruded.push_back(id);
     }
 
+    /// Ends the run: coordinates cannot separate points at a place.
     pub(super) fn stop_too_near(&mut self, at: Point) {
         self.state.too_near.push(at);
         self.state.reason = StopReason::Arithmetic;
     }
 }
 
-/// What was seen at a subcurve.
+/// The result of a test of a subcurve.
 enum Look {
-    /// It is this side of D, and nothing encroaches it.
+    /// It is this edge of D, and nothing encroaches it.
     Free(HalfEdge),
     Encroached(VertexId),
 }

@@ -1,4 +1,14 @@
-//! Rule 4, splittri: which triangles miss a bound, and the circumcenters that mend them.
+//! Rule 4, splittri: which triangles miss a bound, and the circumcenters that remove them.
+//!
+//! ```text
+//!         q
+//!       ╱   ╲                                                            ╱ `.
+//!     ╱  ·c   ╲               x ────── m ────── y                      ╱ ·c  :
+//!   a ───────── b              `.      ·c     .´                     p ──────
+//!                                 ` - ~ ~ - ´
+//!   c encroaches nothing:     c encroaches x y: c is rejected,     c lies in B(p): the triangle is exempt,
+//!   c is inserted             x y is split at m                    until B(p) shrinks
+//! ```
 
 use super::{Candidate, Lopping, VertexOrigin, queue};
 use crate::geometry::Point;
@@ -11,7 +21,8 @@ use crate::plane::triangulation::HalfEdge;
 use crate::refine::StopReason;
 
 impl Lopping {
-    /// Every subcurve is an edge: triangles made since the last time get their regions and are judged.
+    /// Gives regions to triangles made since the last call, and queues those that miss a bound. Every subcurve must be
+    /// an edge.
     pub(super) fn label(&mut self) {
         if !self.labelled {
             self.fresh = labelling::all_triangles(&self.delaunay);
@@ -44,12 +55,16 @@ impl Lopping {
         }
     }
 
+    /// Whether a queued triangle has been removed since.
     pub(super) fn is_stale(&self, candidate: &Candidate) -> bool {
         queue::is_stale(self.delaunay.topology(), candidate)
     }
 }
 
 impl Lopping {
+    /// Rule 4 at a queued triangle, if it still exists. Nothing is done where it is exempt: with corner arcs, if it
+    /// lies wholly in one ball; without, if its circumcenter lies in a ball; and where its circumradius is below
+    /// `min_edge`.
     pub(super) fn split_triangle(&mut self, candidate: Candidate) {
         if self.is_stale(&candidate) {
             return;
@@ -74,23 +89,23 @@ impl Lopping {
             return;
         }
         match self.balls.holding(center) {
-            // A ball exempts angles, not sizes: those it was capped for.
+            // A ball exempts from the angle, not from size limits: it was capped for those.
             Some(_) if self.options.corner_arcs.is_none() && self.state.field.excess(region, corners) <= 1.0 => {
                 self.exempt(candidate, center);
             }
-            _ => self.kill(candidate, center),
+            _ => self.remove_triangle(candidate, center),
         }
     }
 
-    /// Remembers a triangle whose circumcenter lies in a ball, for when the ball shrinks.
+    /// Notes a triangle whose circumcenter lies in a ball: it is queued again when the ball shrinks.
     fn exempt(&mut self, candidate: Candidate, center: Point) {
         if let Some((ball, _)) = self.balls.holding(center) {
             self.balls.get_mut(ball).exempt.push(candidate);
         }
     }
 
-    /// Inserts a circumcenter, or splits a subcurve that it encroaches.
-    fn kill(&mut self, candidate: Candidate, center: Point) {
+    /// Removes a triangle: inserts its circumcenter, or splits the longest subcurve that the circumcenter encroaches.
+    fn remove_triangle(&mut self, candidate: Candidate, center: Point) {
         let (t, corners) = candidate;
         let place = self.delaunay.point(corners[0]);
         if !insert::in_range(center) {
@@ -102,22 +117,22 @@ impl Lopping {
             self.delaunay.cavity(center, location, &mut self.state.cavity);
         }
         if vertex || !self.state.cavity.triangles.contains(&t) {
-            // Rounding took the circumcenter out of the triangle's own circle.
+            // By rounding the circumcenter lies outside the circle of its own triangle.
             return self.state.too_near.push(place);
         }
-        let pieces = self.cavity_pieces();
-        if let Some(subcurve) = self.longest_encroached(center, &pieces) {
+        let subcurves = self.cavity_subcurves();
+        if let Some(subcurve) = self.longest_encroached(center, &subcurves) {
             self.state.counters.add("rejected_circumcenters", 1);
-            self.split_piece(subcurve, None, "vertices_rejected_circumcenter");
+            self.split_subcurve(subcurve, None, "vertices_rejected_circumcenter");
             if !self.is_stale(&candidate) {
                 self.state.bad.push_skinny(candidate, 0.0);
             }
             return;
         }
-        // What is hidden now and was not encroached is a spoke, by rounding; so is a center in a ball whose arcs it
-        // does not encroach.
+        // A subcurve inside the cavity that is not encroached is a spoke, by rounding. A center in a ball whose arcs it
+        // does not encroach is there by rounding, too.
         let border = self.sorted_border();
-        let hides_spoke = pieces.iter().any(|(side, _)| border.binary_search(side).is_err());
+        let hides_spoke = subcurves.iter().any(|(side, _)| border.binary_search(side).is_err());
         let in_ball = self.balls.holding(center).is_some();
         if in_ball && self.options.corner_arcs.is_none() {
             return self.exempt(candidate, center);
@@ -135,9 +150,9 @@ impl Lopping {
     }
 
     /// The longest subcurve, spokes apart, that a point encroaches.
-    fn longest_encroached(&self, at: Point, pieces: &[(HalfEdge, SubcurveId)]) -> Option<SubcurveId> {
+    fn longest_encroached(&self, at: Point, subcurves: &[(HalfEdge, SubcurveId)]) -> Option<SubcurveId> {
         let length = |subcurve: SubcurveId| self.length_and_place(subcurve).0;
-        pieces
+        subcurves
             .iter()
             .map(|&(_, subcurve)| subcurve)
             .filter(|&subcurve| !self.state.subcurves.get(subcurve).is_spoke() && self.encroaches(at, subcurve))

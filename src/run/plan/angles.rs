@@ -1,19 +1,18 @@
-//! The largest smallest angle: what is done where the one asked for may be beyond what a drawing allows.
+//! The largest smallest angle: what a run does if the requested angle may be more than a drawing allows.
 //!
-//! Above 30° no engine is proven to end, and up to what angle it does depends on the drawing: some reach 36°, some not
-//! 33°. Beyond, the engine makes as many bad triangles as it removes, and what it leaves is worse than what a smaller
-//! angle would have given. So:
+//! Above 30° no engine is proven to end, and the largest angle at which it ends depends on the drawing: 36° for some,
+//! less than 33° for others. Above that angle the engine makes as many bad triangles as it removes, and the mesh is
+//! worse than one for a smaller angle. So:
 //!
-//! - Up to [`USUAL_DEG`], where most runs end, the engine runs as it is asked to. It stops by itself where angles do
-//!   not get larger any more ([`Headway`](crate::refine::Headway)); then the next smaller whole degree is tried, and so
-//!   on.
-//! - Beyond it, the engine runs at [`USUAL_DEG`] first. What that takes, N vertices, is the measure: the angle asked
-//!   for gets [`MORE`]·N. So the whole costs less than 3·N, whatever the angle, and where it ends within that it gives
-//!   the mesh that it always gave.
+//! - Up to [`USUAL_DEG`], where most runs end, the engine runs at the requested angle. It stops when angles get no
+//!   larger ([`Headway`](crate::refine::Headway)). Then the next smaller whole degree is tried, and so on.
+//! - Above it, the engine first runs at [`USUAL_DEG`] and takes N vertices. The requested angle then gets a budget of
+//!   [`MORE`]·N. So the whole costs less than 3·N for any angle. A run that ends within the budget gives the same mesh
+//!   as without it.
 //!
-//! *The best mesh* is that of the largest angle that ended. The state in which the hopeless run had its smallest angle
-//! largest is no better: it held half a degree more, but sizes, which come after angles, were not met in it; and
-//! nothing could be typed that gives it again without the detour.
+//! *The best mesh* is that of the largest angle that ended. The alternative, the state of the failed run with the
+//! largest smallest angle, is not better: its angle was half a degree larger, but it did not meet sizes, which are
+//! refined after angles. And no command would give that state directly.
 
 use super::Plan;
 use crate::domain::Domain;
@@ -22,18 +21,18 @@ use crate::refine::{StopReason, Until};
 use crate::run::report::FailureReport;
 use crate::watch::{Stopped, Watch};
 
-/// Up to this angle the engine is asked at once.
+/// Up to this angle the engine runs at the requested angle at once.
 const USUAL_DEG: f64 = 34.0;
 
 /// Up to this angle refinement always ends in practice.
 const SURE_DEG: f64 = 30.0;
 
-/// Vertices that an angle beyond [`USUAL_DEG`] may take, those of [`USUAL_DEG`] being 1.
+/// Budget of a larger angle, in parts of the vertices at [`USUAL_DEG`].
 const MORE: f64 = 1.9;
 
 impl Plan {
-    /// Refines a domain whose curves turn at most τ: to the angle asked for, or to the largest of which the run ends.
-    /// Then the reason to stop is [`StopReason::NoProgress`], and the angle stands beside it.
+    /// Refines a domain whose curves turn at most τ, to the requested angle or to the largest at which the run ends. In
+    /// the second case the reason to stop is [`StopReason::NoProgress`], with the angle.
     ///
     /// # Errors
     /// Where coordinates cannot tell features apart, or the watch says stop before there is a mesh.
@@ -53,7 +52,7 @@ impl Plan {
         self.refine_beyond(usual, domain, watch)
     }
 
-    /// The angle asked for, within a few times the vertices that the usual one took; else the mesh of that.
+    /// The mesh at the requested angle, if it takes at most [`MORE`] times the vertices of `usual`; else `usual`.
     fn refine_beyond(&self, usual: Refined, domain: &Domain, watch: &mut Watch) -> Result<Refined, FailureReport> {
         let most = self.options.max_vertices;
         let bound = (MORE * usual.vertices as f64) as usize;
@@ -68,7 +67,7 @@ impl Plan {
         Ok(best)
     }
 
-    /// The mesh of the largest whole degree below `hopeless` of which the run ends; of none, as `refined` ended.
+    /// The mesh at the largest whole degree below `hopeless` at which the run ends; else `refined`.
     fn refine_below(
         &self,
         hopeless: f64,
@@ -90,8 +89,8 @@ impl Plan {
         Ok(refined)
     }
 
-    /// What ended where coordinates cannot hold a finer mesh, at an angle that may be the reason: the mesh of one that
-    /// ends, where there is one.
+    /// After a run that stopped because coordinates cannot hold a finer mesh: the mesh at a smaller angle, if the angle
+    /// may be the reason and a smaller one ends.
     ///
     /// # Errors
     /// As [`Plan::refine`].
@@ -107,7 +106,7 @@ impl Plan {
         }
     }
 
-    /// An angle of which the slivers take no more vertices than there are, by some margin.
+    /// An angle at which the slivers take clearly no more vertices than the budget.
     ///
     /// # Errors
     /// Where the watch says stop.
@@ -146,7 +145,7 @@ impl Plan {
 }
 
 impl Refined {
-    /// Notes the angle that it was refined to, where no smaller one is noted.
+    /// Records the angle of the refinement, unless a smaller one is recorded.
     fn held_to(mut self, angle_deg: f64) -> Self {
         self.stop.angle_deg.get_or_insert(angle_deg);
         self

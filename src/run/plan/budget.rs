@@ -1,4 +1,4 @@
-//! What a request takes at least, known before an engine starts; and where that is too much, a way out.
+//! The least cost of a request, known before an engine starts, and a way out where it is too high.
 
 use super::{Plan, no_mesh};
 use crate::domain::Domain;
@@ -7,15 +7,15 @@ use crate::run::healing::Healing;
 use crate::run::report::FailureReport;
 use crate::watch::Watch;
 
-/// Tolerances that are tried where slivers are too dear, as multiples of the width that is told for them, which is at
-/// most the true one.
+/// Tolerances to try against expensive slivers, as multiples of their estimated width. The estimate is at most the true
+/// width.
 const WELDS: [f64; 4] = [2.0, 4.0, 8.0, 16.0];
 
 impl Plan {
-    /// Refuses at once what takes more vertices than the budget.
+    /// Refuses a request that takes more vertices than the budget.
     ///
     /// # Errors
-    /// With the dearest places and a way out; and where the watch says stop.
+    /// With the most expensive places and a way out. Also where the watch says stop.
     pub fn afford(&self, domain: &Domain, healing: &Healing, watch: &mut Watch) -> Result<(), FailureReport> {
         let demand = self.demand(domain, watch)?;
         let (vertices, budget) = (demand.vertices(), self.options.max_vertices as f64);
@@ -25,7 +25,7 @@ impl Plan {
         let unresolved = (vertices - budget) as usize;
         let stop = Stop { reason: StopReason::VertexBudget, unresolved, places: demand.places(), angle_deg: None };
         let (why, help) = if demand.by_size >= demand.by_slivers() {
-            ("the sizes asked for", "ask for larger sizes, or give more by --max-vertices".to_owned())
+            ("the sizes asked for", "ask for larger sizes, or allow more by --max-vertices".to_owned())
         } else {
             ("slivers between curves", self.out_of_slivers(domain, demand.width_over(budget), healing, watch)?)
         };
@@ -33,7 +33,7 @@ impl Plan {
         Err(FailureReport { what, help, ..no_mesh(&stop, "--max-vertices") })
     }
 
-    /// The finest tolerance that leaves slivers of few enough vertices, else an angle that they would keep.
+    /// The finest tolerance at which slivers take few enough vertices, else an angle at which they do.
     fn out_of_slivers(
         &self,
         domain: &Domain,
@@ -58,12 +58,12 @@ impl Plan {
                 .map_or_else(String::new, |angle| format!("ask for a smaller angle by --min-angle {angle}, ")),
         };
         Ok(format!(
-            "curves run that near to each other: {way}leave edges below a length by --min-edge, or give more by --max-vertices"
+            "curves run that near to each other: {way}leave edges below a length by --min-edge, or allow more by --max-vertices"
         ))
     }
 }
 
-/// A length in two digits.
+/// A length rounded to two digits.
 fn rounded(length: f64) -> f64 {
     format!("{length:.1e}").parse().unwrap_or(length)
 }

@@ -1,7 +1,6 @@
-//! What was asked of a run, as its report tells it: every option of the request under its name there, in the order of
-//! the groups.
+//! The options of a run in its report: each option of the request under its name there, in the order of the groups.
 //!
-//! What a run did not come to, and what is for another engine, is `null`.
+//! An option of another engine, or of a stage that the run did not reach, is `null`.
 
 use crate::domain::{Domain, Drawing};
 use crate::options::{Described, Group, Kind};
@@ -12,8 +11,8 @@ use serde::Serialize;
 use serde_json::{Map, Value, json};
 use std::borrow::Cow;
 
-/// What is told first: the unit of all lengths (`null`: the file's own, which is not known), the engine, and the two
-/// angles of its theory.
+/// The first options: the unit of all lengths (`null`: the unknown unit of the file), the engine, and the two angles of
+/// its theory.
 const FIRST: [&str; 4] = ["length_unit", "engine", "angle_min_deg", "tau_rad"];
 
 /// Every option as used. Lengths in `length_unit`, areas in its square.
@@ -32,7 +31,7 @@ impl RequestReport {
         Self(told)
     }
 
-    /// What the options came to for a drawing and its domain.
+    /// Sets the options whose value depends on the drawing and its domain.
     pub fn note_use(&mut self, drawing: &Drawing, domain: &Domain, tau_rad: f64, sizing: &Sizing) {
         let unit = drawing.unit.as_ref().map(|(unit, _)| unit);
         let used = [
@@ -50,13 +49,13 @@ impl RequestReport {
     }
 }
 
-/// An option as it is told; `asked` is what the request's file says of it, `null` where it says nothing.
+/// An option as reported. `asked` is its value in the request's file form, `null` where that has none.
 fn tell(option: &Described, request: &Request, asked: &Value) -> Value {
     if option.group == Group::Gcdr && request.engine != Engine::Gcdr {
         return Value::Null;
     }
     match option.key.as_str() {
-        // Known when they have been used.
+        // Known only after their use.
         "tolerance" | "chord-error" => Value::Null,
         "edge-turning" => json!(request.limits.edge_turning.deg()),
         "size" => json!(request.limits.size.as_ref().map(ToString::to_string)),
@@ -79,7 +78,7 @@ fn is_switch(words: &[(String, Option<String>)]) -> bool {
     matches!(words, [(on, _), (off, _)] if on == "on" && off == "off")
 }
 
-/// The schema of an option as it is told.
+/// The schema of an option as reported.
 fn schema(option: &Described) -> Value {
     let kind = match (option.key.as_str(), &option.kind) {
         ("size-of", _) => json!({ "type": "object", "additionalProperties": { "type": "number" } }),

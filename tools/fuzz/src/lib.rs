@@ -86,7 +86,7 @@ pub fn read_mesh(bytes: &[u8]) {
         match meshio::read(main, format, &beside) {
             Ok(file) => {
                 // Whatever is read can be judged.
-                Plan::without_domain(&Request::default()).judge_file(None, &file.mesh);
+                Plan::without_domain(&Request::default()).verify_file(None, &file.mesh);
             }
             Err(error) => assert!(!error.what.is_empty() && !error.help.is_empty(), "{error:?}"),
         }
