@@ -692,7 +692,7 @@ fn files() -> Vec<Input> {
     files
 }
 
-/// Whatever is read can be judged, drawn and written.
+/// Whatever is read can be verified, drawn and written.
 fn sound(mesh: &Mesh) {
     for format in [Format::Vtk, Format::Inp] {
         encode(mesh, &[], format, &WriteOptions::default()).expect("the lists fit");

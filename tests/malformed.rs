@@ -205,7 +205,7 @@ fn counts_beyond_the_file_are_refused() {
             let error = refusal(count, format, &bytes);
             assert!(error.line.is_some(), "{count} in {}: {error}", format.name());
         }
-        // A count that other entities repeat by what they hold is not believed.
+        // A count that other entities repeat by what they hold is refused.
         if let Ok(drawing) = read(&dxf_entities(&polyline), Format::Dxf, "broken", &Options::default()) {
             assert_eq!(drawing.curves.len(), 3, "{count}");
         }
