@@ -167,7 +167,7 @@ impl SteinerStrategy for Stubborn {
 }
 
 #[test]
-fn any_strategy_holds__guarantee() {
+fn any_strategy_holds_its_guarantee() {
     let angle = 20.7f64.to_radians();
     let regions = Regions { delta2: 0.9, delta1: 0.9, mu: 0.6 };
     // All that can be asked for and are not free, and others.

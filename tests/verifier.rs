@@ -326,9 +326,9 @@ fn a_small_angle_at_an_acute_corner_is_exempt_and_told_by_corner() {
         scene.lopping().arc_turning_rad = arcs.then_some(FRAC_PI_3);
         let verdict = scene.verified();
         assert_eq!(told(&verdict), [""; 0]);
-        let [excuse] = verdict.exempt.as_slice() else { panic!("{:?}", verdict.exempt) };
-        assert_eq!((excuse.at, excuse.why), ([0.0, 0.0], "local_feature_size"));
-        assert_eq!(excuse.cells, [triangle_at(&scene, 1.0, 0.1).0]);
+        let [exemption] = verdict.exempt.as_slice() else { panic!("{:?}", verdict.exempt) };
+        assert_eq!((exemption.at, exemption.why), ([0.0, 0.0], "local_feature_size"));
+        assert_eq!(exemption.cells, [triangle_at(&scene, 1.0, 0.1).0]);
         let asked = if arcs { Status::Reached } else { Status::NotAsked };
         assert_eq!(check(&verdict, "max_angle").status, asked);
         let quality = Quality::of(Some(&scene.domain), &scene.mesh, verdict.exempt_cells());
@@ -625,9 +625,9 @@ fn ball_radius_finds_balls_in_the_wrong_place_too_large_or_overlapping() {
         s.mesh.balls.push(Ball { corner, radius: SQRT_2 - 1.0, why: BallReason::LocalFeatureSize });
     });
     // A ball that fails exempts nothing, so the corner's small angle comes to light.
-    let with_excuse = &["ball_radius", "min_angle"];
-    breaks(wedge(HERE), with_excuse, "is larger than", |s| s.mesh.balls[0].radius *= 1.0 + 1e-9);
-    breaks(wedge(HERE), with_excuse, "meets the ball", |s| s.mesh.balls.push(s.mesh.balls[0]));
+    let with_exemption = &["ball_radius", "min_angle"];
+    breaks(wedge(HERE), with_exemption, "is larger than", |s| s.mesh.balls[0].radius *= 1.0 + 1e-9);
+    breaks(wedge(HERE), with_exemption, "meets the ball", |s| s.mesh.balls.push(s.mesh.balls[0]));
     breaks(wedge(HERE), &["ball_radius", "lfs_ratio", "min_angle"], "is none", |s| s.mesh.balls[0].radius = f64::NAN);
 }
 
