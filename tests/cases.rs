@@ -36,7 +36,7 @@ struct Right {
 /// The areas of the regions of each name, by the curves.
 fn areas(domain: &Domain) -> BTreeMap<String, f64> {
     let mut areas = BTreeMap::new();
-    for region in domain.regions() {
+    for region in domain.regions().as_slice() {
         *areas.entry(domain.names().text(region.name).to_owned()).or_default() += region.area;
     }
     areas

@@ -72,7 +72,7 @@ fn random_complexes_reach_thirty_degrees() {
 }
 
 #[test]
-fn every_midpoint_rule_beta_and_shrinking_holds__guarantee() {
+fn every_midpoint_rule_beta_and_shrinking_holds_its_guarantee() {
     for midpoint in [Midpoint::Bisector, Midpoint::Angle] {
         for ball_shrinking in [Shrinking::Batched, Shrinking::Literal] {
             for beta in [0.5, 0.8, 0.95] {
@@ -155,7 +155,7 @@ fn powers_of_two_change_nothing_but_the_scale() {
 }
 
 #[test]
-fn a_turned_and_mirrored_drawing_holds__guarantee() {
+fn a_turned_and_mirrored_drawing_holds_its_guarantee() {
     let drawing = curved_complex(5);
     for map in [kurbo::Affine::rotate(0.7), kurbo::Affine::FLIP_Y, kurbo::Affine::translate((1e6, -1e6))] {
         let mut image = drawing.clone();
