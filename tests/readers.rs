@@ -309,7 +309,7 @@ fn what_cannot_be_read_is_said() {
             "the mesh is not flat: node 3 lies",
         ),
         ("1 3 0\n1 1 2 3\n", meshio::Format::Triangle, "there is no .node file beside the .ele file"),
-        ("hello", meshio::Format::Stl, "this is no STL"),
+        ("hello", meshio::Format::Stl, "this is not STL"),
     ] {
         let error = meshio::read(bytes.as_bytes(), format, &[]).expect_err(what);
         assert!(error.what.starts_with(what), "{} is not {what}", error.what);

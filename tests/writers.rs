@@ -13,7 +13,7 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use strip::{ODD, PLAIN, around, around_with, counts, read_back, second_order, shape, strip};
 
-/// Whether a format tells a loss that begins so.
+/// Whether a format reports the loss of this.
 fn loses(format: Format, mesh: &Mesh, what: &str) -> bool {
     format.losses(mesh, &WriteOptions::default()).iter().any(|loss| loss.starts_with(what))
 }
@@ -44,7 +44,7 @@ fn what_is_not_told_as_lost_comes_back() {
             let MeshFile { mesh: back, notes, .. } = around(&mesh, format);
             assert_eq!(notes, [""; 0], "{format:?}");
             let kept = match format {
-                _ if loses(format, &mesh, "boundaries") => Mesh { edges: Vec::new(), ..mesh.clone() },
+                _ if loses(format, &mesh, "boundaries:") => Mesh { edges: Vec::new(), ..mesh.clone() },
                 _ if loses(format, &mesh, "names of interfaces") => rim(&mesh, names),
                 _ => mesh.clone(),
             };
@@ -80,7 +80,7 @@ fn second_order_comes_back_is_cut_or_is_refused() {
         let back = around(&mesh, format).mesh;
         if loses(format, &mesh, "order 2: each") {
             assert_eq!(back.triangles.len(), 4 * mesh.triangles.len(), "{format:?}");
-            let halves = if loses(format, &mesh, "boundaries") { 0 } else { 2 * mesh.edges.len() };
+            let halves = if loses(format, &mesh, "boundaries:") { 0 } else { 2 * mesh.edges.len() };
             assert_eq!(back.edges.len(), halves, "{format:?}");
         } else {
             assert_eq!(back.order(), 2, "{format:?}");
@@ -162,7 +162,7 @@ fn boundaries_within_can_be_left_out_of_every_format() {
             assert_eq!(counts(&back), wanted, "{format:?}");
             let told = format.losses(&mesh, &rim).iter().any(|loss| loss.contains("--interior-lines off"));
             // Where there are none anyway, nothing is left out.
-            let none = loses(format, &mesh, "boundaries") || loses(format, &mesh, "names of interfaces");
+            let none = loses(format, &mesh, "boundaries:") || loses(format, &mesh, "names of interfaces");
             assert_eq!(told, !none, "{format:?}");
         }
     }

@@ -28,7 +28,7 @@ while [ $# -gt 0 ]; do
       ;;
     --update-baseline) update=yes ;;
     -h | --help) usage 0 ;;
-    *) echo "what is $1?" >&2; usage 2 >&2 ;;
+    *) echo "unknown option $1" >&2; usage 2 >&2 ;;
   esac
   shift
 done
@@ -161,4 +161,4 @@ if [ ${#failed[@]} != 0 ]; then
   printf 'FAILED: %s\n' "${failed[@]}"
   exit 1
 fi
-echo "all that could be done here is well"
+echo "no step failed"

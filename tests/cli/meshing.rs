@@ -179,7 +179,7 @@ fn sizes_by_place_come_as_an_expression_or_from_a_file() {
     let output = bench.ends(2, &["mesh", "square.poly", "-o", "b.vtu", "--size", "x +"]);
     assert!(said(&output).contains("a value is missing at the end of 'x +'"), "{}", said(&output));
     let output = bench.ends(2, &["mesh", "square.poly", "-o", "b.vtu", "--size", "x"]);
-    assert!(said(&output).contains("no positive length"), "{}", said(&output));
+    assert!(said(&output).contains("not a positive length"), "{}", said(&output));
     assert!(!bench.has("b.vtu"));
 }
 
