@@ -490,7 +490,7 @@ fn a_meshed_face_keeps_names_and_lies_in_its_plane() {
 }
 
 #[test]
-fn a_mesh_file_in_space_is_read_back_into_its_plane_and_judged() {
+fn a_mesh_file_in_space_is_read_back_into_its_plane_and_verified() {
     let text = plate(Turned::default()).text();
     let outcome = meshed(&text, &Request::default());
     let mesh = outcome.mesh.as_ref().unwrap();

@@ -20,7 +20,8 @@ fn clothoid(start: Point, heading_rad: f64, curvatures: [f64; 2], length: f64) -
     Curve::clothoid(start, heading_rad, curvatures, length).unwrap()
 }
 
-/// ∫ f over 0..to by Simpson's rule on so many steps: slow, and of another family than what is tested. The rounding of each sum is carried on.
+/// ∫ f over 0..to by Simpson's rule on so many steps: slow, and of another family than what is tested. The rounding of
+/// each sum is carried on.
 fn simpson(f: impl Fn(f64) -> Vec2, to: f64, steps: u32) -> Vec2 {
     let h = to / f64::from(steps);
     let (mut sum, mut lost) = (Vec2::ZERO, Vec2::ZERO);
@@ -304,7 +305,7 @@ fn a_drawing_of_clothoids_that_cross_is_arranged() {
 const LOOP_AREA: f64 = 2_296.975_761_656_415;
 
 #[test]
-fn the_railway_loop_is_meshed_with_every_promise_kept() {
+fn the_railway_loop_is_meshed_and_every_guarantee_holds() {
     let bytes = std::fs::read("samples/transition.json").unwrap();
     let source = Source { path: "transition.json", bytes: &bytes, format: None, nodes: None, of_many: false };
     for (engine, order, max_edge) in [

@@ -1,7 +1,7 @@
 //! One suite of laws for every kind of curve, at every size and offset.
 //!
-//! The oracles are slow and dumb: dense samples, polylines and finite differences. Each law states its slack in the rounding of the
-//! coordinates (`grain`) or in the resolution of the samples.
+//! The oracles are slow and dumb: dense samples, polylines and finite differences. Each law states its slack in the
+//! rounding of the coordinates (`grain`) or in the resolution of the samples.
 
 use kurbo::{Affine, Point, Vec2};
 use proptest::prelude::*;
@@ -193,7 +193,8 @@ fn ends_are_exact_and_part_reversed_and_welded_curves_keep_the_points() {
                 (part.point(s) - there).hypot() / grain
             );
             assert!((reversed.point(1.0 - s) - curve.point(s)).hypot() <= 8.0 * grain, "{name}: reversed at {s}");
-            // A similarity that moves the ends by δ moves no point at distance d from an end by more than δ(1 + 2d/chord).
+            // A similarity that moves the ends by δ moves no point at distance d from an end by more than δ(1 +
+            // 2d/chord).
             let chord = (curve.end() - curve.start()).hypot();
             let reach = if closed { 1.0 } else { 1.0 + 4.0 * size / chord };
             let moved = (welded.point(s) - curve.point(s)).hypot();
@@ -270,7 +271,8 @@ fn derivatives_are_the_limits_of_differences() {
     }
 }
 
-/// Handles of no length, as drawing programs write corner nodes: the tangent there leads to the first control point that differs.
+/// Handles of no length, as drawing programs write corner nodes: the tangent there leads to the first control point
+/// that differs.
 #[test]
 fn where_a_curve_stands_still_its_tangent_is_the_limit() {
     for Case { name, curve, grain, size } in cases() {

@@ -56,7 +56,7 @@ fn the_table_of_the_derivation_is_what_its_formulas_give() {
 }
 
 #[test]
-fn the_library_promises_what_the_theorem_gives() {
+fn the_library_guarantees_what_the_theorem_gives() {
     for k in 0..=100 {
         let lambda = FRAC_PI_3 * f64::from(k) / 100.0;
         assert!((guaranteed_angle(lambda).to_degrees() - kappa_deg(lambda)).abs() < 1e-12, "{lambda}");

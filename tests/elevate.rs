@@ -68,7 +68,8 @@ fn every_cell_is_valid_and_every_edge_has_one_node() {
 
 #[test]
 fn a_cell_between_tangent_curves_has_its_curved_side_straightened() {
-    // y = x⁴ on y = 0: a parabola from the corner through any two points of the curve that are not far apart dips below the line.
+    // y = x⁴ on y = 0: a parabola from the corner through any two points of the curve that are not far apart dips below
+    // the line.
     let outline = r#"{"squinch": 1, "curves": [
         {"name": "quartic", "bezier": [[0, 0], [0.25, 0], [0.5, 0], [0.75, 0], [1, 1]]},
         {"name": "floor", "line": [[0, 0], [1, 0]]},

@@ -1,4 +1,4 @@
-//! The corner-lopping engine, held to its promises by the judge.
+//! The corner-lopping engine, held to its guarantees by the verifier.
 
 mod plane_drawings;
 
@@ -27,7 +27,7 @@ fn refine(domain: &Domain, options: &Options) -> Refined {
     lopping::refine(domain, options, Until::End, &mut |_| true).expect("a domain that coordinates can hold")
 }
 
-/// Refines and judges; the verdict must be kept.
+/// Refines and verifies; every check must hold.
 fn kept(drawing: &Drawing, tau_rad: f64, options: &Options) -> (Mesh, Verdict) {
     let domain = domain_of(drawing, tau_rad);
     let refined = refine(&domain, options);
@@ -72,7 +72,7 @@ fn random_complexes_reach_thirty_degrees() {
 }
 
 #[test]
-fn every_midpoint_rule_beta_and_shrinking_keeps_the_promise() {
+fn every_midpoint_rule_beta_and_shrinking_holds_its_guarantee() {
     for midpoint in [Midpoint::Bisector, Midpoint::Angle] {
         for ball_shrinking in [Shrinking::Batched, Shrinking::Literal] {
             for beta in [0.5, 0.8, 0.95] {
@@ -155,7 +155,7 @@ fn powers_of_two_change_nothing_but_the_scale() {
 }
 
 #[test]
-fn a_turned_and_mirrored_drawing_keeps_its_promise() {
+fn a_turned_and_mirrored_drawing_holds_its_guarantee() {
     let drawing = curved_complex(5);
     for map in [kurbo::Affine::rotate(0.7), kurbo::Affine::FLIP_Y, kurbo::Affine::translate((1e6, -1e6))] {
         let mut image = drawing.clone();
@@ -185,7 +185,7 @@ fn sizes_are_obeyed_and_cap_the_balls() {
 }
 
 #[test]
-fn a_budget_ends_with_a_valid_mesh_and_says_what_is_owed() {
+fn a_budget_ends_with_a_valid_mesh_and_says_what_is_unresolved() {
     let options = Options {
         sizing: Sizing { max_area: Some(1e-5), ..Sizing::default() },
         max_vertices: 500,

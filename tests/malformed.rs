@@ -1,8 +1,7 @@
-//! Broken files of every kind, each to every reader: a clear error with its line, or a drawing; in bounded time and
-//! memory.
+//! Files that say too much or contradict themselves: a clear error with its line, or a drawing; in bounded time and memory.
 //!
-//! What a format says of its own broken files is tested beside the rest of it (`svg.rs`, `dxf.rs`, `import.rs`,
-//! `formats.rs`, `vtu.rs`); here is what is common.
+//! What all readers do with any broken file is tested in `readers.rs`; what a format says of its own broken files beside
+//! the rest of it (`svg`, `dxf`, `import`, `formats.rs`, `vtu.rs`).
 
 use squinch::domain::{Drawing, Loose};
 use squinch::import::{self, DxfOptions, Format, ImportError, LineTypes, Options, Strokes};
@@ -20,17 +19,6 @@ fn read(bytes: &[u8], format: Format, stem: &str, options: &Options) -> Result<D
 
 /// Far more than any of these files takes, on a slow machine and without optimisation.
 const PATIENCE: Duration = Duration::from_secs(20);
-
-const SAMPLES: &[(&str, Format)] = &[
-    ("logo.svg", Format::Svg),
-    ("bracket.dxf", Format::Dxf),
-    ("plate.json", Format::Outline),
-    ("gear.json", Format::Outline),
-    ("tangent_curves.json", Format::Outline),
-    ("naca4412.dat", Format::Airfoil),
-    ("two_element.dat", Format::Airfoil),
-    ("wedges/wedge_5.poly", Format::Poly),
-];
 
 fn sample(name: &str) -> Vec<u8> {
     std::fs::read(format!("samples/{name}")).expect("the sample is there")
@@ -65,75 +53,6 @@ fn ends_well(outcome: &Outcome, name: &str) {
 }
 
 // ---- drawings ----
-
-#[test]
-fn a_sample_cut_at_any_tenth_is_a_drawing_or_an_error_with_its_line() {
-    for &(name, format) in SAMPLES {
-        let bytes = sample(name);
-        for tenth in 0..10 {
-            let cut = &bytes[..bytes.len() * tenth / 10];
-            let read = soon(name, || read(cut, format, "cut", &Options::default()));
-            match (format, read) {
-                // Points of a section may end anywhere.
-                (Format::Airfoil, Ok(_)) => {}
-                // So may a .poly file, between its sections; it is said.
-                (Format::Poly, Ok(drawing)) => {
-                    assert!(drawing.notes.iter().any(|note| note.contains("ends before")), "{:?}", drawing.notes);
-                }
-                (_, Ok(drawing)) => panic!("{name} cut at {tenth}/10 is a drawing of {} curves", drawing.curves.len()),
-                (_, Err(error)) => {
-                    assert!(error.line.is_some() || tenth <= 1, "{name} cut at {tenth}/10: {error}");
-                    assert!(!error.help.is_empty(), "{name} cut at {tenth}/10: {error}");
-                }
-            }
-        }
-    }
-}
-
-#[test]
-fn a_sample_under_a_wrong_suffix_is_a_mesh_or_a_refusal() {
-    // Vertices alone are a part of a .poly file; solids are read with a feature only.
-    let elsewhere = [Format::Node, Format::Step];
-    for format in Format::ALL.into_iter().filter(|format| !elsewhere.contains(format)) {
-        assert!(SAMPLES.iter().any(|(_, of)| *of == format), "{format:?} has no sample");
-    }
-    for &(name, format) in SAMPLES {
-        let bytes = sample(name);
-        for wrong in Format::ALL.into_iter().filter(|&f| f != format) {
-            let shown = format!("{name} as {}", wrong.name());
-            ends_well(&meshed(&shown, &bytes, Some(wrong)), &shown);
-        }
-        let told = Format::sniff(&bytes);
-        assert_eq!(told, Some(format), "{name}: what its bytes look like");
-    }
-}
-
-#[test]
-fn other_files_are_refused_by_every_reader() {
-    let noise: Vec<u8> = (0..3000u32).map(|i| (i.wrapping_mul(2_654_435_761) >> 13) as u8).collect();
-    let others: [(&str, &[u8]); 8] = [
-        ("nothing", b""),
-        ("blanks", b" \r\n\t\n \n"),
-        ("noise", &noise),
-        ("zeros", &[0; 3000]),
-        ("a PNG", b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\0\x01\0\0\0\x01\x08\x02\0\0\0\x90wS\xde"),
-        ("a PDF", b"%PDF-1.4\n%\xe2\xe3\xcf\xd3\n1 0 obj\n<< /Type /Catalog >>\nendobj\n"),
-        ("a ZIP", b"PK\x03\x04\x14\0\0\0\x08\0\0\0!\0"),
-        ("a DWG", b"AC1032\0\0\0\0\x06\x01\0\x80\0\0\0"),
-    ];
-    for (what, bytes) in others {
-        for format in Format::ALL {
-            let error = soon(what, || read(bytes, format, "other", &Options::default()));
-            let error = error.expect_err(&format!("{what} is no {}", format.name()));
-            assert!(!error.what.is_empty() && !error.help.is_empty(), "{what} as {}: {error:?}", format.name());
-        }
-        for format in meshio::Format::ALL {
-            if let Err(error) = soon(what, || meshio::read(bytes, format, &[])) {
-                assert!(!error.what.is_empty() && !error.help.is_empty(), "{what} as {}: {error:?}", format.name());
-            }
-        }
-    }
-}
 
 /// Group codes and values, separated by semicolons, as a DXF text.
 fn dxf(pairs: &str) -> Vec<u8> {
@@ -205,7 +124,7 @@ fn counts_beyond_the_file_are_refused() {
             let error = refusal(count, format, &bytes);
             assert!(error.line.is_some(), "{count} in {}: {error}", format.name());
         }
-        // A count that other entities repeat by what they hold is not believed.
+        // A count that other entities repeat by what they hold is refused.
         if let Ok(drawing) = read(&dxf_entities(&polyline), Format::Dxf, "broken", &Options::default()) {
             assert_eq!(drawing.curves.len(), 3, "{count}");
         }

@@ -32,8 +32,8 @@ fn nurbs_circle() -> Result<Curve, CurveError> {
     Curve::nurbs(2, &knots, &points(&ring), Some(&weights))
 }
 
-/// A clamped cubic B-spline over x ∈ [0, 3] whose abscissae are its Greville points, so that x(t) = 3t; the area under it is
-/// Σ yᵢ·(uᵢ₊₄ − uᵢ)/4.
+/// A clamped cubic B-spline over x ∈ [0, 3] whose abscissae are its Greville points, so that x(t) = 3t; the area under
+/// it is Σ yᵢ·(uᵢ₊₄ − uᵢ)/4.
 fn cubic_b_spline() -> (Result<Curve, CurveError>, f64) {
     let knots = [0.0, 0.0, 0.0, 0.0, 1.0, 2.0, 3.0, 3.0, 3.0, 3.0];
     let ordinates = [0.0, 1.0, 2.0, 1.5, 0.5, 0.0];
@@ -142,9 +142,9 @@ fn paced_quarter(c: f64) -> Vec<Result<Curve, CurveError>> {
     vec![arc, line((0.0, 1.0), (0.0, 0.0)), line((0.0, 0.0), (1.0, 0.0))]
 }
 
-/// The conic from (1, 0) to (0, 1) under the shoulder (1, 1) with the middle weight w, and the area between it and its chord: with
-/// w = cos θ the affine image of a circular segment r²(θ − sin θ cos θ) in a triangle of area r² sin³ θ / cos θ; here that is ½. Beyond
-/// w = 1 the arc cosine turns hyperbolic.
+/// The conic from (1, 0) to (0, 1) under the shoulder (1, 1) with the middle weight w, and the area between it and its
+/// chord: with w = cos θ the affine image of a circular segment r²(θ − sin θ cos θ) in a triangle of area r² sin³ θ /
+/// cos θ; here that is ½. Beyond w = 1 the arc cosine turns hyperbolic.
 fn conic_segment(w: f64) -> (Result<Curve, CurveError>, f64) {
     let arc = Curve::rational_bezier(points(&[(1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]), vec![1.0, w, 1.0]);
     let square = 1.0 - w * w;

@@ -62,18 +62,24 @@ pub fn xml_attribute(text: &str) -> String {
     value
 }
 
-/// The original names in comments of our writers: see [`name_comment`].
+/// What comments of our writers keep: the original names (see [`name_comment`]), and the unit.
 #[derive(Default)]
-pub struct NameComments {
+pub struct Comments {
     regions: BTreeMap<String, String>,
     boundaries: BTreeMap<String, String>,
+    /// The unit of the coordinates.
+    pub unit: Option<String>,
 }
 
-impl NameComments {
-    /// Reads a comment (without its mark), if it is one of a name.
-    pub fn hear(&mut self, comment: &[u8]) {
+impl Comments {
+    /// Reads a comment (without its mark), if it is one of ours.
+    pub fn read(&mut self, comment: &[u8]) {
         let comment = text(comment);
         let comment = comment.trim_start();
+        if let Some(unit) = comment.strip_prefix("unit ") {
+            self.unit = Some(unit.to_owned());
+            return;
+        }
         let Some((names, rest)) = comment
             .strip_prefix("name region ")
             .map(|rest| (&mut self.regions, rest))

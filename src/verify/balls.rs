@@ -39,7 +39,7 @@ pub struct SoundBall {
 
 /// `ball_radius`, `lfs_ratio` and the balls that passed both. A foreign mesh has no balls of its own. There every acute
 /// corner gets the largest one, of radius (√2−1)·lfs₀, and nothing is checked.
-pub fn judge(ev: &Evidence, domain: &Domain) -> (Check, Check, Vec<SoundBall>) {
+pub fn check(ev: &Evidence, domain: &Domain) -> (Check, Check, Vec<SoundBall>) {
     let lfs0 = domain.lfs0();
     if ev.promise.foreign {
         return (Check::not_asked("ball_radius"), Check::not_asked("lfs_ratio"), largest_balls(domain, &lfs0));

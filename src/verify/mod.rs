@@ -171,7 +171,7 @@ pub fn verify(domain: Option<&Domain>, mesh: &Mesh, promise: &Promise) -> Verdic
         || (known(curves::chord_error, "chord_error"), known(curves::edge_turning, "edge_turning")),
     );
     let (ball_radius, lfs_ratio, balls) = match domain.filter(|_| !constrained) {
-        Some(domain) => balls::judge(&evidence, domain),
+        Some(domain) => balls::check(&evidence, domain),
         None => (Check::not_asked("ball_radius"), Check::not_asked("lfs_ratio"), Vec::new()),
     };
     let ((min_angle, exempt), (max_angle, size)) = threads::join(

@@ -351,7 +351,7 @@ fn a_hole_of_arcs_that_overlap_in_part_is_a_hole() {
 }
 
 #[test]
-fn rings_a_hair_apart_keep_every_promise() {
+fn rings_a_hair_apart_hold_every_guarantee() {
     for hair in [1e-9, 1e-10, 1e-11] {
         let rings = drawing([circle(-3.0, -1.75, 1.0), circle(-3.0, -1.75, 1.0 + hair)]);
         let options = ArrangeOptions { tolerance: Some(0.0), fill: Some(FillRule::Regions), ..Default::default() };

@@ -127,7 +127,8 @@ fn lines_of_no_length_are_dropped_and_said() {
 fn lines_that_stop_short_of_lines_that_go_on_beyond_the_corner() {
     let options = |close| ArrangeOptions { close, ..ArrangeOptions::default() };
     let hole = [Curve::circle(p(5.0, 5.0), 1.0).unwrap()];
-    // The right side stops short of the lower one, which is the other end of its own chain; all four sides stop short of each other.
+    // The right side stops short of the lower one, which is the other end of its own chain; all four sides stop short
+    // of each other.
     let own = [
         line((0.0, 0.0), (12.0, 0.0)),
         line((10.0, 0.01), (10.0, 8.0)),
@@ -154,7 +155,8 @@ fn lines_that_stop_short_of_lines_that_go_on_beyond_the_corner() {
     let domain =
         drawing(plate.into_iter().chain([bulged(1.0, 3.0), bulged(0.9, 3.001)])).arrange(&options(None)).unwrap();
     assert_eq!(domain.regions().len(), 1);
-    // A wall within an outline that stops short of the other side, and a hook that comes near to its own middle: open lines.
+    // A wall within an outline that stops short of the other side, and a hook that comes near to its own middle: open
+    // lines.
     let plate = polygon(&[(0.0, 0.0), (8.0, 0.0), (8.0, 6.0), (0.0, 6.0)]);
     let wall = line((4.0, 0.0), (4.0, 5.99));
     let domain = drawing(plate.iter().cloned().chain([wall])).arrange(&options(None)).unwrap();

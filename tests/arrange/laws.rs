@@ -39,7 +39,7 @@ fn far_from_the_origin_the_faces_are_the_same() {
 }
 
 #[test]
-fn arranging_is_repeatable_and_turning_splits_keep_every_promise() {
+fn arranging_is_repeatable_and_turning_splits_hold_every_guarantee() {
     let domain = regions(&mixture(1.0, 0.0));
     assert_eq!(topology(&domain), topology(&regions(&mixture(1.0, 0.0))));
     for tau in [0.1, 0.5, PI / 3.0] {

@@ -102,7 +102,7 @@ fn heaps_far_from_the_origin_turned_or_drawn_nearly_twice_have_no_flaw() {
 }
 
 #[test]
-fn a_coarse_tolerance_keeps_every_promise() {
+fn a_coarse_tolerance_holds_its_guarantee() {
     for seed in 0..12 {
         for tolerance in [0.0, 1e-3, 0.02] {
             let options = ArrangeOptions {

@@ -72,7 +72,8 @@ fn what_later_shapes_cover_leaves_no_trace() {
 
 #[test]
 fn what_hidden_curves_split_is_whole_again() {
-    // A fan of triangles, the tips of which a disc covers: the disc is split where the ten sides meet it, one of them where it begins.
+    // A fan of triangles, the tips of which a disc covers: the disc is split where the ten sides meet it, one of them
+    // where it begins.
     let triangle = |k: i32| {
         let at = |angle: f64| (3.0 * libm::cos(angle), 3.0 * libm::sin(angle));
         let (from, to) = (at(f64::from(k)), at(f64::from(k) + 0.5));

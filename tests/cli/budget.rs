@@ -48,7 +48,7 @@ fn the_time_ends_arranging_too() {
 }
 
 #[test]
-fn a_mesh_that_is_there_when_the_time_ends_is_judged_and_written() {
+fn a_mesh_that_is_there_when_the_time_ends_is_verified_and_written() {
     let bench = Bench::new("timeout-refine");
     bench.ends(
         5,

@@ -69,7 +69,7 @@ fn write_mesh(bench: &Bench, file: &str, mesh: &Mesh) {
 }
 
 #[test]
-fn a_mesh_that_another_program_rewrote_is_judged_by_where_its_nodes_lie() {
+fn a_mesh_that_another_program_rewrote_is_verified_by_where_its_nodes_lie() {
     let bench = Bench::new("rewritten");
     let plate = Path::new(env!("CARGO_MANIFEST_DIR")).join("samples/plate.json");
     fs::copy(plate, bench.0.join("plate.json")).expect("a sample");

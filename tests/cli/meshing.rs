@@ -1,4 +1,4 @@
-//! `mesh`: what is written, judged and reported, and how it ends.
+//! `mesh`: what is written, verified and reported, and how it ends.
 
 use super::*;
 
@@ -35,7 +35,7 @@ fn geometry_that_encloses_nothing_is_4() {
 }
 
 #[test]
-fn a_mesh_is_written_judged_and_reported() {
+fn a_mesh_is_written_verified_and_reported() {
     let bench = Bench::new("mesh");
     let output =
         bench.ends(0, &["mesh", "lens.json", "-o", "a.vtu", "-o", "a.svg", "-o", "a.png", "--report", "r.json"]);
@@ -179,7 +179,7 @@ fn sizes_by_place_come_as_an_expression_or_from_a_file() {
     let output = bench.ends(2, &["mesh", "square.poly", "-o", "b.vtu", "--size", "x +"]);
     assert!(said(&output).contains("a value is missing at the end of 'x +'"), "{}", said(&output));
     let output = bench.ends(2, &["mesh", "square.poly", "-o", "b.vtu", "--size", "x"]);
-    assert!(said(&output).contains("no positive length"), "{}", said(&output));
+    assert!(said(&output).contains("not a positive length"), "{}", said(&output));
     assert!(!bench.has("b.vtu"));
 }
 

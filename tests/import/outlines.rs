@@ -70,7 +70,7 @@ fn refusals_of_outlines_say_where() {
         (3, "degree 301 is above", curve(r#"{ "nurbs": { "degree": 301, "knots": [0, 1], "points": [[0, 0]] } }"#)),
         (3, "curves[1]", curve(r#"{ "nurbs": { "degree": 2, "knots": [0, 1], "points": [[0, 0]] } }"#)),
         (3, "number out of range", curve(r#"{ "line": [[0, 0], [1e999, 1]] }"#)),
-        (3, "1 points make no polyline", curve(r#"{ "polyline": [[0, 0]] }"#)),
+        (3, "a polyline needs 2 points, this one has 1", curve(r#"{ "polyline": [[0, 0]] }"#)),
         (1, "missing field `squinch`", "{}".into()),
         (1, "unknown field `curvs`", r#"{ "squinch": 1, "curvs": [] }"#.into()),
         (2, "seeds[0]: needs `region`", "{ \"squinch\": 1, \"seeds\": [\n{ \"at\": [0, 0] } ] }".into()),

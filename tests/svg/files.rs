@@ -35,7 +35,7 @@ fn compressed_files_and_other_encodings() {
     assert_eq!(names(&of(&latin).unwrap()), ["ö"]);
     latin.drain(20..42);
     let error = of(b"<svg>\n\xf6</svg>").unwrap_err();
-    assert_eq!((error.line, error.what.as_str()), (Some(2), "a byte that is no UTF-8"));
+    assert_eq!((error.line, error.what.as_str()), (Some(2), "a byte that is not UTF-8"));
 }
 
 #[test]

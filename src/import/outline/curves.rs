@@ -189,8 +189,9 @@ impl CurveForm {
 }
 
 fn polyline(points: &[Point], closed: bool) -> Result<Vec<Curve>, String> {
-    if points.len() < 2 + usize::from(closed) {
-        return Err(format!("{} points do not make a polyline", points.len()));
+    let (kind, least) = if closed { ("polygon", 3) } else { ("polyline", 2) };
+    if points.len() < least {
+        return Err(format!("a {kind} needs {least} points, this one has {}", points.len()));
     }
     let closing = closed.then(|| [points[points.len() - 1], points[0]]);
     let edges = points.windows(2).map(|w| [w[0], w[1]]).chain(closing);

@@ -8,7 +8,7 @@
 
 use crate::geometry::written::number;
 use crate::meshio::draft::{BOUNDARY, Draft, REGION};
-use crate::meshio::names::NameComments;
+use crate::meshio::names::Comments;
 use crate::meshio::{MeshFile, Result, broken_at, lines, text, unsupported};
 use std::collections::BTreeMap;
 
@@ -17,7 +17,7 @@ pub fn read(bytes: &[u8]) -> Result<MeshFile> {
     let mut deck = Deck::default();
     for (n, line) in lines(bytes) {
         if let Some(comment) = line.strip_prefix(b"**") {
-            deck.names.hear(comment);
+            deck.comments.read(comment);
         } else if let Some(keyword) = line.strip_prefix(b"*") {
             deck.keyword(n, &text(keyword))?;
         } else if !line.is_empty() {
@@ -73,7 +73,7 @@ struct List {
 #[derive(Default)]
 struct Deck {
     draft: Draft,
-    names: NameComments,
+    comments: Comments,
     section: Section,
     nodes: BTreeMap<u64, usize>,
     triangles: Vec<Element>,
@@ -111,7 +111,7 @@ impl Deck {
             "SURFACE" => {
                 let name = parameters.get("NAME").copied().unwrap_or(BOUNDARY);
                 match parameters.get("TYPE").map(|kind| kind.to_ascii_uppercase()).as_deref() {
-                    None | Some("ELEMENT") => Section::Surface(self.names.boundary(name)),
+                    None | Some("ELEMENT") => Section::Surface(self.comments.boundary(name)),
                     Some(_) => Section::Other,
                 }
             }
@@ -215,18 +215,19 @@ impl Deck {
         let mut draft = self.draft;
         for Element { tag, nodes, set } in self.triangles {
             let name = sets.of(tag, set).unwrap_or_else(|| REGION.into());
-            draft.triangle(nodes, &self.names.region(&name));
+            draft.triangle(nodes, &self.comments.region(&name));
         }
         for boundary in self.boundaries {
             match boundary {
                 Boundary::Line(Element { tag, nodes, set }) => {
                     let name = sets.of(tag, set).unwrap_or_else(|| BOUNDARY.into());
-                    draft.line(nodes, &self.names.boundary(&name));
+                    draft.line(nodes, &self.comments.boundary(&name));
                 }
                 Boundary::Face { ends, name } => draft.line(ends.to_vec(), &name),
             }
         }
         let mut file = draft.finish()?;
+        file.mesh.unit = self.comments.unit;
         if sets.in_several > 0 {
             let n = sets.in_several;
             file.notes.push(format!("{n} elements are in several element sets: each has the name of the smallest"));

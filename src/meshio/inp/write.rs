@@ -11,7 +11,7 @@
 //!
 //! meshio 5.3 knows no CPS6; CalculiX and Abaqus do.
 //!
-//! Not held: the unit (a comment says it), links to curves, balls; the surfaces of shells.
+//! Not held: links to curves, balls; the surfaces of shells.
 
 use crate::ids::{Id, TriangleId, VertexId};
 use crate::mesh::Mesh;

@@ -3,17 +3,17 @@
 
 use crate::geometry::written::number;
 use crate::meshio::draft::{BOUNDARY, Draft, REGION};
-use crate::meshio::names::NameComments;
+use crate::meshio::names::Comments;
 use crate::meshio::{MeshFile, Result, broken_at, lines, text, unsupported};
 
 /// Reads a file.
 pub fn read(bytes: &[u8]) -> Result<MeshFile> {
     let mut draft = Draft::default();
-    let mut names = NameComments::default();
+    let mut comments = Comments::default();
     let mut group: Option<String> = None;
     for (n, line) in lines(bytes) {
         if let Some(comment) = line.strip_prefix(b"#") {
-            names.hear(comment);
+            comments.read(comment);
             continue;
         }
         let mut words = line.split(u8::is_ascii_whitespace).filter(|w| !w.is_empty());
@@ -31,13 +31,13 @@ pub fn read(bytes: &[u8]) -> Result<MeshFile> {
                 let nodes: Vec<usize> = words.map(|word| vertex(word, draft.nodes.len(), n)).collect::<Result<_>>()?;
                 let name = group.as_deref();
                 match (letter, nodes.len()) {
-                    (b"f", 3) => draft.triangle(nodes, &name.map_or(REGION.into(), |name| names.region(name))),
+                    (b"f", 3) => draft.triangle(nodes, &name.map_or(REGION.into(), |name| comments.region(name))),
                     (b"f", sides) => {
                         let what = format!("line {n}: a face has {sides} corners");
                         return Err(unsupported(what, "only triangles can be read"));
                     }
                     _ => {
-                        let name = name.map_or(BOUNDARY.into(), |name| names.boundary(name));
+                        let name = name.map_or(BOUNDARY.into(), |name| comments.boundary(name));
                         nodes.windows(2).for_each(|ends| draft.line(ends.to_vec(), &name));
                     }
                 }
@@ -45,7 +45,9 @@ pub fn read(bytes: &[u8]) -> Result<MeshFile> {
             _ => {}
         }
     }
-    draft.finish()
+    let mut file = draft.finish()?;
+    file.mesh.unit = comments.unit;
+    Ok(file)
 }
 
 /// The vertex `7`, `7/1/2` or `-1`, which counts back from the last one so far.

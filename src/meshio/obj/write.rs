@@ -7,7 +7,7 @@
 //!
 //! VTK's reader assigns groups to wrong cells in files with lines, so lines can be left out (`lines` false).
 //!
-//! Not held: order 2, the unit (a comment says it), links to curves, balls.
+//! Not held: order 2, links to curves, balls.
 
 use crate::ids::VertexId;
 use crate::mesh::Mesh;

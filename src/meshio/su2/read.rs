@@ -2,7 +2,7 @@
 
 use crate::geometry::written::number;
 use crate::meshio::draft::{Draft, REGION};
-use crate::meshio::names::NameComments;
+use crate::meshio::names::Comments;
 use crate::meshio::{MeshFile, Result, broken_at, lines, text, unsupported};
 
 /// Reads a file.
@@ -11,7 +11,7 @@ pub fn read(bytes: &[u8]) -> Result<MeshFile> {
     for (n, line) in lines(bytes) {
         let comment = line.iter().position(|&b| b == b'%').unwrap_or(line.len());
         if let Some(comment) = line.get(comment + 1..) {
-            file.names.hear(comment);
+            file.comments.read(comment);
         }
         let line = line[..comment].trim_ascii();
         if let Some(equals) = line.iter().position(|&b| b == b'=') {
@@ -41,7 +41,7 @@ enum Section {
 #[derive(Default)]
 struct File {
     draft: Draft,
-    names: NameComments,
+    comments: Comments,
     /// The tag of the current marker.
     marker: String,
     section: Section,
@@ -89,7 +89,7 @@ impl File {
                 _ => return Err(broken_at(n, "a point does not have two coordinates")),
             },
             Section::Elements if kind == Some(5.0) => self.draft.triangle(nodes(3)?, REGION),
-            Section::Marker if kind == Some(3.0) => self.draft.line(nodes(2)?, &self.names.boundary(&self.marker)),
+            Section::Marker if kind == Some(3.0) => self.draft.line(nodes(2)?, &self.comments.boundary(&self.marker)),
             Section::Marker if kind == Some(1.0) => self.draft.vertices += 1,
             Section::Elements | Section::Marker | Section::None => {
                 let what = format!("line {n}: an element of type {}", kind.map_or("?".into(), |k| k.to_string()));

@@ -3,7 +3,7 @@
 
 use crate::geometry::written::number;
 use crate::meshio::draft::{BOUNDARY, Draft, REGION};
-use crate::meshio::names::NameComments;
+use crate::meshio::names::Comments;
 use crate::meshio::{MeshFile, Result, broken, broken_at, lines, text, unsupported};
 use std::collections::BTreeMap;
 
@@ -12,9 +12,9 @@ pub fn read(elements: &[u8], nodes: Option<&[u8]>, segments: Option<&[u8]>) -> R
     let nodes =
         nodes.ok_or_else(|| unsupported("there is no .node file beside the .ele file", "put both in one folder"))?;
     let mut draft = Draft::default();
-    let mut names = NameComments::default();
+    let mut comments = Comments::default();
     for file in [elements, nodes].into_iter().chain(segments) {
-        lines(file).filter_map(|(_, line)| line.strip_prefix(b"#")).for_each(|comment| names.hear(comment));
+        lines(file).filter_map(|(_, line)| line.strip_prefix(b"#")).for_each(|comment| comments.read(comment));
     }
     let mut rows = Rows::of(nodes);
     let header = rows.next("the header of .node")?;
@@ -42,7 +42,7 @@ pub fn read(elements: &[u8], nodes: Option<&[u8]>, segments: Option<&[u8]>) -> R
             // The nodes opposite corners 0, 1 and 2 are between 1 and 2, 2 and 0, 0 and 1.
             nodes[3..].rotate_right(1);
         }
-        let region = row.numbers.get(corners + 1).map_or(REGION.into(), |r| names.region(&r.to_string()));
+        let region = row.numbers.get(corners + 1).map_or(REGION.into(), |r| comments.region(&r.to_string()));
         draft.triangle(nodes, &region);
     }
     if let Some(segments) = segments {
@@ -56,7 +56,7 @@ pub fn read(elements: &[u8], nodes: Option<&[u8]>, segments: Option<&[u8]>) -> R
             let row = rows.next("a segment")?;
             let [_, a, b] = row.take("a segment")?;
             let marker = row.numbers.get(3).copied().unwrap_or(0.0);
-            let name = if marker == 0.0 { BOUNDARY.into() } else { names.boundary(&marker.to_string()) };
+            let name = if marker == 0.0 { BOUNDARY.into() } else { comments.boundary(&marker.to_string()) };
             draft.line(vec![find(&row, a)?, find(&row, b)?], &name);
         }
     }

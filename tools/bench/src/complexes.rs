@@ -1,4 +1,4 @@
-//! Random curved complexes: which end, and what the judge says of them.
+//! Random curved complexes: which end, and what the verifier says of them.
 
 use crate::run::{self, Run};
 use squinch::generate;

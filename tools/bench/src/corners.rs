@@ -1,4 +1,4 @@
-//! Sharp straight corners: triangles, and the least angle outside the excused ones.
+//! Sharp straight corners: triangles, and the least angle outside the exempt ones.
 
 use crate::run;
 use squinch::plane::lopping::Options;
@@ -14,7 +14,7 @@ pub fn print(dir: &str) {
         })
         .collect();
     paths.sort();
-    println!("| file | arcs | triangles | least° unexcused | least° | largest° | excused | kept |");
+    println!("| file | arcs | triangles | least° not exempt | least° | largest° | exempt | kept |");
     println!("|---|---|---|---|---|---|---|---|");
     for path in paths {
         for corner_arcs in [None, Some(FRAC_PI_3)] {
@@ -28,7 +28,7 @@ pub fn print(dir: &str) {
                     r.quality.min_unexcused_angle_deg,
                     r.quality.min_angle_deg,
                     r.quality.max_angle_deg,
-                    r.excused(),
+                    r.exempt(),
                     if r.verdict.kept() { "yes".into() } else { format!("no: {:?}", r.broken()) },
                 ),
                 Err(e) => println!("| {name} | {arcs} | {e} |"),

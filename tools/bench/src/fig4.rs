@@ -8,7 +8,7 @@ pub fn print() {
     let drawing = run::read("samples/tangent_curves.json").expect("the sample is there");
     let kappa = (0.5 / 2f64.sqrt()).asin();
     println!("τ = 0.5, κ = {:.3}°, no limit on edge turning", kappa.to_degrees());
-    println!("| β | midpoint | shrinking | arcs | vertices | of first | smallest° | largest° | excused % | kept |");
+    println!("| β | midpoint | shrinking | arcs | vertices | of first | smallest° | largest° | exempt % | kept |");
     println!("|---|---|---|---|---|---|---|---|---|---|");
     let mut first = None;
     for shrinking in [Shrinking::Literal, Shrinking::Batched] {
@@ -29,7 +29,7 @@ pub fn print() {
                                 if arcs.is_some() { "on" } else { "off" },
                                 r.quality.min_angle_deg,
                                 r.quality.max_angle_deg,
-                                100.0 * r.excused() as f64 / r.mesh.triangles.len() as f64,
+                                100.0 * r.exempt() as f64 / r.mesh.triangles.len() as f64,
                                 if r.verdict.kept() { "yes".into() } else { format!("no: {:?}", r.broken()) },
                             );
                         }

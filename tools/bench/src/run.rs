@@ -37,7 +37,7 @@ pub fn read(path: &str) -> Result<Drawing, String> {
     found.and_then(|found| section::drawn(found, &section::Options::default())).map_err(|e| format!("{path}: {e}"))
 }
 
-/// Meshes and judges a drawing.
+/// Meshes and verifies a drawing.
 pub fn run(drawing: &Drawing, tau_rad: f64, options: &Options) -> Result<Run, String> {
     let mut seconds = Seconds::default();
     let start = Instant::now();
@@ -65,8 +65,8 @@ impl Run {
         self.verdict.checks.iter().filter(|c| c.status == Status::Broken).map(|c| c.name).collect()
     }
 
-    pub fn excused(&self) -> usize {
-        self.verdict.excused.iter().map(|e| e.cells.len()).sum()
+    pub fn exempt(&self) -> usize {
+        self.verdict.exempt.iter().map(|e| e.cells.len()).sum()
     }
 }
 

@@ -15,7 +15,7 @@ struct Counts {
     meshed: usize,
     without_sharp_corners: usize,
     triangles: usize,
-    excused: usize,
+    exempt: usize,
     largest_share: f64,
     /// Neither meshed nor refused for what they are.
     otherwise: Vec<String>,
@@ -23,7 +23,7 @@ struct Counts {
 
 pub fn print(folders: &[String]) -> Result<(), String> {
     println!(
-        "| folder | meshed | no angle below 60° | triangles | below 30°, each excused | largest share | otherwise |"
+        "| folder | meshed | no angle below 60° | triangles | below 30°, each exempt | largest share | otherwise |"
     );
     println!("|---|---|---|---|---|---|---|");
     for steiner in [Steiner::Center, Steiner::OptimalFree] {
@@ -37,7 +37,7 @@ pub fn print(folders: &[String]) -> Result<(), String> {
                 counts.meshed,
                 counts.without_sharp_corners,
                 counts.triangles,
-                counts.excused,
+                counts.exempt,
                 100.0 * counts.largest_share,
                 counts.otherwise.join(", ")
             );
@@ -69,16 +69,16 @@ impl Counts {
             }
             return;
         };
-        let excused: usize = verdict.excused.iter().map(|e| e.cells.len()).sum();
+        let exempt: usize = verdict.exempt.iter().map(|e| e.cells.len()).sum();
         let sharp = has_sharp_corner(domain);
-        if !sharp && excused > 0 {
+        if !sharp && exempt > 0 {
             self.otherwise.push(format!("{name} (excuses without a sharp corner)"));
         }
         self.meshed += 1;
         self.without_sharp_corners += usize::from(!sharp);
         self.triangles += mesh.triangles.len();
-        self.excused += excused;
-        self.largest_share = self.largest_share.max(excused as f64 / mesh.triangles.len() as f64);
+        self.exempt += exempt;
+        self.largest_share = self.largest_share.max(exempt as f64 / mesh.triangles.len() as f64);
     }
 }
 

@@ -1,4 +1,4 @@
-//! Hard drawings whose area is known by formula, meshed and judged; each also at other scales and places.
+//! Hard drawings whose area is known by formula, meshed and verified; each also at other scales and places.
 
 use squinch::generate::known::{self, Known, Near};
 use squinch::geometry::{Vec2, scaled};
@@ -106,7 +106,7 @@ pub fn print(large: bool) {
             if seconds > slowest.0 {
                 slowest = (seconds, format!("{family} {detail} {stress:?}"));
             }
-            let (ending, what) = judge(&stressed, &outcome);
+            let (ending, what) = ending_of(&stressed, &outcome);
             *table.entry((family, ending)).or_default() += 1;
             if ending >= Ending::Invalid {
                 println!("{ending:?}: {family} {detail} {stress:?}, area {}: {what}", stressed.area);
@@ -135,7 +135,7 @@ pub fn print(large: bool) {
     println!("slowest: {:.1} s, {}", slowest.0, slowest.1);
 }
 
-fn judge(known: &Known, outcome: &Outcome) -> (Ending, String) {
+fn ending_of(known: &Known, outcome: &Outcome) -> (Ending, String) {
     if let Some(failure) = &outcome.report.failure {
         let budget = failure.stop.as_ref().is_some_and(|stop| stop.reason == StopReason::VertexBudget);
         let ending = match failure.kind {

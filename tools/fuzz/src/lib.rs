@@ -85,7 +85,7 @@ pub fn read_mesh(bytes: &[u8]) {
         let beside: Vec<_> = files.map(|file| Some(file.to_vec())).collect();
         match meshio::read(main, format, &beside) {
             Ok(file) => {
-                // Whatever is read can be judged.
+                // Whatever is read can be verified.
                 Plan::without_domain(&Request::default()).verify_file(None, &file.mesh);
             }
             Err(error) => assert!(!error.what.is_empty() && !error.help.is_empty(), "{error:?}"),
@@ -184,7 +184,7 @@ pub fn mesh(sketch: &Sketch) {
     check_outcome(&outcome, &request);
 }
 
-/// Reads, arranges, meshes and judges bytes, of the format that they look like.
+/// Reads, arranges, meshes and verifies bytes, of the format that they look like.
 pub fn mesh_file(bytes: &[u8]) {
     let (bytes, request) = file_and_request(bytes);
     let Some(format) = Format::sniff(bytes) else { return };

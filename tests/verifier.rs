@@ -1,4 +1,4 @@
-//! The judge passes sound meshes, and each of its checks finds the mesh that was broken for it.
+//! The verifier passes sound meshes, and each of its checks finds the mesh that was broken for it.
 //!
 //! The meshes are made here: curves cut where told, nodes added where told, and every triangle whose circle is empty
 //! taken.
@@ -39,7 +39,7 @@ struct Scene {
 }
 
 impl Scene {
-    fn judged(&self) -> Verdict {
+    fn verified(&self) -> Verdict {
         verify(Some(&self.domain), &self.mesh, &self.promise)
     }
 
@@ -227,9 +227,9 @@ fn told(verdict: &Verdict) -> Vec<String> {
 /// Breaks a sound scene: exactly the named checks must be broken, the first of them telling `culprit`.
 #[track_caller]
 fn breaks(mut scene: Scene, names: &[&str], culprit: &str, damage: impl FnOnce(&mut Scene)) {
-    assert_eq!(told(&scene.judged()), [""; 0], "the scene was not sound");
+    assert_eq!(told(&scene.verified()), [""; 0], "the scene was not sound");
     damage(&mut scene);
-    let verdict = scene.judged();
+    let verdict = scene.verified();
     let mut expected = names.to_vec();
     let order = |name: &&str| verdict.checks.iter().position(|c| c.name == *name);
     expected.sort_by_key(order);
@@ -281,7 +281,7 @@ fn sound_meshes_pass_at_every_size_and_place() {
     let offsets = [(1.0, 1e7), (1e-6, -3e-2), (1e7, 1e14)].map(|(scale, offset)| Place { scale, offset });
     for place in places.into_iter().chain(offsets) {
         for scene in [keyhole(place), wedge(place)] {
-            let verdict = scene.judged();
+            let verdict = scene.verified();
             assert_eq!(told(&verdict), [""; 0]);
             assert!(verdict.kept());
             let asked = verdict.checks.iter().filter(|c| c.status != Status::NotAsked);
@@ -293,7 +293,7 @@ fn sound_meshes_pass_at_every_size_and_place() {
 
 #[test]
 fn the_checks_come_in_the_contract_s_order() {
-    let names: Vec<&str> = keyhole(HERE).judged().checks.iter().map(|c| c.name).collect();
+    let names: Vec<&str> = keyhole(HERE).verified().checks.iter().map(|c| c.name).collect();
     let contract = "orientation, manifold, conforming, on_curve, curve_chain, empty_diametral, delaunay, min_angle, \
                     max_angle, ball_radius, lfs_ratio, chord_error, edge_turning, size, area, names, jacobian";
     assert_eq!(names.join(", "), contract);
@@ -301,7 +301,7 @@ fn the_checks_come_in_the_contract_s_order() {
 
 #[test]
 fn an_angle_is_proven_only_below_the_guarantee_of_the_turning() {
-    let status = |scene: &Scene| check(&scene.judged(), "min_angle").status;
+    let status = |scene: &Scene| check(&scene.verified(), "min_angle").status;
     // The rim's arcs turn π/7: λ = π/14, for which 14.6° are guaranteed.
     let mut scene = keyhole(HERE);
     assert_eq!(status(&scene), Status::Reached);
@@ -324,11 +324,11 @@ fn a_small_angle_at_an_acute_corner_is_exempt_and_told_by_corner() {
     for arcs in [true, false] {
         let mut scene = wedge(HERE);
         scene.lopping().arc_turning_rad = arcs.then_some(FRAC_PI_3);
-        let verdict = scene.judged();
+        let verdict = scene.verified();
         assert_eq!(told(&verdict), [""; 0]);
-        let [excuse] = verdict.exempt.as_slice() else { panic!("{:?}", verdict.exempt) };
-        assert_eq!((excuse.at, excuse.why), ([0.0, 0.0], "local_feature_size"));
-        assert_eq!(excuse.cells, [triangle_at(&scene, 1.0, 0.1).0]);
+        let [exemption] = verdict.exempt.as_slice() else { panic!("{:?}", verdict.exempt) };
+        assert_eq!((exemption.at, exemption.why), ([0.0, 0.0], "local_feature_size"));
+        assert_eq!(exemption.cells, [triangle_at(&scene, 1.0, 0.1).0]);
         let asked = if arcs { Status::Reached } else { Status::NotAsked };
         assert_eq!(check(&verdict, "max_angle").status, asked);
         let quality = Quality::of(Some(&scene.domain), &scene.mesh, verdict.exempt_cells());
@@ -337,14 +337,14 @@ fn a_small_angle_at_an_acute_corner_is_exempt_and_told_by_corner() {
 }
 
 #[test]
-fn a_mesh_without_links_is_judged_by_where_its_nodes_lie() {
+fn a_mesh_without_links_is_verified_by_where_its_nodes_lie() {
     for mut scene in [keyhole(HERE), wedge(HERE), keyhole(Place { scale: 1e-6, offset: 1e-3 })] {
         scene.promise.foreign = true;
         scene.mesh.edges.iter_mut().for_each(|e| e.link = None);
         scene.mesh.edges.reverse();
         scene.mesh.points.clear();
         scene.mesh.balls.clear();
-        let verdict = scene.judged();
+        let verdict = scene.verified();
         assert_eq!(told(&verdict), [""; 0]);
         assert_eq!(check(&verdict, "ball_radius").status, Status::NotAsked);
         assert_eq!(check(&verdict, "curve_chain").status, Status::Proven);
@@ -353,7 +353,7 @@ fn a_mesh_without_links_is_judged_by_where_its_nodes_lie() {
         let all = scene.mesh.names.intern("all");
         scene.mesh.regions = vec![all].into();
         scene.mesh.triangle_regions.iter_mut().for_each(|r| *r = RegionId(0));
-        let verdict = scene.judged();
+        let verdict = scene.verified();
         assert_eq!(check(&verdict, "names").status, Status::NotAsked);
         assert_eq!(check(&verdict, "area").status, Status::Proven);
         // A node that left its curve.
@@ -361,12 +361,12 @@ fn a_mesh_without_links_is_judged_by_where_its_nodes_lie() {
         let moved = scene.mesh.nodes.ids().find(|&v| scene.mesh.nodes[v] == scene.domain.points()[rim]).unwrap();
         let size = scene.domain.bounds().width();
         scene.mesh.nodes[moved] += Vec2::new(0.01, -0.01) * size;
-        assert!(broken(&scene.judged()).contains(&"on_curve"));
+        assert!(broken(&scene.verified()).contains(&"on_curve"));
     }
 }
 
 #[test]
-fn without_a_domain_only_the_triangles_are_judged() {
+fn without_a_domain_only_the_triangles_are_verified() {
     let scene = keyhole(HERE);
     let verdict = verify(None, &scene.mesh, &scene.promise);
     let asked: Vec<&str> = verdict.checks.iter().filter(|c| c.status != Status::NotAsked).map(|c| c.name).collect();
@@ -377,7 +377,7 @@ fn without_a_domain_only_the_triangles_are_judged() {
 #[test]
 fn qualities_are_those_of_the_shape() {
     let scene = keyhole(HERE);
-    let verdict = scene.judged();
+    let verdict = scene.verified();
     let quality = Quality::of(Some(&scene.domain), &scene.mesh, verdict.exempt_cells());
     let step = PI / 7.0;
     approx::assert_relative_eq!(quality.measure, 1.0 + 7.0 * 0.125 * step.sin(), max_relative = 1e-12);
@@ -450,7 +450,7 @@ fn conforming_finds_chords_that_cross() {
     let mut scene = keyhole(HERE);
     let first = scene.mesh.edges[edges_of(&scene, "rim")[3]].nodes[0];
     scene.mesh.nodes[first] = Point::new(0.7, 0.3);
-    let verdict = scene.judged();
+    let verdict = scene.verified();
     let crossings = check(&verdict, "conforming").flaws.iter().filter(|f| f.contains(" crosses ")).count();
     assert_eq!(crossings, 2, "{:?}", told(&verdict));
 }
@@ -463,14 +463,14 @@ fn conforming_finds_a_wrong_region_and_a_missing_point() {
     });
     // A point that the drawing wants kept, within a triangle; then as a node.
     let missing = keyhole_with(HERE, &[], &[(0.5, 0.5)]);
-    let verdict = missing.judged();
+    let verdict = missing.verified();
     assert_eq!(broken(&verdict), ["conforming"], "{:?}", told(&verdict));
     assert!(told(&verdict)[0].contains("(0.5, 0.5) lies in a region"));
     let mut kept = keyhole_with(HERE, &[(0.5, 0.5)], &[(0.5, 0.5)]);
     kept.mesh.points.push((point_at(&kept, 0.5, 0.5), node_at(&kept, 0.5, 0.5)));
-    assert_eq!(told(&kept.judged()), [""; 0]);
+    assert_eq!(told(&kept.verified()), [""; 0]);
     // Outside every region it is nobody's business.
-    assert_eq!(told(&keyhole_with(HERE, &[], &[(-1.0, 0.6)]).judged()), [""; 0]);
+    assert_eq!(told(&keyhole_with(HERE, &[], &[(-1.0, 0.6)]).verified()), [""; 0]);
 }
 
 #[test]
@@ -512,7 +512,7 @@ fn curve_chain_finds_a_swapped_order_and_a_gap() {
 #[test]
 fn empty_diametral_finds_a_node_beside_the_edge_and_one_far_in_the_list() {
     let scene = keyhole_with(HERE, &[(0.5, 0.2)], &[]);
-    let verdict = scene.judged();
+    let verdict = scene.verified();
     assert_eq!(broken(&verdict), ["empty_diametral"], "{:?}", told(&verdict));
     let worst = check(&verdict, "empty_diametral").worst.unwrap();
     approx::assert_relative_eq!(worst.value, 0.4, max_relative = 1e-12);
@@ -546,7 +546,7 @@ fn empty_diametral_agrees_with_a_scan_of_all_nodes_and_edges() {
         let inside = |e: &CurveEdge, v: &Point| in_diametral(mesh.nodes[e.nodes[0]], mesh.nodes[e.nodes[1]], *v);
         let has_intruder = |e: &&CurveEdge| mesh.nodes.iter().any(|v| inside(e, v) == CircleSide::Inside);
         let scan = mesh.edges.iter().filter(has_intruder).count();
-        assert_eq!(check(&scene.judged(), "empty_diametral").broken, scan);
+        assert_eq!(check(&scene.verified(), "empty_diametral").broken, scan);
     }
 }
 
@@ -572,7 +572,7 @@ fn delaunay_finds_a_flipped_edge() {
 }
 
 #[test]
-fn min_angle_finds_a_small_angle_that_no_ball_excuses() {
+fn min_angle_finds_a_small_angle_that_no_ball_exempts() {
     breaks(keyhole(HERE), &["min_angle"], "has an angle of 25.", |s| {
         s.promise.angle_min_rad = Some(26f64.to_radians())
     });
@@ -581,7 +581,7 @@ fn min_angle_finds_a_small_angle_that_no_ball_excuses() {
         s.lopping().arc_turning_rad = None;
         s.mesh.balls.clear();
     });
-    // A ball excuses only what is in it: outside the corner the angles are above 35°.
+    // A ball exempts only what is in it: outside the corner the angles are above 35°.
     breaks(wedge(HERE), &["min_angle"], "has an angle of 4", |s| {
         s.lopping().arc_turning_rad = None;
         s.promise.angle_min_rad = Some(50f64.to_radians());
@@ -593,16 +593,16 @@ fn small_triangles_that_the_user_wants_left_alone_are_told_apart() {
     let mut scene = wedge(HERE);
     scene.mesh.balls.clear();
     scene.promise.sizing.min_edge = Some(1.0);
-    let verdict = scene.judged();
+    let verdict = scene.verified();
     assert_eq!(told(&verdict), [""; 0]);
     assert_eq!(verdict.exempt[0].why, "min_edge");
     scene.promise.sizing.min_edge = Some(0.5);
-    assert_eq!(broken(&scene.judged()), ["min_angle"]);
+    assert_eq!(broken(&scene.verified()), ["min_angle"]);
 }
 
 #[test]
 fn max_angle_finds_an_obtuse_triangle_even_in_a_ball() {
-    // A node near the rim of the ball: excused, but flat. It is in the circles of the spokes and has a node beyond the
+    // A node near the rim of the ball: exempt, but flat. It is in the circles of the spokes and has a node beyond the
     // rim in its own.
     breaks(wedge(HERE), &["max_angle", "delaunay", "empty_diametral"], "has an angle of 17", |s| {
         let t = triangle_at(s, 1.0, 0.1);
@@ -624,10 +624,10 @@ fn ball_radius_finds_balls_in_the_wrong_place_too_large_or_overlapping() {
         let corner = point_at(s, 0.0, 0.0);
         s.mesh.balls.push(Ball { corner, radius: SQRT_2 - 1.0, why: BallReason::LocalFeatureSize });
     });
-    // A ball that fails excuses nothing, so the corner's small angle comes to light.
-    let with_excuse = &["ball_radius", "min_angle"];
-    breaks(wedge(HERE), with_excuse, "is larger than", |s| s.mesh.balls[0].radius *= 1.0 + 1e-9);
-    breaks(wedge(HERE), with_excuse, "meets the ball", |s| s.mesh.balls.push(s.mesh.balls[0]));
+    // A ball that fails exempts nothing, so the corner's small angle comes to light.
+    let with_exemption = &["ball_radius", "min_angle"];
+    breaks(wedge(HERE), with_exemption, "is larger than", |s| s.mesh.balls[0].radius *= 1.0 + 1e-9);
+    breaks(wedge(HERE), with_exemption, "meets the ball", |s| s.mesh.balls.push(s.mesh.balls[0]));
     breaks(wedge(HERE), &["ball_radius", "lfs_ratio", "min_angle"], "is none", |s| s.mesh.balls[0].radius = f64::NAN);
 }
 
@@ -645,7 +645,7 @@ fn lfs_ratio_finds_a_ball_that_is_too_small_unless_a_size_limit_capped_it() {
     shrink(&mut scene);
     scene.mesh.balls[0].why = BallReason::Size;
     scene.promise.sizing.max_edge = Some(2.0 * scene.mesh.balls[0].radius);
-    let verdict = scene.judged();
+    let verdict = scene.verified();
     assert_eq!(check(&verdict, "lfs_ratio").status, Status::Proven);
     assert_eq!((check(&verdict, "lfs_ratio").checked, check(&verdict, "lfs_ratio").exempt), (0, 1));
     // β = ½ allows down to lfs/3 with arcs.
@@ -653,9 +653,9 @@ fn lfs_ratio_finds_a_ball_that_is_too_small_unless_a_size_limit_capped_it() {
     scene.mesh.balls[0].radius *= 0.9;
     scene.mesh.balls[0].why = BallReason::Encroached;
     scene.lopping().beta = 0.5;
-    assert_eq!(check(&scene.judged(), "lfs_ratio").status, Status::Proven);
+    assert_eq!(check(&scene.verified(), "lfs_ratio").status, Status::Proven);
     scene.lopping().arc_turning_rad = None;
-    assert_eq!(check(&scene.judged(), "lfs_ratio").status, Status::Broken);
+    assert_eq!(check(&scene.verified(), "lfs_ratio").status, Status::Broken);
 }
 
 #[test]
@@ -664,7 +664,7 @@ fn chord_error_and_edge_turning_are_held_to_their_limits() {
     let mut scene = keyhole(HERE);
     scene.promise.sizing.chord_error = Some(sagitta * 1.000001);
     scene.promise.sizing.edge_turning_rad = Some(step);
-    let verdict = scene.judged();
+    let verdict = scene.verified();
     assert_eq!(told(&verdict), [""; 0]);
     approx::assert_relative_eq!(check(&verdict, "chord_error").worst.unwrap().value, sagitta, max_relative = 1e-9);
     approx::assert_relative_eq!(check(&verdict, "edge_turning").worst.unwrap().value, step, max_relative = 1e-9);
@@ -689,7 +689,7 @@ fn size_holds_each_limit_where_it_was_asked() {
         Source::Region { name: "cap".into(), edge: 0.5 + 1e-9 },
         near(1.0),
     ];
-    let verdict = scene.judged();
+    let verdict = scene.verified();
     assert_eq!(told(&verdict), [""; 0]);
     assert_eq!(check(&verdict, "size").status, Status::Proven);
 }
@@ -750,7 +750,7 @@ fn ids_that_lead_nowhere_and_numbers_that_are_none_are_told_not_followed() {
     for damage in damages {
         let mut scene = keyhole(HERE);
         damage(&mut scene.mesh);
-        let verdict = scene.judged();
+        let verdict = scene.verified();
         assert_eq!(broken(&verdict), ["manifold"]);
         assert!(verdict.checks.iter().all(|c| c.name == "manifold" || c.status == Status::NotAsked));
     }
@@ -758,7 +758,7 @@ fn ids_that_lead_nowhere_and_numbers_that_are_none_are_told_not_followed() {
     for t in [f64::NAN, -1.0, 2.0, f64::INFINITY] {
         let mut scene = keyhole(HERE);
         scene.mesh.edges[0].link.as_mut().unwrap().t[1] = t;
-        assert!(broken(&scene.judged()).contains(&"on_curve"));
+        assert!(broken(&scene.verified()).contains(&"on_curve"));
     }
 }
 
@@ -766,5 +766,5 @@ fn ids_that_lead_nowhere_and_numbers_that_are_none_are_told_not_followed() {
 fn an_empty_mesh_of_a_domain_breaks_what_the_domain_asks_for() {
     let mut scene = keyhole(HERE);
     scene.mesh = Mesh::default();
-    assert_eq!(broken(&scene.judged()), ["conforming", "curve_chain", "area", "names"]);
+    assert_eq!(broken(&scene.verified()), ["conforming", "curve_chain", "area", "names"]);
 }
