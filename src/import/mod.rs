@@ -10,6 +10,7 @@ pub mod outline;
 pub mod poly;
 mod selection;
 pub mod step;
+pub mod surface;
 pub mod svg;
 
 pub use dxf::{DxfOptions, LineTypes};

@@ -1,6 +1,23 @@
 //! Solids bounded by flat facets: as a file holds them ([`Surfaces`]), and as a valid piecewise linear complex
 //! ([`Solid`]; Shewchuk & Si 2014, section 2), which is what the kernel in space takes.
 
+mod assemble;
+mod boxes;
+mod complex;
+mod crossing;
+mod error;
+mod exact;
+mod flatten;
+mod orient;
+mod plane;
+mod polygons;
+mod rims;
+mod split;
+mod triangulate;
+
+pub use assemble::{Assembly, Flatten, NonPlanar};
+pub use error::SolidError;
+
 use crate::ids::{FacetId, IdVec, NameId, Names, PointId, SegmentId};
 
 /// Points and polygons as found in a file: nothing guaranteed, nothing cleaned.
