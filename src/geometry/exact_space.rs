@@ -103,13 +103,11 @@ fn in_sphere_exact(a: Weighted, b: Weighted, c: Weighted, d: Weighted, e: Weight
     let p = [a, b, c, d, e];
     let [x, y, z] = [0, 1, 2].map(|k| p.map(|(at, _)| at[k]));
     let two = |i: usize, j: usize| Expansion::product(x[i], y[j]).minus(&Expansion::product(x[j], y[i]));
-    let three = |i: usize, j: usize, k: usize| {
-        two(j, k).times(z[i]).minus(&two(i, k).times(z[j])).plus(&two(i, j).times(z[k]))
-    };
+    let three =
+        |i: usize, j: usize, k: usize| two(j, k).times(z[i]).minus(&two(i, k).times(z[j])).plus(&two(i, j).times(z[k]));
     // The determinant with rows (x, y, z, 1) of four points, by its last column.
-    let four = |[i, j, k, l]: [usize; 4]| {
-        three(i, j, k).minus(&three(i, j, l)).plus(&three(i, k, l)).minus(&three(j, k, l))
-    };
+    let four =
+        |[i, j, k, l]: [usize; 4]| three(i, j, k).minus(&three(i, j, l)).plus(&three(i, k, l)).minus(&three(j, k, l));
     let lifted = |of: usize, others: [usize; 4]| {
         let minor = four(others);
         let squares = [x[of], y[of], z[of]].map(|c| minor.times(c).times(c));

@@ -2,8 +2,8 @@
 
 use super::boxes::Space;
 use super::complex::{Complex, counted, shown};
-use super::exact::Place;
 use super::error::SolidError;
+use super::exact::Place;
 use super::{Digits, Material, RegionSeed, Solid, Surfaces, crossing, flatten, orient, polygons, rims, split};
 use crate::geometry::space::{cross, dot, length, minus, times};
 use crate::geometry::unit_scale;

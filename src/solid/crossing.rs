@@ -57,7 +57,8 @@ pub(super) fn refuse(found: &[Crossing], count: usize) -> Result<(), SolidError>
         _ => format!(" ({count} pairs cross; also {})", others.join("; ")),
     };
     let what = format!("{} cross{more}, the first", first.what);
-    let help = "facets may meet in points and edges that both have: unite or cut the bodies in the program that made the file";
+    let help =
+        "facets may meet in points and edges that both have: unite or cut the bodies in the program that made the file";
     Err(SolidError::new(what, first.at, help).also_at(found[1..].iter().map(|c| c.at)))
 }
 
@@ -75,7 +76,11 @@ fn cells(complex: &Complex) -> Vec<Cell> {
 fn name(complex: &Complex, cell: &Cell) -> String {
     match cell.len {
         3 => complex.entity(cell.from).to_owned(),
-        _ => format!("the segment from {} to {}", shown(complex.place_of(cell.ids[0])), shown(complex.place_of(cell.ids[1]))),
+        _ => format!(
+            "the segment from {} to {}",
+            shown(complex.place_of(cell.ids[0])),
+            shown(complex.place_of(cell.ids[1]))
+        ),
     }
 }
 

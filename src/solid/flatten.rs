@@ -53,7 +53,8 @@ impl Flattened {
             let (n, of) = (counted(self.regions, "facet"), counted(self.triangles, "triangle"));
             let at = shown(complex.place(self.before[self.at as usize]));
             let moved = self.largest * complex.unscale;
-            let moved = if moved > 0.0 { format!("; points moved by up to {moved:.3e}, at {at}") } else { String::new() };
+            let moved =
+                if moved > 0.0 { format!("; points moved by up to {moved:.3e}, at {at}") } else { String::new() };
             complex.repairs.push(format!("{n} made flat of {of} that rounding holds apart{moved}."));
         }
     }
@@ -192,8 +193,13 @@ fn grow_from(
     let plane = facing(complex, through(three_far(&at)?.map(|i| at[i]))?, &piece.triangles);
     let near = complex.near[complex.triangles[piece.triangles[0] as usize].group as usize];
     let plane = if near { plane.fitted(&at, &[])? } else { plane };
-    let mut region =
-        Region { pieces: vec![seed], triangles: piece.triangles.clone(), points: piece.points.clone(), plane, exact: !near };
+    let mut region = Region {
+        pieces: vec![seed],
+        triangles: piece.triangles.clone(),
+        points: piece.points.clone(),
+        plane,
+        exact: !near,
+    };
     let mut queue: VecDeque<usize> = neighbours[seed].iter().copied().collect();
     while let Some(next) = queue.pop_front() {
         if taken[next] || !region.takes(complex, &pieces[next]) {

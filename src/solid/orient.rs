@@ -28,7 +28,9 @@ pub(super) fn orient(complex: &mut Complex) -> Result<(), SolidError> {
             let n = counted(turned.len(), "triangle");
             let at = shown(complex.place(complex.corners(first)[0]));
             let entity = complex.entity(first);
-            complex.repairs.push(format!("{n} turned, so that neighbours are oriented alike, the first {entity} at {at}."));
+            complex
+                .repairs
+                .push(format!("{n} turned, so that neighbours are oriented alike, the first {entity} at {at}."));
         }
         if let Some(ends) = unbalanced(complex, &complex.uses()) {
             let what = "the surface has no consistent orientation: triangles that share an edge disagree";
@@ -185,9 +187,8 @@ fn parts(complex: &Complex) -> Vec<Part> {
     }
     for part in &mut parts {
         let corners = part.triangles.iter().map(|&t| (t, complex.corners(t)));
-        let volume = |(t, [a, b, c]): (u32, [Place; 3])| {
-            f64::from(complex.triangles[t as usize].winding) * dot(a, cross(b, c))
-        };
+        let volume =
+            |(t, [a, b, c]): (u32, [Place; 3])| f64::from(complex.triangles[t as usize].winding) * dot(a, cross(b, c));
         part.volume = corners.clone().map(volume).sum();
         part.bounds = Space::around(corners.flat_map(|(_, abc)| abc));
     }

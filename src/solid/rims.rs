@@ -49,16 +49,11 @@ fn find_segments(complex: &Complex) -> BTreeMap<[u32; 2], SegmentId> {
     all.into_iter().zip(0..).map(|(ends, i)| (ends, SegmentId(i))).collect()
 }
 
-fn facet(
-    complex: &Complex,
-    group: &[u32],
-    segments: &BTreeMap<[u32; 2], SegmentId>,
-) -> Result<Facet, SolidError> {
+fn facet(complex: &Complex, group: &[u32], segments: &BTreeMap<[u32; 2], SegmentId>) -> Result<Facet, SolidError> {
     let first = &complex.triangles[group[0] as usize];
     let sides = Sides::of(complex, group)?;
     let rims = sides.rims();
-    let mut own: Vec<SegmentId> =
-        sides.next.iter().filter_map(|s| segments.get(&edge(s.0, s.1)).copied()).collect();
+    let mut own: Vec<SegmentId> = sides.next.iter().filter_map(|s| segments.get(&edge(s.0, s.1)).copied()).collect();
     own.sort_unstable();
     own.dedup();
     let mut points: Vec<u32> = group.iter().flat_map(|&t| complex.triangles[t as usize].corners).collect();

@@ -23,7 +23,9 @@ pub(super) fn at_points(complex: &mut Complex) {
     split_edges(complex, &of_edges);
     if let Some(first) = first {
         let n = counted(points.len(), "point");
-        complex.repairs.push(format!("{n} on an edge or in a facet without being part of it split it, the first at {first}."));
+        complex
+            .repairs
+            .push(format!("{n} on an edge or in a facet without being part of it split it, the first at {first}."));
     }
 }
 
@@ -53,8 +55,7 @@ fn on_triangles(complex: &Complex) -> Vec<(u32, u32)> {
 
 /// Required edges, by their order, with a point within them, sorted.
 fn on_edges(complex: &Complex) -> Vec<(u32, u32)> {
-    let edges: Vec<[Place; 2]> =
-        complex.required.keys().map(|e| e.map(|p| complex.points[p as usize])).collect();
+    let edges: Vec<[Place; 2]> = complex.required.keys().map(|e| e.map(|p| complex.points[p as usize])).collect();
     let hierarchy = Hierarchy::new(edges.iter().map(|&e| Space::around(e)));
     let (mut near, mut found) = (Vec::new(), Vec::new());
     if edges.is_empty() {
@@ -63,7 +64,9 @@ fn on_edges(complex: &Complex) -> Vec<(u32, u32)> {
     for p in used_points(complex) {
         let at = complex.points[p as usize];
         hierarchy.meeting(Space::around([at]), &mut near);
-        found.extend(near.iter().filter(|&&e| within_segment(edges[e as usize][0], edges[e as usize][1], at)).map(|&e| (e, p)));
+        found.extend(
+            near.iter().filter(|&&e| within_segment(edges[e as usize][0], edges[e as usize][1], at)).map(|&e| (e, p)),
+        );
     }
     found.sort_unstable();
     found
@@ -138,7 +141,8 @@ pub(super) fn join_doubled(complex: &mut Complex) {
         }
         let name = |facet: u32| complex.found.facets[facet as usize].name;
         renamed += usize::from(name(kept[at].facet) != name(triangle.facet));
-        kept[at].winding += if same_sense(kept[at].corners, triangle.corners) { triangle.winding } else { -triangle.winding };
+        kept[at].winding +=
+            if same_sense(kept[at].corners, triangle.corners) { triangle.winding } else { -triangle.winding };
         count += 1;
         first.get_or_insert_with(|| format!("{} at {}", complex.entity(t as u32), shown(complex.place_of(key[0]))));
     }
@@ -148,7 +152,9 @@ pub(super) fn join_doubled(complex: &mut Complex) {
         complex.repairs.push(format!("{n} with the corners of another became one with it, the first {first}."));
     }
     if renamed > 0 {
-        complex.repairs.push(format!("{} of these had another name; that of the first was kept.", counted(renamed, "triangle")));
+        complex
+            .repairs
+            .push(format!("{} of these had another name; that of the first was kept.", counted(renamed, "triangle")));
     }
 }
 

@@ -295,8 +295,8 @@ impl Work {
         while let Some([x, y]) = queue.pop_front() {
             let Some((t, i)) = self.find(x, y) else { continue };
             let ([p, x, y, q], _, _) = self.quad(t, i);
-            let convex = self.turn(p, q, x) == Orientation::Clockwise
-                && self.turn(p, q, y) == Orientation::CounterClockwise;
+            let convex =
+                self.turn(p, q, x) == Orientation::Clockwise && self.turn(p, q, y) == Orientation::CounterClockwise;
             steps -= 1;
             assert!(steps > 0, "the flips for an edge do not end");
             if !convex {
@@ -304,7 +304,8 @@ impl Work {
                 continue;
             }
             self.flip(t, i);
-            let apart = |s: Orientation, t: Orientation| s != t && s != Orientation::Collinear && t != Orientation::Collinear;
+            let apart =
+                |s: Orientation, t: Orientation| s != t && s != Orientation::Collinear && t != Orientation::Collinear;
             if ![a, b].contains(&p) && ![a, b].contains(&q) && apart(self.turn(a, b, p), self.turn(a, b, q)) {
                 queue.push_back([p, q]);
             }
@@ -371,13 +372,21 @@ mod tests {
         let n = 9;
         let points: Vec<Point> = (0..n * n).map(|i| Point::new(f64::from(i % n), f64::from(i / n))).collect();
         let id = |x: i32, y: i32| (x + n * y) as u32;
-        let edges = [[id(0, 0), id(8, 7)], [id(0, 1), id(7, 8)], [id(0, 8), id(0, 0)], [id(8, 0), id(1, 0)], [id(2, 5), id(2, 8)]];
+        let edges = [
+            [id(0, 0), id(8, 7)],
+            [id(0, 1), id(7, 8)],
+            [id(0, 8), id(0, 0)],
+            [id(8, 0), id(1, 0)],
+            [id(2, 5), id(2, 8)],
+        ];
         let flat = triangulate(&points, &edges).unwrap();
         let areas: Vec<f64> = flat.corners.iter().map(|&t| doubled_area(&points, t)).collect();
         assert!(areas.iter().all(|&a| a > 0.0));
         assert_eq!(areas.iter().sum::<f64>(), 128.0);
         let has = |a: u32, b: u32| flat.corners.iter().any(|t| t.contains(&a) && t.contains(&b));
-        assert!(has(id(0, 0), id(8, 7)) && has(id(0, 1), id(7, 8)) && has(id(0, 4), id(0, 5)) && has(id(2, 6), id(2, 7)));
+        assert!(
+            has(id(0, 0), id(8, 7)) && has(id(0, 1), id(7, 8)) && has(id(0, 4), id(0, 5)) && has(id(2, 6), id(2, 7))
+        );
     }
 
     #[test]
@@ -403,7 +412,8 @@ mod tests {
             let outside = flat.reached(&[], true);
             let inside = flat.corners.iter().zip(&outside).filter(|(_, out)| !**out);
             let area: f64 = inside.map(|(t, _)| doubled_area(&points, *t)).sum();
-            let exact: f64 = edges.iter().map(|e| points[e[0] as usize].to_vec2().cross(points[e[1] as usize].to_vec2())).sum();
+            let exact: f64 =
+                edges.iter().map(|e| points[e[0] as usize].to_vec2().cross(points[e[1] as usize].to_vec2())).sum();
             approx::assert_relative_eq!(area, exact, epsilon = 1e-12);
         }
     }

@@ -31,8 +31,7 @@ impl Complex<'_> {
             mesh.tetrahedra.push(net.corners(t).map(node));
             mesh.tetrahedron_regions.push(region);
         }
-        mesh.points =
-            self.vertex_of.enumerate().filter_map(|(point, &v)| Some((point, node_of[v]?))).collect();
+        mesh.points = self.vertex_of.enumerate().filter_map(|(point, &v)| Some((point, node_of[v]?))).collect();
         mesh.triangles = self.facet_triangles(&kept, &mut mesh.names, node);
         mesh.edges = self.segment_edges(&kept, node);
         Ok(mesh)

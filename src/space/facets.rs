@@ -331,9 +331,8 @@ impl<'a> Flips<'a> {
     /// x, y, p and q lie in one plane.
     fn flip_edge(&mut self, net: &mut Tetrahedra, f: Face, (x, y): (VertexId, VertexId), side: PlaneSide) -> bool {
         let ring = net.around(f.tet(), x, y);
-        let inner = ring.iter().all(|(t, w, _)| {
-            self.region.contains(t) && net.facet(net.face_opposite(*t, *w)).is_none()
-        });
+        let inner =
+            ring.iter().all(|(t, w, _)| self.region.contains(t) && net.facet(net.face_opposite(*t, *w)).is_none());
         let closed = ring.last().map(|&(_, _, last)| last) == ring.first().map(|&(_, first, _)| first);
         if !inner || !closed {
             return false;

@@ -142,7 +142,8 @@ impl Kernel {
             // The other face of the tetrahedron at the edge lies opposite the corner of the face that is not on it.
             let t = face.tet();
             let corners = self.net.corners(t);
-            let other = FACES[face.corner()].into_iter().find(|&i| !edge.contains(&corners[i])).expect("a third corner");
+            let other =
+                FACES[face.corner()].into_iter().find(|&i| !edge.contains(&corners[i])).expect("a third corner");
             let twin = self.net.twin(Face::of(t, other)).expect("a tetrahedron of the cavity or a new one");
             if !self.is_in_cavity(twin.tet()) {
                 return twin.tet();
@@ -210,8 +211,7 @@ mod tests {
     fn random_and_gridded_points_become_a_regular_tetrahedralization() {
         let mut rng = Rng::new(5);
         let random: Vec<[f64; 3]> = (0..300).map(|_| [0; 3].map(|_| rng.between(0.0, 1.0))).collect();
-        let grid: Vec<[f64; 3]> =
-            (0..216).map(|i| [i % 6, i / 6 % 6, i / 36].map(|k| f64::from(k) / 8.0)).collect();
+        let grid: Vec<[f64; 3]> = (0..216).map(|i| [i % 6, i / 6 % 6, i / 36].map(|k| f64::from(k) / 8.0)).collect();
         for points in [&random, &grid] {
             for scale in [0.0, 1e-6] {
                 let mut kernel = Kernel::new(FAR);
@@ -243,7 +243,9 @@ mod tests {
         }
         let mut flipped = 0;
         for t in kernel.net.tets().collect::<Vec<_>>() {
-            let Some((f, g)) = (0..4).map(|i| Face::of(t, i)).find_map(|f| Some((f, kernel.net.twin(f)?))) else { continue };
+            let Some((f, g)) = (0..4).map(|i| Face::of(t, i)).find_map(|f| Some((f, kernel.net.twin(f)?))) else {
+                continue;
+            };
             let ([a, b, c], p, q) = (kernel.net.triangle(f), kernel.net.apex(f), kernel.net.apex(g));
             let place = |v| kernel.net.points[v];
             let pierced = [(a, b), (b, c), (c, a)]

@@ -77,11 +77,7 @@ pub enum Fault {
 /// # Errors
 ///
 /// What stands in the way, with its place in the coordinates of the solid.
-pub fn constrained(
-    solid: &Solid,
-    max_vertices: usize,
-    go_on: &mut dyn FnMut() -> bool,
-) -> Result<SolidMesh, Fault> {
+pub fn constrained(solid: &Solid, max_vertices: usize, go_on: &mut dyn FnMut() -> bool) -> Result<SolidMesh, Fault> {
     let factor = unit_scale(solid.points().iter().flatten().fold(0.0, |m: f64, x| m.max(x.abs())));
     Complex::build(solid, factor, max_vertices, go_on).map_err(|fault| fault.scaled(1.0 / factor))
 }
@@ -163,7 +159,9 @@ fn insert_all(
         }
         match kernel.insert(points[i as usize], weights[i as usize]) {
             Ok(_) => (),
-            Err(Refusal::Taken(_) | Refusal::Hidden | Refusal::Outside) => return Err(Fault::Twice { point: PointId(i) }),
+            Err(Refusal::Taken(_) | Refusal::Hidden | Refusal::Outside) => {
+                return Err(Fault::Twice { point: PointId(i) });
+            }
         }
     }
     Ok(kernel)

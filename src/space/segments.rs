@@ -15,7 +15,7 @@
 use super::insert::{Kernel, Refusal};
 use super::{Fault, WEIGHT};
 use crate::geometry::space::{dot, length, minus, plus, times};
-use crate::ids::{Id, IdVec, PointId, SegmentId, TetId, VertexId};
+use crate::ids::{IdVec, PointId, SegmentId, TetId, VertexId};
 use crate::solid::Solid;
 use std::collections::BTreeMap;
 

@@ -295,8 +295,7 @@ impl Tetrahedra {
 
     /// The three tetrahedra around the edge u v become two on the triangle of the others: [`Self::flip_23`] backwards.
     pub fn flip_32(&mut self, ring: [(TetId, VertexId, VertexId); 3], u: VertexId, v: VertexId) -> [TetId; 2] {
-        let sides =
-            ring.map(|(t, ..)| (self.outer(self.face_opposite(t, u)), self.outer(self.face_opposite(t, v))));
+        let sides = ring.map(|(t, ..)| (self.outer(self.face_opposite(t, u)), self.outer(self.face_opposite(t, v))));
         let [a, b, c] = ring.map(|(_, w, _)| w);
         ring.into_iter().for_each(|(t, ..)| self.remove(t));
         // The triangle a b c turns counter-clockwise about the direction from u to v: v lies above it.

@@ -77,7 +77,8 @@ fn face(row: Row, entity: &str, points: usize) -> Result<Vec<u32>, SurfaceError>
     let corners = row.count(corners, "corners")?;
     let mut polygon = Vec::with_capacity(corners.min(row.text.len() / 2 + 1));
     for i in 0..corners {
-        let token = rest.next().ok_or_else(|| row.error(format!("{entity} promises {corners} corners, but has {i}")))?;
+        let token =
+            rest.next().ok_or_else(|| row.error(format!("{entity} promises {corners} corners, but has {i}")))?;
         let corner = number(token).and_then(whole).and_then(|n| u32::try_from(n).ok());
         let corner = corner.filter(|&n| (n as usize) < points);
         polygon.push(corner.ok_or_else(|| {

@@ -105,7 +105,8 @@ fn read_text(bytes: &[u8]) -> Result<Surfaces, SurfaceError> {
                 let mut at = [0.0; 3];
                 let mut items = tokens(row.text).skip(1);
                 for (i, x) in at.iter_mut().enumerate() {
-                    let token = items.next().ok_or_else(|| row.error(format!("a vertex needs 3 numbers, but has {i}")))?;
+                    let token =
+                        items.next().ok_or_else(|| row.error(format!("a vertex needs 3 numbers, but has {i}")))?;
                     *x = row.number(token, i, "a vertex")?;
                     written.note(token, *x);
                 }

@@ -31,7 +31,7 @@ pub(super) fn read_smesh(bytes: &[u8]) -> Result<Surfaces, SurfaceError> {
 }
 
 /// Reads one facet, the `i`-th, and its marker.
-type FacetReader = fn(&mut Reader, Row, usize) -> Result<(FoundFacet, i64), SurfaceError>;
+type FacetReader<'a> = fn(&mut Reader<'a>, Row<'a>, usize) -> Result<(FoundFacet, i64), SurfaceError>;
 
 struct Reader<'a> {
     rows: Rows<'a>,
@@ -42,7 +42,7 @@ struct Reader<'a> {
     marked: bool,
 }
 
-fn read(bytes: &[u8], format: &str, facet: FacetReader) -> Result<Surfaces, SurfaceError> {
+fn read<'a>(bytes: &'a [u8], format: &str, facet: FacetReader<'a>) -> Result<Surfaces, SurfaceError> {
     let mut surfaces = Surfaces { format: format.into(), ..Surfaces::default() };
     let mut reader =
         Reader { rows: Rows::new(bytes, HELP), places: BTreeMap::new(), first: 0, count: 0, marked: false };
@@ -111,7 +111,7 @@ impl<'a> Reader<'a> {
         })
     }
 
-    fn facets(&mut self, surfaces: &mut Surfaces, facet: FacetReader) -> Result<(), SurfaceError> {
+    fn facets(&mut self, surfaces: &mut Surfaces, facet: FacetReader<'a>) -> Result<(), SurfaceError> {
         let Some(header) = self.rows.next() else {
             surfaces.notes.push("The file ends before the facets; there are none.".into());
             return Ok(());
@@ -161,7 +161,8 @@ impl<'a> Reader<'a> {
                 return Ok((polygon, rest));
             }
             let missing = |line| {
-                let what = format!("{entity}: {corners} corners are promised, but the file ends after {}", polygon.len());
+                let what =
+                    format!("{entity}: {corners} corners are promised, but the file ends after {}", polygon.len());
                 SurfaceError::at(line, what, HELP)
             };
             row = self.rows.next().ok_or_else(|| missing(row.line))?;
@@ -208,7 +209,7 @@ fn marker_of(token: Option<&[u8]>) -> i64 {
     token.and_then(number).and_then(whole).unwrap_or(0)
 }
 
-fn facet_of_poly(reader: &mut Reader, row: Row, i: usize) -> Result<(FoundFacet, i64), SurfaceError> {
+fn facet_of_poly<'a>(reader: &mut Reader<'a>, row: Row<'a>, i: usize) -> Result<(FoundFacet, i64), SurfaceError> {
     let entity = format!("facet {} (line {})", i + 1, row.line);
     let ([polygons], mut rest) = row.take(&format!("{entity}: the count of polygons"))?;
     let count = row.count(polygons, "polygons")?;
@@ -223,7 +224,7 @@ fn facet_of_poly(reader: &mut Reader, row: Row, i: usize) -> Result<(FoundFacet,
     Ok((facet, marker))
 }
 
-fn facet_of_smesh(reader: &mut Reader, row: Row, i: usize) -> Result<(FoundFacet, i64), SurfaceError> {
+fn facet_of_smesh<'a>(reader: &mut Reader<'a>, row: Row<'a>, i: usize) -> Result<(FoundFacet, i64), SurfaceError> {
     let entity = format!("facet {} (line {})", i + 1, row.line);
     let (polygon, mut rest) = reader.polygon(row, &entity)?;
     let marker = if reader.marked { marker_of(rest.next()) } else { 0 };

@@ -39,13 +39,7 @@ impl<'a> Rows<'a> {
     }
 
     /// Row `i` of `count` that `header` promises.
-    pub(super) fn expect(
-        &mut self,
-        header: Row,
-        what: &str,
-        i: usize,
-        count: usize,
-    ) -> Result<Row<'a>, SurfaceError> {
+    pub(super) fn expect(&mut self, header: Row, what: &str, i: usize, count: usize) -> Result<Row<'a>, SurfaceError> {
         self.next().ok_or_else(|| {
             let promised = format!("line {} promises {count} {what}, but the file ends after {i}", header.line);
             SurfaceError::at(self.line, promised, "the file may be cut off; mend the count or add the missing lines")
