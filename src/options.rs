@@ -35,8 +35,10 @@ pub enum Group {
     Budget,
     /// Only for airfoil coordinates.
     Airfoils,
-    /// Only for solids (STEP).
+    /// Only for a face of a solid (STEP).
     Solids,
+    /// Only for solids that are meshed by tetrahedra.
+    Facets,
     /// Only for the engine of generalized constrained refinement.
     Gcdr,
 }

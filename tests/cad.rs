@@ -574,7 +574,7 @@ fn units_are_told_and_converted() {
     let mesh = outcome.mesh.as_ref().unwrap();
     let frame = mesh.frame.unwrap();
     assert_relative_eq!(
-        outcome.report.quality.unwrap().exact_measure.unwrap(),
+        outcome.report.quality.unwrap().exact_measure().unwrap(),
         (12.0 - PI / 4.0) * 25.4 * 25.4,
         max_relative = 1e-9
     );

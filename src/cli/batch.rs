@@ -197,12 +197,12 @@ impl Batch {
         if let Some(folder) = path("x").parent() {
             fs::create_dir_all(folder)?;
         }
-        if let (Some(mesh), false) = (&outcome.mesh, outcome.exit == Exit::Bug) {
+        if outcome.exit != Exit::Bug {
             for &format in &self.format {
                 let stamps = stamps(outcome, request);
                 let first = path(format.suffixes()[0]);
-                let encoded = self.writing.encode(format, mesh, outcome.domain.as_ref(), &stamps, &first)?;
-                for (suffix, bytes) in format.suffixes().iter().zip(encoded) {
+                let Some(encoded) = self.writing.encode_outcome(format, outcome, &stamps, &first) else { continue };
+                for (suffix, bytes) in format.suffixes().iter().zip(encoded?) {
                     staged.add(&path(suffix), &bytes)?;
                     names.push(path(suffix).display().to_string());
                 }

@@ -7,7 +7,7 @@ use clap::Args;
 use squinch::domain::Domain;
 use squinch::mesh::quality::Quality;
 use squinch::meshio::{self, Format, MeshFile};
-use squinch::run::report::{FailureKind, FailureReport, MeshReport, PromiseReport, Report};
+use squinch::run::report::{FailureKind, FailureReport, MeshReport, PromiseReport, QualityReport, Report};
 use squinch::run::request::Request;
 use squinch::run::{self, Exit, Plan};
 use squinch::verify::Status;
@@ -84,7 +84,8 @@ impl Check {
         report.input.notes.extend(untied.is_some().then(|| BY_PLACE.to_owned()));
         let mesh = untied.unwrap_or(mesh);
         report.mesh = Some(MeshReport::new(&mesh));
-        report.quality = Some(Quality::of(domain.as_ref(), &mesh, verdict.exempt_cells()));
+        let quality = Quality::of(domain.as_ref(), &mesh, verdict.exempt_cells());
+        report.quality = Some(QualityReport::Plane(quality));
         report.promise = Some(PromiseReport::new(&verdict));
         if let Some(path) = &self.report {
             let mut staged = Staged::default();

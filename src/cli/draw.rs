@@ -151,7 +151,7 @@ impl Draw {
 fn marks(failure: FailureReport) -> Vec<(Point, String)> {
     let words = std::iter::once(failure.what).chain(std::iter::repeat(String::new()));
     let places = failure.at.into_iter().chain(failure.also_at);
-    places.map(|[x, y]| Point::new(x, y)).zip(words).collect()
+    places.filter_map(|at| at.in_plane()).map(|[x, y]| Point::new(x, y)).zip(words).collect()
 }
 
 #[cfg(test)]

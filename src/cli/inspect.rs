@@ -148,7 +148,7 @@ impl Findings {
         let (unit, unit_from) = drawing.unit.clone().unzip();
         let flaws = match &arranged {
             Ok(domain) => domain.flaws().into_iter().map(|what| Flaw { what, at: None, help: String::new() }).collect(),
-            Err(f) => vec![Flaw { what: f.what.clone(), at: f.at, help: f.help.clone() }],
+            Err(f) => vec![Flaw { what: f.what.clone(), at: f.at.and_then(|at| at.in_plane()), help: f.help.clone() }],
         };
         Self {
             schema: SCHEMA,
@@ -224,7 +224,7 @@ impl Findings {
         self.notes.iter().for_each(|note| row("note", note));
         say::repair_rows(&self.repairs, &self.unhealed, volume, &mut row);
         for flaw in &self.flaws {
-            row("flaw", &ink.red(&say::located(&flaw.what, flaw.at)));
+            row("flaw", &ink.red(&say::located(&flaw.what, flaw.at.map(Into::into))));
             if !flaw.help.is_empty() {
                 row("", &flaw.help);
             }

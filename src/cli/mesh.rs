@@ -11,6 +11,7 @@ use squinch::domain::RepairKind;
 use squinch::run::request::Request;
 use squinch::run::{self, Exit, Extent, Outcome};
 use squinch::watch::Progress;
+use std::io;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -22,6 +23,8 @@ By job:
       squinch mesh samples/bracket.dxf -o bracket.msh --order 2
   larger angles
       squinch mesh samples/gear.json -o gear.vtu --engine gcdr --min-angle 30
+  the tetrahedra of a part
+      squinch mesh samples/bracket.stl -o bracket.vtu
   a corner in a picture
       squinch mesh samples/plate.json -o plate.png --view 0,0,20,20 --colour size
   MFEM, deal.II
@@ -33,11 +36,12 @@ By job:
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Mesh {
-    /// A drawing: .svg, .dxf, .step, airfoil .dat, .poly, .node, outline .json; - for standard input
+    /// A drawing: .svg, .dxf, .step, airfoil .dat, .poly, .node, outline .json; or the surface of a solid: .stl, .off,
+    /// .smesh, .poly in space; - for standard input
     #[arg(value_name = "IN")]
     input: PathBuf,
-    /// Where the mesh goes: .vtu, .vtk, .msh, .su2, .inp, .xdmf, .node/.ele/.poly, .glb, .gltf, .obj, .stl; a picture:
-    /// .svg, .png; - for standard output; may be repeated
+    /// Where the mesh goes: .vtu, .vtk, .msh, .su2, .inp, .xdmf, .node/.ele/.poly, .glb, .gltf, .obj, .stl; tetrahedra:
+    /// .vtu, .msh, .su2, .inp, .mesh; a picture: .svg, .png; - for standard output; may be repeated
     #[arg(short, long, value_name = "OUT", required = true, help_heading = "Output")]
     output: Vec<PathBuf>,
     /// Formats of the outputs, in their order, where the suffix gives none (msh22 is Gmsh 2.2; vtk-text is VTK as text;
@@ -120,11 +124,11 @@ impl Mesh {
         let mut staged = Staged::default();
         let mut wrote = Vec::new();
         // A mesh with a broken guarantee of ours must not reach a solver.
-        if let (Some(mesh), false) = (&outcome.mesh, outcome.exit == Exit::Bug) {
+        if outcome.exit != Exit::Bug {
             for (path, format) in outputs {
                 let stamps = stamps(outcome, request);
-                let encoded = self.writing.encode(*format, mesh, outcome.domain.as_ref(), &stamps, path);
-                let encoded = encoded.map_err(|e| Halt::Unwritable(format!("{}: {e}", path.display())))?;
+                let Some(encoded) = self.writing.encode_outcome(*format, outcome, &stamps, path) else { continue };
+                let encoded = encoded.map_err(|error| unencoded(path, &error))?;
                 for (file, bytes) in format.files(path).iter().zip(encoded) {
                     staged.add(file, &bytes).map_err(unwritable)?;
                     wrote.push(file.display().to_string());
@@ -145,6 +149,12 @@ impl Mesh {
         staged.commit().map_err(unwritable)?;
         Ok(wrote)
     }
+}
+
+/// The error of a format that cannot hold a mesh, or of writing.
+fn unencoded(path: &Path, error: &io::Error) -> Halt {
+    let what = format!("{}: {error}", path.display());
+    if error.kind() == io::ErrorKind::Unsupported { Halt::Usage(what) } else { Halt::Unwritable(what) }
 }
 
 /// A run with a progress line.

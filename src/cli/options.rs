@@ -37,7 +37,7 @@ struct Manner {
     /// Threads; the result does not depend on it [default: all]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..), allow_hyphen_values = true, help_heading = "General")]
     threads: Option<u64>,
-    /// Format of the input, where suffix and content give none: airfoil, poly, node, outline, dxf, svg, step
+    /// Format of the input, where suffix and content give none: airfoil, poly, node, outline, dxf, svg, step, smesh, off, stl
     #[arg(long, value_name = "FORMAT", help_heading = "Input")]
     input_format: Option<String>,
 }
@@ -95,7 +95,7 @@ fn heading(group: Group) -> &'static str {
         Group::Input => "Input",
         Group::Budget => "Budget",
         Group::Airfoils => "Airfoils",
-        Group::Solids => "Solids",
+        Group::Solids | Group::Facets => "Solids",
     }
 }
 

@@ -7,8 +7,9 @@ use indicatif::{ProgressBar, ProgressStyle};
 use miette::{LabeledSpan, MietteDiagnostic, NamedSource};
 use squinch::domain::{Repair, RepairKind};
 use squinch::geometry::Place;
+use squinch::mesh::quality::Quality;
 use squinch::refine::StopReason;
-use squinch::run::report::{FailureReport, InputReport, Report};
+use squinch::run::report::{FailureReport, InputReport, MeshReport, QualityReport, Report};
 use squinch::run::{Exit, Outcome};
 use squinch::verify::{Check, Exemption, Status, Verdict};
 use squinch::watch::Progress;
@@ -100,7 +101,7 @@ pub fn failure(report: &FailureReport, input: Option<&Input>) {
 }
 
 /// What is wrong, with the place unless the text names it.
-pub fn located(what: &str, at: Option<[f64; 2]>) -> String {
+pub fn located(what: &str, at: Option<Place>) -> String {
     match at.map(place) {
         Some(place) if !what.contains(&place) => format!("{what} at {place}"),
         Some(_) | None => what.to_owned(),
@@ -315,17 +316,14 @@ pub fn summary(outcome: &Outcome, wrote: &[String], volume: Volume) {
     line(&format!("{} {}", ink.bold("squinch"), report.input.path));
     input_rows(report, volume, &row);
     if let (Some(mesh), Some(quality)) = (&report.mesh, &report.quality) {
-        let regions = if mesh.regions.len() > 1 { format!(", {} regions", mesh.regions.len()) } else { String::new() };
-        row(
-            "mesh",
-            &format!(
-                "{}, {}, {} on curves{regions}",
-                plural(mesh.vertices, "vertex", "vertices"),
-                plural(mesh.triangles, "triangle", "triangles"),
-                plural(mesh.boundary_edges, "edge", "edges"),
-            ),
-        );
-        row("angles", &format!("{:.2}° to {:.2}°{}", quality.min_angle_deg, quality.max_angle_deg, exemptions(report)));
+        row("mesh", &cells(mesh));
+        let angles = match quality {
+            QualityReport::Plane(q) => {
+                format!("{:.2}° to {:.2}°{}", q.min_angle_deg, q.max_angle_deg, exemptions(q, report))
+            }
+            QualityReport::Space(q) => format!("dihedral, {:.2}° to {:.2}°", q.min_dihedral_deg, q.max_dihedral_deg),
+        };
+        row("angles", &angles);
     }
     if let Some(verdict) = &outcome.verdict {
         row("checks", &guarantees(verdict, ink));
@@ -339,15 +337,31 @@ pub fn summary(outcome: &Outcome, wrote: &[String], volume: Volume) {
     }
 }
 
+/// The counts of a mesh.
+fn cells(mesh: &MeshReport) -> String {
+    let vertices = plural(mesh.vertices, "vertex", "vertices");
+    let triangles = plural(mesh.triangles, "triangle", "triangles");
+    let edges = plural(mesh.boundary_edges, "edge", "edges");
+    let regions = if mesh.regions.len() > 1 { format!(", {} regions", mesh.regions.len()) } else { String::new() };
+    match mesh.tetrahedra {
+        0 => format!("{vertices}, {triangles}, {edges} on curves{regions}"),
+        n => {
+            let tetrahedra = plural(n, "tetrahedron", "tetrahedra");
+            format!("{vertices}, {tetrahedra}, {triangles} on facets, {edges} on segments{regions}")
+        }
+    }
+}
+
 fn input_rows(report: &Report, volume: Volume, row: &dyn Fn(&str, &str)) {
     let input = &report.input;
     let Some(format) = &input.format else { return };
     let unit = input.unit.as_ref().map_or_else(String::new, |unit| format!(", in {unit}"));
-    let area = report
-        .quality
-        .as_ref()
-        .and_then(|q| q.exact_measure)
-        .map_or_else(String::new, |a| format!(", area {}", number(a, 9)));
+    let measure = match &report.quality {
+        Some(QualityReport::Space(q)) => Some(("volume", q.exact_measure.unwrap_or(q.measure))),
+        Some(QualityReport::Plane(q)) => q.exact_measure.map(|area| ("area", area)),
+        None => None,
+    };
+    let area = measure.map_or_else(String::new, |(what, size)| format!(", {what} {}", number(size, 9)));
     row("input", &format!("{format}: {}{area}{unit}", kinds(&input.curves)));
     for skipped in &input.skipped {
         row("left out", &format!("{} {}: {}", skipped.count, skipped.entity, skipped.why));
@@ -385,8 +399,8 @@ pub fn repair_rows(repairs: &[Repair], unhealed: &[Repair], volume: Volume, row:
 }
 
 /// How many triangles are exempt from the smallest angle, and the smallest angle of the others.
-fn exemptions(report: &Report) -> String {
-    let (Some(quality), Some(promise)) = (&report.quality, &report.promise) else { return String::new() };
+fn exemptions(quality: &Quality, report: &Report) -> String {
+    let Some(promise) = &report.promise else { return String::new() };
     let triangles = |n: usize| plural(n, "triangle", "triangles");
     let (by_size, corners): (Vec<_>, Vec<_>) = promise.excused.by_corner.iter().partition(|e| e.why == "min_edge");
     let cells = |exempt: &[&Exemption]| exempt.iter().map(|e| e.cells.len()).sum::<usize>();
@@ -451,7 +465,8 @@ fn stop_row(report: &Report, row: &dyn Fn(&str, &str)) {
     };
     let place = stop.places.first().map_or_else(String::new, |at| format!(", one at {}", place(*at)));
     row("stopped", &format!("{reason}; {} unresolved{place}", plural(stop.unresolved, "cell", "cells")));
-    let held = report.quality.as_ref().map(|quality| quality.min_unexcused_angle_deg);
+    let quality = report.quality.as_ref().and_then(QualityReport::in_plane);
+    let held = quality.map(|quality| quality.min_unexcused_angle_deg);
     if let (Some(angle), Some(held)) = (stop.angle_deg, held) {
         let held = format!("the mesh has {:.2}° or more outside of exempt places", (held * 100.0).floor() / 100.0);
         row("", &format!("{held}; --min-angle {angle} asks for no more than that"));

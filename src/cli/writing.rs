@@ -11,6 +11,7 @@ use squinch::mesh::Mesh;
 use squinch::meshio::{self, Choice, WriteOptions, XdmfGrids};
 use squinch::options::Switch;
 use squinch::picture::{MeshColour, PictureOptions, picture_of_mesh};
+use squinch::run::Outcome;
 use std::io;
 use std::path::Path;
 
@@ -77,6 +78,27 @@ impl Writing {
             Output::Mesh(format) => format.losses(mesh, &self.options(path)),
             Output::Picture(_) => vec!["the mesh: a picture shows it"],
         }
+    }
+
+    /// The bytes of each file of an output; `None` where the run has no mesh.
+    pub fn encode_outcome(
+        &self,
+        output: Output,
+        outcome: &Outcome,
+        stamps: &[(String, String)],
+        path: &Path,
+    ) -> Option<io::Result<Vec<Vec<u8>>>> {
+        if let Some(mesh) = &outcome.mesh {
+            return Some(self.encode(output, mesh, outcome.domain.as_ref(), stamps, path));
+        }
+        let mesh = outcome.solid.as_ref()?;
+        Some(match output {
+            Output::Mesh(format) => meshio::encode_solid(mesh, stamps, format),
+            Output::Picture(_) => Err(io::Error::new(
+                io::ErrorKind::Unsupported,
+                "pictures of solids are not in this version: say -o part.vtu",
+            )),
+        })
     }
 
     /// The bytes of each file of an output. Pictures show the exact curves if the domain is given.

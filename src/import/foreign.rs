@@ -89,9 +89,7 @@ const SIGNS: &[(&str, Way, Sign)] = &[
     ("a NetCDF file (Exodus)", Way::OtherMesh, Sign::Bytes(&[(0, b"CDF\x01")])),
     ("a NetCDF file (Exodus)", Way::OtherMesh, Sign::Bytes(&[(0, b"CDF\x02")])),
     ("a glTF model", Way::OtherMesh, Sign::Bytes(&[(0, b"glTF")])),
-    ("an STL surface", Way::Mesh, Sign::Test(is_stl)),
     ("an OBJ surface", Way::Mesh, Sign::Test(is_obj)),
-    ("an OFF surface", Way::OtherMesh, Sign::Test(is_off)),
     ("a PLY surface", Way::OtherMesh, Sign::Test(|head| head.starts("ply") && head.has_line("format "))),
     ("a VTK file", Way::Mesh, Sign::Start("# vtk DataFile")),
     ("a VTK file (XML)", Way::Mesh, Sign::Test(|head| head.starts("<") && head.text.contains("<VTKFile"))),
@@ -137,11 +135,11 @@ const SUFFIXES: &[(&[&str], &str, Way)] = &[
         Way::Cad,
     ),
     (&["zip", "7z", "rar", "tar", "gz", "tgz", "xz", "bz2", "zst"], "an archive", Way::Archive),
-    (&["vtu", "vtk", "msh", "su2", "inp", "obj", "stl", "ele"], "a mesh by its suffix", Way::Mesh),
+    (&["vtu", "vtk", "msh", "su2", "inp", "obj", "ele"], "a mesh by its suffix", Way::Mesh),
     (
         &[
-            "off", "ply", "mesh", "meshb", "vol", "unv", "bdf", "nas", "cgns", "med", "e", "exo", "xdmf", "glb",
-            "gltf", "geo", "3mf", "amf", "wrl", "x3d",
+            "ply", "mesh", "meshb", "vol", "unv", "bdf", "nas", "cgns", "med", "e", "exo", "xdmf", "glb", "gltf",
+            "geo", "3mf", "amf", "wrl", "x3d",
         ],
         "a mesh or a model by its suffix",
         Way::OtherMesh,
@@ -174,20 +172,19 @@ pub(super) fn by_suffix(path: &Path) -> Option<ImportError> {
 }
 
 /// The start of a file.
-struct Head<'a> {
-    bytes: &'a [u8],
+struct Head {
     /// Its first lines, as far as they are text, without leading blanks.
     text: String,
     is_svg: bool,
 }
 
-impl<'a> Head<'a> {
-    fn of(bytes: &'a [u8]) -> Self {
+impl Head {
+    fn of(bytes: &[u8]) -> Self {
         // Decks and meshes may begin with comments, which are seldom longer.
         const LENGTH: usize = 4096;
         let plain = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes).trim_ascii_start();
         let text = String::from_utf8_lossy(&plain[..plain.len().min(LENGTH)]).replace('\r', "\n");
-        Self { bytes, text, is_svg: super::svg::sniff(plain) }
+        Self { text, is_svg: super::svg::sniff(plain) }
     }
 
     fn starts(&self, word: &str) -> bool {
@@ -216,24 +213,10 @@ fn is_number(field: &str) -> bool {
     number(field.as_bytes()).is_some()
 }
 
-fn is_stl(head: &Head) -> bool {
-    let is_text = head.starts("solid") && head.has_line("facet normal");
-    // Binary STL: 80 bytes, a count, and 50 bytes for each triangle.
-    let count = head.bytes.get(80..84).and_then(|count| count.try_into().ok()).map(u32::from_le_bytes);
-    is_text || count.is_some_and(|n| n > 0 && head.bytes.len() as u64 == 84 + 50 * u64::from(n))
-}
-
 fn is_obj(head: &Head) -> bool {
     let vertices =
         |fields: &Vec<&str>| fields[0] == "v" && fields.len() >= 4 && fields[1..4].iter().all(|f| is_number(f));
     head.fields().filter(vertices).count() >= 3 && !head.starts("solid")
-}
-
-/// `OFF`, also with normals, colours and so on, as `STCNOFF`; then three counts.
-fn is_off(head: &Head) -> bool {
-    let mut words = head.fields().filter(|fields| !fields[0].starts_with('#')).flatten();
-    let is_keyword = |word: &str| word.strip_suffix("OFF").is_some_and(|p| p.chars().all(|c| "STCN4n".contains(c)));
-    words.next().is_some_and(is_keyword) && words.take(3).filter(|word| word.parse::<u64>().is_ok()).count() == 3
 }
 
 fn is_geo(head: &Head) -> bool {

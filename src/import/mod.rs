@@ -1,6 +1,6 @@
-//! Readers: files → [`Drawing`], or coordinates of airfoil sections. Each format has a file or a folder with its
-//! `Facts`; the list of formats below is the only one. A reader does not weld, split or drop curves;
-//! [`Drawing::arrange`] does. A reader adds one sentence to [`Drawing::notes`] for each oddity of the file and for each
+//! Readers: files → [`Drawing`], coordinates of airfoil sections, or [`Surfaces`] that bound a solid. Each format has a file or a folder with its
+//! `Facts`; the list of formats below is the only one. A reader does not weld, split or drop anything;
+//! [`Drawing::arrange`] and [`Surfaces::assemble`] do. A reader adds one sentence to [`Drawing::notes`] for each oddity of the file and for each
 //! guess.
 
 pub mod airfoil;
@@ -10,7 +10,7 @@ pub mod outline;
 pub mod poly;
 mod selection;
 pub mod step;
-pub mod surface;
+mod surface;
 pub mod svg;
 
 pub use dxf::{DxfOptions, LineTypes};
@@ -20,6 +20,7 @@ pub use svg::{Strokes, SvgOptions};
 use crate::domain::Drawing;
 use crate::formats::formats;
 use crate::geometry::written::{number, numbers, tokens};
+use crate::solid::Surfaces;
 use std::path::Path;
 
 /// Why a file cannot be read, where, and the way out.
@@ -57,11 +58,11 @@ impl ImportError {
 }
 
 formats! {
-    /// A format of drawings.
+    /// A format of drawings or of surfaces in space.
     pub enum Format: Facts {
         /// Airfoil coordinates: Selig, Lednicer, MSES/XFOIL blade files.
         Airfoil = airfoil::FACTS,
-        /// Triangle's planar straight-line graph.
+        /// Triangle's planar straight-line graph, or TetGen's complex in space.
         Poly = poly::FACTS,
         /// Triangle's vertices alone.
         Node = poly::FACTS_OF_NODE,
@@ -73,6 +74,12 @@ formats! {
         Svg = svg::FACTS,
         /// STEP (ISO 10303-21): one planar face of a solid. Read where the feature `cad` is on.
         Step = step::FACTS,
+        /// TetGen's complex in space, facets of one polygon each.
+        Smesh = surface::FACTS_OF_SMESH,
+        /// Polygons of Geomview.
+        Off = surface::FACTS_OF_OFF,
+        /// Triangles of stereolithography, text or binary.
+        Stl = surface::FACTS_OF_STL,
     }
 }
 
@@ -146,6 +153,14 @@ pub enum Found {
     Drawing(Box<Drawing>),
     /// Coordinates of sections. [`crate::section`] makes a drawing of them.
     Section(airfoil::Coordinates),
+    /// Polygons in space, which [`Surfaces::assemble`] makes a solid of.
+    Surfaces(Box<Surfaces>),
+}
+
+impl From<Surfaces> for Found {
+    fn from(surfaces: Surfaces) -> Self {
+        Self::Surfaces(Box::new(surfaces))
+    }
 }
 
 impl From<Drawing> for Found {

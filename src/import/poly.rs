@@ -5,7 +5,7 @@
 //! unless a hole point reaches it ([`FillRule::Regions`]). Without segments the domain is the convex hull, whose lines
 //! are named `hull`.
 
-use super::{Certainty, Facts, ImportError, number, numbers, tokens, without_bom};
+use super::{Certainty, Facts, ImportError, number, numbers, surface, tokens, without_bom};
 use crate::curve::Curve;
 use crate::domain::{Drawing, DrawnCurve, DrawnPoint, FillRule, Seed, SeedKind, Skipped};
 use crate::geometry::exact::{Orientation, orient};
@@ -23,7 +23,10 @@ pub(super) const FACTS: Facts = Facts {
     suffixes: &["poly"],
     sign: |bytes| sniff(bytes) == Some(Holds::More),
     certainty: Certainty::Shape,
-    read: |bytes, stem, options| read_poly(bytes, stem, options.nodes.as_deref()).map(Into::into),
+    read: |bytes, stem, options| match surface::is_tetgen(bytes) {
+        true => surface::read_poly(bytes).map(Into::into),
+        false => read_poly(bytes, stem, options.nodes.as_deref()).map(Into::into),
+    },
 };
 
 /// The facts of `.node`.

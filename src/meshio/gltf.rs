@@ -46,6 +46,7 @@ pub(super) const FACTS: Facts = Facts {
     choices: &[Choice::Lines],
     straight_only: None,
     write: |mesh, _, options| one_file(|out| write_gltf(mesh, has_lines(options), out)),
+    write_solid: None,
     losses,
     reading: None,
 };

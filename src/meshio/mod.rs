@@ -17,7 +17,7 @@ mod losses;
 mod msh;
 mod names;
 mod obj;
-pub mod solid;
+mod solid;
 mod stl;
 mod su2;
 mod triangle;
@@ -27,6 +27,7 @@ mod xdmf;
 
 use crate::formats::formats;
 use crate::mesh::Mesh;
+use crate::mesh::solid::SolidMesh;
 use losses::Losses;
 use serde::Serialize;
 use std::io;
@@ -45,7 +46,7 @@ formats! {
         Msh = msh::FACTS,
         /// Gmsh 2.2, text.
         Msh22 = msh::FACTS_OF_22,
-        /// SU2, of two dimensions.
+        /// SU2.
         Su2 = su2::FACTS,
         /// Abaqus and CalculiX.
         Inp = inp::FACTS,
@@ -53,6 +54,10 @@ formats! {
         Xdmf = xdmf::FACTS,
         /// Triangle's `.node`, `.ele` and `.poly`.
         Triangle = triangle::FACTS,
+        /// TetGen's `.node`, `.ele`, `.face` and `.edge`: tetrahedra only.
+        Tetgen = solid::tetgen::FACTS,
+        /// Medit's `.mesh`, text: tetrahedra only.
+        Medit = solid::medit::FACTS,
         /// glTF 2.0, binary.
         Glb = gltf::FACTS_OF_GLB,
         /// glTF 2.0, text.
@@ -68,6 +73,8 @@ formats! {
 type Files = Vec<Vec<u8>>;
 /// Keys and values about how a mesh was made.
 type Stamps = [(String, String)];
+/// A writer of tetrahedral meshes: the bytes of each file.
+type SolidWriter = fn(&SolidMesh, &Stamps) -> io::Result<Files>;
 /// The files beside the one that is read, if there are any.
 type Beside = [Option<Vec<u8>>];
 
@@ -85,6 +92,8 @@ struct Facts {
     /// For a format with straight cells only: the way out for order 2.
     straight_only: Option<&'static str>,
     write: fn(&Mesh, &Stamps, &WriteOptions) -> io::Result<Files>,
+    /// Writes a mesh of tetrahedra; `None`: the format holds meshes in a plane only.
+    write_solid: Option<SolidWriter>,
     /// Reports what the format does not hold of a mesh, in the order for people.
     losses: fn(&mut Losses),
     /// How the format is read; `None`: it is only written.
@@ -131,6 +140,11 @@ impl Format {
     /// the output has a name ([`WriteOptions::stem`]). Otherwise each file has its own suffix.
     pub const fn first_as_named(self) -> bool {
         self.facts().first_as_named
+    }
+
+    /// Whether the format holds tetrahedra ([`encode_solid`]).
+    pub fn holds_solids(self) -> bool {
+        self.facts().write_solid.is_some()
     }
 
     /// Whether the format leaves a choice.
@@ -242,6 +256,25 @@ pub fn encode(
     }
     groups::check(mesh)?;
     write(&groups::without_interior(mesh), stamps, options)
+}
+
+/// A mesh of tetrahedra in a format, as [`encode`] gives it.
+///
+/// # Errors
+/// `Unsupported` where the format cannot hold tetrahedra; `InvalidInput` where the lists of the mesh do not fit
+/// together or it is too large for the format.
+pub fn encode_solid(mesh: &SolidMesh, stamps: &[(String, String)], format: Format) -> io::Result<Vec<Vec<u8>>> {
+    let write = format.facts().write_solid.ok_or_else(|| {
+        let holding: Vec<_> = Format::ALL.into_iter().filter(|f| f.holds_solids()).map(Format::name).collect();
+        let what = format!("{} holds no tetrahedra: say --format {}", format.name(), holding.join(", "));
+        io::Error::new(io::ErrorKind::Unsupported, what)
+    })?;
+    write(mesh, stamps)
+}
+
+/// The refusal of a mesh in a plane by a format of tetrahedra.
+fn tetrahedra_only(format: &str) -> io::Error {
+    io::Error::new(io::ErrorKind::Unsupported, format!("{format} holds meshes of tetrahedra only: give a solid"))
 }
 
 /// An output of one file.

@@ -25,6 +25,7 @@ pub(super) const FACTS: Facts = Facts {
     choices: &[Choice::Grids],
     straight_only: None,
     write: |mesh, _, options| one_file(|out| write(mesh, options.xdmf, out)),
+    write_solid: None,
     losses,
     reading: None,
 };

@@ -128,7 +128,7 @@ impl From<ImportError> for FailureReport {
 
 impl From<ArrangeError> for FailureReport {
     fn from(error: ArrangeError) -> Self {
-        let also_at = error.also_at.iter().map(|at| [at.x, at.y]).collect();
+        let also_at = error.also_at.iter().map(|&at| at.into()).collect();
         Self { also_at, ..Self::new(FailureKind::Geometry, error.what, error.help).at(error.at) }
     }
 }

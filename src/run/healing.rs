@@ -148,7 +148,7 @@ impl<'a> Healing<'a> {
     /// # Errors
     /// Where the watch says stop.
     pub fn retreat(&mut self, failure: &FailureReport, watch: &mut Watch) -> Result<Option<Domain>, FailureReport> {
-        let [x, y] = failure.at.unwrap_or_default();
+        let [x, y] = failure.at.and_then(|at| at.in_plane()).unwrap_or_default();
         self.left.retain(|&tolerance| tolerance != self.taken);
         self.coarser(None, &Why { at: Point::new(x, y), what: failure.what.clone() }, watch)
     }

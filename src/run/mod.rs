@@ -1,5 +1,9 @@
-//! From bytes to a verified mesh: read → arrange → split to turning → refine → verify. Each stage is a function of its
-//! own.
+//! From bytes to a verified mesh, each stage a function of its own.
+//!
+//! ```text
+//!   drawing:  read ─▶ arrange ─▶ split to turning ─▶ refine ─▶ verify
+//!   solid:    read ─▶ assemble ─▶ tetrahedralize ────────────▶ verify      `solid.rs`
+//! ```
 
 pub mod case;
 mod exit;
@@ -8,6 +12,7 @@ mod plan;
 pub mod reduce;
 pub mod report;
 pub mod request;
+mod solid;
 mod source;
 
 pub use exit::{Exit, broken, ending, no_mesh};
@@ -19,14 +24,17 @@ use crate::ids::{PointId, VertexId};
 use crate::mesh::Mesh;
 use crate::mesh::elevate::elevate;
 use crate::mesh::quality::Quality;
+use crate::mesh::solid::SolidMesh;
 use crate::plane::lopping::Refined;
 use crate::refine::{StopReason, Until};
 use crate::verify::Verdict;
 use crate::watch::{Clock, Progress, Watch};
 use exit::exit_of;
 use healing::Healing;
-use report::{FailureKind, FailureReport, MeshReport, PromiseReport, Report, StopReport};
+use report::{FailureKind, FailureReport, MeshReport, PromiseReport, QualityReport, Report, StopReport};
 use request::{Order, Request};
+use source::Input;
+use std::borrow::Cow;
 
 /// The result of a run, as far as it came.
 #[derive(Debug)]
@@ -39,6 +47,8 @@ pub struct Outcome {
     pub domain: Option<Domain>,
     /// The mesh. It is valid, but may be unfinished. `None` where the run ended before there was one.
     pub mesh: Option<Mesh>,
+    /// The mesh of tetrahedra, where the input bounds a solid.
+    pub solid: Option<SolidMesh>,
     /// The verifier's checks of the mesh; `None` where there is no mesh.
     pub verdict: Option<Verdict>,
 }
@@ -55,10 +65,10 @@ pub enum Extent<'a> {
 pub fn run(source: &Source, request: &Request, extent: Extent, clock: &Clock) -> Outcome {
     let mut outcome = Outcome::begun(source.path, request);
     let begun = clock();
-    let drawing = read(source, request);
+    let input = source::read_any(source, request);
     outcome.report.seconds.read = clock() - begun;
-    match drawing {
-        Ok(drawing) => outcome.go_on(&drawing, request, extent, Timer { clock, begun, request }),
+    match input {
+        Ok(input) => outcome.go_on(&input, request, extent, Timer { clock, begun, request }),
         Err(failure) => outcome.fail(failure),
     }
     outcome.report.seconds.total = clock() - begun;
@@ -68,13 +78,15 @@ pub fn run(source: &Source, request: &Request, extent: Extent, clock: &Clock) ->
 /// The same, from a drawing on.
 pub fn run_drawing(drawing: &Drawing, request: &Request, extent: Extent, clock: &Clock) -> Outcome {
     let mut outcome = Outcome::begun(&drawing.title, request);
-    outcome.go_on(drawing, request, extent, Timer { clock, begun: clock(), request });
+    let timer = Timer { clock, begun: clock(), request };
+    outcome.go_on(&Input::Drawing(Cow::Borrowed(drawing)), request, extent, timer);
     outcome
 }
 
 impl Outcome {
     fn begun(path: &str, request: &Request) -> Self {
-        Self { exit: Exit::Done, report: Report::new(path, request), domain: None, mesh: None, verdict: None }
+        let report = Report::new(path, request);
+        Self { exit: Exit::Done, report, domain: None, mesh: None, solid: None, verdict: None }
     }
 
     fn fail(&mut self, failure: FailureReport) {
@@ -83,7 +95,7 @@ impl Outcome {
         self.report.failure = Some(failure);
     }
 
-    fn go_on(&mut self, drawing: &Drawing, request: &Request, extent: Extent, timer: Timer) {
+    fn go_on(&mut self, input: &Input, request: &Request, extent: Extent, timer: Timer) {
         let mut timed_out = false;
         let ended = match extent {
             Extent::Whole(watch) => {
@@ -92,9 +104,9 @@ impl Outcome {
                     timed_out |= goes_on && timer.is_over();
                     goes_on && !timed_out
                 };
-                self.stages(drawing, request, &mut in_time, None, timer.clock)
+                self.either(input, request, &mut in_time, None, timer.clock)
             }
-            Extent::Steps(steps) => self.stages(drawing, request, &mut |_| true, Some(steps), timer.clock),
+            Extent::Steps(steps) => self.either(input, request, &mut |_| true, Some(steps), timer.clock),
         };
         if let Err(failure) = ended {
             self.fail(failure);
@@ -102,6 +114,24 @@ impl Outcome {
         if timed_out {
             let of_failure = self.report.failure.as_mut().and_then(|failure| failure.stop.as_deref_mut());
             self.report.stop.iter_mut().chain(of_failure).for_each(StopReport::time_out);
+        }
+    }
+
+    /// Runs the stages of a drawing or those of a solid, which has no steps.
+    fn either(
+        &mut self,
+        input: &Input,
+        request: &Request,
+        watch: &mut Watch,
+        steps: Option<u64>,
+        clock: &Clock,
+    ) -> Result<(), FailureReport> {
+        match input {
+            Input::Drawing(drawing) => self.stages(drawing, request, watch, steps, clock),
+            Input::Surfaces(surfaces, title) => {
+                self.report.input.describe_surfaces(surfaces, title);
+                self.solid_stages(surfaces, request, watch, clock)
+            }
         }
     }
 
@@ -139,7 +169,8 @@ impl Outcome {
             self.report.stop = Some(StopReport::new(&stop).with_unresolved_angles(&verdict));
         }
         self.report.mesh = Some(MeshReport::new(&mesh).with_straightened(&mesh, &straightened));
-        self.report.quality = Some(Quality::of(Some(&domain), &mesh, verdict.exempt_cells()));
+        let quality = Quality::of(Some(&domain), &mesh, verdict.exempt_cells());
+        self.report.quality = Some(QualityReport::Plane(quality));
         self.report.promise = Some(PromiseReport::new(&verdict));
         self.report.seconds.verify = laps.lap();
         self.exit = exit_of(&verdict, stop.reason);

@@ -8,10 +8,14 @@ pub use asked::RequestReport;
 
 use super::request::Request;
 use crate::domain::{Drawing, Repair, Skipped};
-use crate::geometry::Point;
+use crate::geometry::Place;
 use crate::mesh::Mesh;
 use crate::mesh::quality::{BoundaryMeasure, Quality, RegionMeasure, boundary_measures, region_measures};
+use crate::mesh::solid::SolidMesh;
+use crate::mesh::solid::quality::{self as solid_quality, FacetMeasure, SolidQuality};
 use crate::refine::{Counters, Stop, StopReason};
+use crate::solid::{Solid, Surfaces};
+use crate::verify::solid::WEIGHT_BOUND;
 use crate::verify::{Check, Exemption, Verdict};
 use schemars::generate::SchemaSettings;
 use schemars::transform::RecursiveTransform;
@@ -48,7 +52,7 @@ pub struct Report {
     /// Size and parts of the mesh.
     pub mesh: Option<MeshReport>,
     /// Angles, sizes and other measures of the mesh.
-    pub quality: Option<Quality>,
+    pub quality: Option<QualityReport>,
     /// The verifier's checks of the mesh.
     pub promise: Option<PromiseReport>,
     /// Why refinement ended, and what is unresolved.
@@ -77,7 +81,7 @@ pub struct InputReport {
     pub unit: Option<String>,
     /// Where the unit was read from.
     pub unit_from: Option<String>,
-    /// How many of each kind.
+    /// How many of each kind; of a solid its points, segments and facets.
     pub curves: BTreeMap<&'static str, usize>,
     /// Entities that were left out, by kind and reason.
     pub skipped: Vec<Skipped>,
@@ -101,6 +105,25 @@ impl InputReport {
     }
 }
 
+impl InputReport {
+    /// Notes the surfaces that were read.
+    pub fn describe_surfaces(&mut self, surfaces: &Surfaces, title: &str) {
+        self.format = Some(surfaces.format.clone());
+        self.title = Some(title.to_owned());
+        self.unit.clone_from(&surfaces.unit);
+        self.curves = [("polygon", surfaces.facets.iter().map(|facet| facet.polygons.len()).sum())].into();
+        self.notes.clone_from(&surfaces.notes);
+    }
+
+    /// Notes the solid that was made of them.
+    pub fn describe_solid(&mut self, solid: &Solid) {
+        let counts =
+            [("facet", solid.facets().len()), ("point", solid.points().len()), ("segment", solid.segments().len())];
+        self.curves = counts.into();
+        self.notes = solid.repairs().to_vec();
+    }
+}
+
 /// How many curves of each kind a drawing holds.
 pub fn kinds(drawing: &Drawing) -> BTreeMap<&'static str, usize> {
     let mut kinds = BTreeMap::new();
@@ -115,20 +138,64 @@ pub fn kinds(drawing: &Drawing) -> BTreeMap<&'static str, usize> {
 pub struct MeshReport {
     /// Number of nodes, those within edges (order 2) included.
     pub vertices: usize,
-    /// Number of triangles.
+    /// Number of triangles; of a solid, those on its facets.
     pub triangles: usize,
     /// Number of tetrahedra: 0 in the plane.
     pub tetrahedra: usize,
-    /// Number of edges on curves of the domain, interfaces and lines within regions included.
+    /// Number of edges on curves of the domain, interfaces and lines within regions included; of a solid, those on its
+    /// segments.
     pub boundary_edges: usize,
     /// Measures of each region.
     pub regions: Vec<RegionMeasure>,
-    /// Measures of each boundary, by name.
+    /// Measures of each boundary, by name; of a solid, of its named segments.
     pub boundaries: Vec<BoundaryMeasure>,
+    /// Of a solid: the triangles on its facets, by name.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub facets: Option<Vec<FacetMeasure>>,
+    /// Of a solid: the weights of the nodes, which certify that the mesh is constrained Delaunay.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub weights: Option<WeightReport>,
     /// Polynomial order of the cells.
     pub order: u8,
     /// Of order 2: curved sides that had to stay straight, or a cell would fold.
     pub straightened: Vec<StraightenedReport>,
+}
+
+/// The weights of a solid's mesh.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct WeightReport {
+    /// The largest weight of a node, in parts of the squared distance to its nearest node.
+    pub largest_relative: f64,
+    /// The bound on that, which the check `weights` verifies.
+    pub bound: f64,
+}
+
+/// Measures of a mesh, in the plane or in space.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[serde(untagged)]
+pub enum QualityReport {
+    /// Of triangles in a plane.
+    Plane(Quality),
+    /// Of tetrahedra.
+    Space(SolidQuality),
+}
+
+impl QualityReport {
+    /// The measures of a mesh in a plane; `None` of tetrahedra.
+    pub fn in_plane(&self) -> Option<&Quality> {
+        match self {
+            Self::Plane(quality) => Some(quality),
+            Self::Space(_) => None,
+        }
+    }
+
+    /// Area or volume of the domain as it was given, where that is known.
+    pub fn exact_measure(&self) -> Option<f64> {
+        match self {
+            Self::Plane(quality) => quality.exact_measure,
+            Self::Space(quality) => quality.exact_measure,
+        }
+    }
 }
 
 /// A curved side that is straight in the mesh: the name of its boundary, and its middle.
@@ -150,7 +217,26 @@ impl MeshReport {
             boundary_edges: mesh.edges.len(),
             regions: region_measures(mesh),
             boundaries: boundary_measures(mesh),
+            facets: None,
+            weights: None,
             order: mesh.order(),
+            straightened: Vec::new(),
+        }
+    }
+
+    /// The numbers of a tetrahedral mesh.
+    pub fn of_solid(mesh: &SolidMesh) -> Self {
+        let largest = solid_quality::largest_relative_weight(mesh);
+        Self {
+            vertices: mesh.nodes.len(),
+            triangles: mesh.triangles.len(),
+            tetrahedra: mesh.tetrahedra.len(),
+            boundary_edges: mesh.edges.len(),
+            regions: solid_quality::region_measures(mesh),
+            boundaries: solid_quality::segment_measures(mesh),
+            facets: Some(solid_quality::facet_measures(mesh)),
+            weights: largest.map(|largest_relative| WeightReport { largest_relative, bound: WEIGHT_BOUND }),
+            order: 1,
             straightened: Vec::new(),
         }
     }
@@ -203,8 +289,8 @@ pub struct StopReport {
     /// Number of cells that still miss a bound.
     #[serde(rename = "owed")]
     pub unresolved: usize,
-    /// Some of the places where a bound is missed, x and y each.
-    pub places: Vec<[f64; 2]>,
+    /// Some of the places where a bound is missed.
+    pub places: Vec<Place>,
     /// The smallest angle that the mesh was refined to, where it is another than was asked for: `--min-angle` with it
     /// ends.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -221,7 +307,7 @@ impl StopReport {
 
     /// The end of a refinement, as the report tells it.
     pub fn new(stop: &Stop) -> Self {
-        let places = stop.places.iter().map(|p| [p.x, p.y]).collect();
+        let places = stop.places.iter().map(|&p| p.into()).collect();
         Self { reason: stop.reason, unresolved: stop.unresolved, places, angle_deg: stop.angle_deg }
     }
 
@@ -230,7 +316,7 @@ impl StopReport {
     pub fn with_unresolved_angles(mut self, verdict: &Verdict) -> Self {
         if let Some(check) = verdict.checks.iter().find(|check| check.name == "min_angle") {
             self.unresolved = check.broken;
-            self.places = check.worst.iter().filter_map(|worst| worst.at.in_plane()).collect();
+            self.places = check.worst.iter().map(|worst| worst.at).collect();
         }
         self
     }
@@ -243,11 +329,11 @@ pub struct FailureReport {
     pub kind: FailureKind,
     /// What is wrong, in a sentence without full stop.
     pub what: String,
-    /// Where in the drawing, x and y; `null` where it is at no one place.
-    pub at: Option<[f64; 2]>,
+    /// Where in the drawing or in space; `null` where it is at no one place.
+    pub at: Option<Place>,
     /// Further places of the same flaw, as many as `what` lists.
-    #[serde(skip_serializing_if = "<[[f64; 2]]>::is_empty")]
-    pub also_at: Box<[[f64; 2]]>,
+    #[serde(skip_serializing_if = "<[Place]>::is_empty")]
+    pub also_at: Box<[Place]>,
     /// Line of the file, from 1; `null` where it is at no one line.
     pub line: Option<u32>,
     /// Byte in the line, from 1; `null` where it is not known.
@@ -290,9 +376,9 @@ impl FailureReport {
         }
     }
 
-    /// The failure at a place of the drawing.
-    pub fn at(self, place: Point) -> Self {
-        Self { at: Some([place.x, place.y]), ..self }
+    /// The failure at a place.
+    pub fn at(self, place: impl Into<Place>) -> Self {
+        Self { at: Some(place.into()), ..self }
     }
 }
 

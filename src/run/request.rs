@@ -13,6 +13,7 @@ use crate::plane::lopping::Rules;
 use crate::promise::guaranteed_angle;
 use crate::section;
 use crate::size::Limits;
+use crate::solid::Assembly;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::FRAC_PI_3;
@@ -118,6 +119,9 @@ pub struct Request {
     /// How a section of airfoil coordinates becomes a drawing; unused for other formats.
     #[serde(flatten)]
     pub airfoil: section::Options,
+    /// How the surfaces of a solid are put together; unused for drawings.
+    #[serde(flatten)]
+    pub solid: Assembly,
     /// The planar face to mesh, by its entity number or name, or largest; with batch, all gives each a mesh of its own
     /// [default: largest]
     #[schemars(extend("group" = "solids", "value" = "ID|NAME|largest|all"))]
@@ -153,6 +157,7 @@ impl Default for Request {
             max_vertices: 5_000_000,
             timeout: None,
             airfoil: section::Options::default(),
+            solid: Assembly::default(),
             face: None,
         }
     }
@@ -197,6 +202,7 @@ impl Request {
             ("timeout", self.timeout),
         ])?;
         self.gcdr.check()?;
+        self.solid.check()?;
         OutOfBounds::unless(
             self.max_vertices >= 3,
             "max-vertices",

@@ -1,13 +1,15 @@
-//! Bytes → drawing, with the format, scale and names of the request.
+//! Bytes → drawing or surfaces, with the format, scale and names of the request.
 
 use super::report::{FailureKind, FailureReport};
 use super::request::{Engine, Request};
 use crate::domain::{Drawing, DrawnCurve, SizeRequest, Unmatched};
 use crate::geometry::{Point, metres};
-use crate::import::{self, Format, SvgOptions};
+use crate::import::{self, Format, Found, SvgOptions};
 use crate::options::Group;
 use crate::section;
+use crate::solid::Surfaces;
 use kurbo::Affine;
+use std::borrow::Cow;
 use std::path::Path;
 
 /// The input: the bytes of a file, and how to read them.
@@ -26,11 +28,43 @@ pub struct Source<'a> {
     pub of_many: bool,
 }
 
+/// What is meshed.
+pub(super) enum Input<'a> {
+    /// Curves in the plane.
+    Drawing(Cow<'a, Drawing>),
+    /// Polygons in space, and a title.
+    Surfaces(Box<Surfaces>, String),
+}
+
+/// Bytes → drawing or surfaces.
+///
+/// # Errors
+/// Those of [`read`].
+pub(super) fn read_any(source: &Source, request: &Request) -> Result<Input<'static>, FailureReport> {
+    let (found, format, stem) = found(source, request)?;
+    match found {
+        Found::Surfaces(mut surfaces) => {
+            surfaces.notes.extend(unused_options(format, request));
+            Ok(Input::Surfaces(surfaces, stem))
+        }
+        Found::Drawing(_) | Found::Section(_) => {
+            Ok(Input::Drawing(Cow::Owned(drawing_of(found, format, source, request)?)))
+        }
+    }
+}
+
 /// Bytes → drawing, in the unit asked for.
 ///
 /// # Errors
 /// Where the format is unknown, the file breaks it, or the request names a unit, layer or place that does not exist.
+/// Where the file holds a solid.
 pub fn read(source: &Source, request: &Request) -> Result<Drawing, FailureReport> {
+    let (found, format, _) = found(source, request)?;
+    drawing_of(found, format, source, request)
+}
+
+/// What a file holds, its format and its name without suffix.
+fn found(source: &Source, request: &Request) -> Result<(Found, Format, String), FailureReport> {
     let path = Path::new(source.path);
     let format = source.format.map_or_else(|| import::tell_format(path, source.bytes), Ok)?;
     let stem = path.file_stem().map_or("", |s| s.to_str().unwrap_or(""));
@@ -41,7 +75,10 @@ pub fn read(source: &Source, request: &Request) -> Result<Drawing, FailureReport
         dxf: request.dxf,
         selection: request.selection.clone(),
     };
-    let found = import::read(source.bytes, format, stem, &options)?;
+    Ok((import::read(source.bytes, format, stem, &options)?, format, stem.to_owned()))
+}
+
+fn drawing_of(found: Found, format: Format, source: &Source, request: &Request) -> Result<Drawing, FailureReport> {
     let mut drawing = section::drawn(found, &request.airfoil)?;
     drawing.notes.extend(unused_options(format, request));
     tell_unmatched(&mut drawing, source.of_many)?;

@@ -112,6 +112,10 @@ pub fn drawn(found: Found, options: &Options) -> Result<Drawing, ImportError> {
     match found {
         Found::Drawing(drawing) => Ok(*drawing),
         Found::Section(coordinates) => draw(coordinates, options),
+        Found::Surfaces(surfaces) => {
+            let what = format!("{}: this is a solid, not a drawing", surfaces.format);
+            Err(ImportError::new(what, "`squinch mesh` makes a tetrahedral mesh of it"))
+        }
     }
 }
 

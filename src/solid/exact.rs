@@ -18,16 +18,6 @@ pub(super) enum Side {
     Back,
 }
 
-impl Side {
-    pub(super) fn other(self) -> Self {
-        match self {
-            Self::Front => Self::Back,
-            Self::On => Self::On,
-            Self::Back => Self::Front,
-        }
-    }
-}
-
 fn coord(p: Place) -> Coord3D<f64> {
     Coord3D { x: p[0], y: p[1], z: p[2] }
 }

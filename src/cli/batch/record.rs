@@ -10,7 +10,7 @@ use crate::cli::writing::Writing;
 use crate::cli::{Halt, Volume, say};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use squinch::run::report::{FailureKind, FailureReport};
+use squinch::run::report::{FailureKind, FailureReport, QualityReport};
 use squinch::run::request::Request;
 use squinch::run::{self, Exit, Outcome};
 use std::collections::BTreeMap;
@@ -68,7 +68,7 @@ impl Line {
             outputs: Vec::new(),
             vertices: report.mesh.as_ref().map_or(0, |m| m.vertices),
             triangles: report.mesh.as_ref().map_or(0, |m| m.triangles),
-            min_angle_deg: report.quality.as_ref().map(|q| q.min_angle_deg),
+            min_angle_deg: report.quality.as_ref().and_then(QualityReport::in_plane).map(|q| q.min_angle_deg),
             excused: report.promise.as_ref().map_or(0, |p| p.excused.count),
             repairs: report.input.repairs.len(),
             unhealed: report.input.unhealed.len(),

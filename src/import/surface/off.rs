@@ -1,25 +1,33 @@
 //! OFF, the Object File Format of Geomview: points and polygons.
 
-use super::SurfaceError;
 use super::text::{Row, Rows, Written, whole};
 use crate::geometry::written::{number, tokens};
+use crate::import::ImportError;
 use crate::solid::{FoundFacet, Material, Surfaces};
 
 const HELP: &str = "see http://www.geomview.org/docs/html/OFF.html for the format";
 
 /// The keyword of the header, where there is one: `OFF` with the letters for what points carry besides their place.
-fn keyword(row: Row) -> Option<&str> {
+fn keyword(row: Row<'_>) -> Option<&str> {
     let first = tokens(row.text).next()?;
-    std::str::from_utf8(first).ok().filter(|word| word.ends_with("OFF"))
+    std::str::from_utf8(first)
+        .ok()
+        .filter(|word| word.strip_suffix("OFF").is_some_and(|letters| letters.chars().all(|c| "STCN4n".contains(c))))
 }
 
-/// Whether the first line says so.
+/// Whether the file begins with the keyword and the counts.
 pub(super) fn sniff(bytes: &[u8]) -> bool {
-    Rows::new(bytes, HELP).next().and_then(keyword).is_some()
+    let mut rows = Rows::new(bytes, HELP);
+    let Some(first) = rows.next().filter(|row| keyword(*row).is_some()) else { return false };
+    let is_counts = |row: Row, skipped: usize| {
+        let counts: Vec<_> = tokens(row.text).skip(skipped).map(number).collect();
+        counts.len() >= 3 && counts.iter().all(Option::is_some)
+    };
+    is_counts(first, 1) || tokens(first.text).nth(1).is_none() && rows.next().is_some_and(|row| is_counts(row, 0))
 }
 
 /// Reads an OFF file.
-pub(super) fn read(bytes: &[u8]) -> Result<Surfaces, SurfaceError> {
+pub(super) fn read(bytes: &[u8]) -> Result<Surfaces, ImportError> {
     let mut surfaces = Surfaces { format: "OFF".into(), material: Material::Winding, ..Surfaces::default() };
     let mut rows = Rows::new(bytes, HELP);
     let mut header = rows.header()?;
@@ -32,7 +40,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Surfaces, SurfaceError> {
         counts.remove(0);
         if counts.first().is_some_and(|t| t.eq_ignore_ascii_case(b"BINARY")) {
             let help = "convert it to the text form of OFF";
-            return Err(SurfaceError::at(header.line, "binary OFF files are not read", help));
+            return Err(ImportError::at(header.line, "binary OFF files are not read", help));
         }
         if counts.is_empty() {
             header = rows.header()?;
@@ -59,7 +67,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Surfaces, SurfaceError> {
     Ok(surfaces)
 }
 
-fn read_points(rows: &mut Rows, header: Row, count: usize, surfaces: &mut Surfaces) -> Result<(), SurfaceError> {
+fn read_points(rows: &mut Rows, header: Row, count: usize, surfaces: &mut Surfaces) -> Result<(), ImportError> {
     let mut written = Written::default();
     for i in 0..count {
         let row = rows.expect(header, "points", i, count)?;
@@ -72,7 +80,7 @@ fn read_points(rows: &mut Rows, header: Row, count: usize, surfaces: &mut Surfac
 }
 
 /// The corners of a face; a colour after them is passed over.
-fn face(row: Row, entity: &str, points: usize) -> Result<Vec<u32>, SurfaceError> {
+fn face(row: Row, entity: &str, points: usize) -> Result<Vec<u32>, ImportError> {
     let ([corners], mut rest) = row.take(&format!("{entity}: the count of corners"))?;
     let corners = row.count(corners, "corners")?;
     let mut polygon = Vec::with_capacity(corners.min(row.text.len() / 2 + 1));

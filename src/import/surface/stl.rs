@@ -1,10 +1,10 @@
 //! STL, text and binary. The name of a solid names its facets. A binary file is known by its length, 84 bytes and 50 a
 //! triangle: many of them begin with the word `solid`.
 
-use super::SurfaceError;
 use super::text::{Row, Rows, Written};
 use crate::geometry::written::tokens;
 use crate::ids::NameId;
+use crate::import::ImportError;
 use crate::solid::{Digits, FoundFacet, Material, Surfaces};
 
 const HELP: &str = "see https://en.wikipedia.org/wiki/STL_(file_format) for the format";
@@ -13,9 +13,13 @@ const HELP: &str = "see https://en.wikipedia.org/wiki/STL_(file_format) for the 
 const HEADER: usize = 84;
 const TRIANGLE: usize = 50;
 
-/// Whether the length is that of a binary file, or the first word is `solid`.
+/// Whether the length is that of a binary file with triangles, or the first rows are `solid` and `facet`.
 pub(super) fn sniff(bytes: &[u8]) -> bool {
-    is_binary(bytes) || begins_with_solid(bytes)
+    let has_facet = || {
+        let second = Rows::new(bytes, HELP).nth(1).and_then(|row| tokens(row.text).next());
+        second.is_some_and(|word| word.eq_ignore_ascii_case(b"facet"))
+    };
+    is_binary(bytes) && bytes.len() > HEADER || begins_with_solid(bytes) && has_facet()
 }
 
 fn begins_with_solid(bytes: &[u8]) -> bool {
@@ -33,7 +37,7 @@ fn is_binary(bytes: &[u8]) -> bool {
 }
 
 /// Reads an STL file.
-pub(super) fn read(bytes: &[u8]) -> Result<Surfaces, SurfaceError> {
+pub(super) fn read(bytes: &[u8]) -> Result<Surfaces, ImportError> {
     if is_binary(bytes) {
         return read_binary(bytes);
     }
@@ -44,9 +48,9 @@ pub(super) fn read(bytes: &[u8]) -> Result<Surfaces, SurfaceError> {
         Some(n) => {
             let whole = bytes.len().saturating_sub(HEADER) / TRIANGLE;
             let what = format!("the header announces {n} triangles, but the file has the length of {whole}");
-            Err(SurfaceError::new(what, "the file may be cut off, or is no STL file"))
+            Err(ImportError::new(what, "the file may be cut off, or is no STL file"))
         }
-        None => Err(SurfaceError::new("this is no STL file: neither text that begins with solid, nor binary", HELP)),
+        None => Err(ImportError::new("this is no STL file: neither text that begins with solid, nor binary", HELP)),
     }
 }
 
@@ -61,7 +65,7 @@ fn push(surfaces: &mut Surfaces, corners: [[f64; 3]; 3], name: Option<NameId>, e
     surfaces.facets.push(FoundFacet { polygons, name, entity, ..FoundFacet::default() });
 }
 
-fn read_binary(bytes: &[u8]) -> Result<Surfaces, SurfaceError> {
+fn read_binary(bytes: &[u8]) -> Result<Surfaces, ImportError> {
     let mut surfaces = empty("STL (binary)");
     surfaces.digits = Digits::Single;
     for (i, triangle) in bytes[HEADER..].chunks_exact(TRIANGLE).enumerate() {
@@ -74,7 +78,7 @@ fn read_binary(bytes: &[u8]) -> Result<Surfaces, SurfaceError> {
         let corners: [[f64; 3]; 3] = std::array::from_fn(|c| std::array::from_fn(|k| number(3 * c + k)));
         if corners.iter().flatten().any(|x| !x.is_finite()) {
             let what = format!("triangle {}: a coordinate is not a finite number", i + 1);
-            return Err(SurfaceError::new(what, "write the file anew from the program that made it"));
+            return Err(ImportError::new(what, "write the file anew from the program that made it"));
         }
         push(&mut surfaces, corners, None, format!("triangle {}", i + 1));
     }
@@ -87,7 +91,7 @@ fn rest_of(row: Row) -> String {
     text.trim().split_once(char::is_whitespace).map_or("", |(_, rest)| rest).trim().to_owned()
 }
 
-fn read_text(bytes: &[u8]) -> Result<Surfaces, SurfaceError> {
+fn read_text(bytes: &[u8]) -> Result<Surfaces, ImportError> {
     let mut surfaces = empty("STL (text)");
     let mut written = Written::default();
     let mut corners: Vec<[f64; 3]> = Vec::new();
@@ -134,7 +138,7 @@ fn read_text(bytes: &[u8]) -> Result<Surfaces, SurfaceError> {
     }
     if !corners.is_empty() {
         let what = "the file ends within a triangle";
-        return Err(SurfaceError::at(rows.line, what, "the file may be cut off"));
+        return Err(ImportError::at(rows.line, what, "the file may be cut off"));
     }
     if solid.is_some() {
         surfaces.notes.push("The last solid has no end; the file may be cut off.".into());

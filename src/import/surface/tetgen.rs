@@ -3,17 +3,17 @@
 //! A marker is the facet's name, as text; facets with marker 0 or none have no name. The attribute of a region point is
 //! the region's name. Every bounded cell is material but those that hold a hole point.
 
-use super::SurfaceError;
 use super::text::{Row, Rows, Written, whole};
 use crate::geometry::written::{number, tokens};
 use crate::ids::NameId;
+use crate::import::ImportError;
 use crate::solid::{FoundFacet, Material, RegionSeed, Surfaces};
 use std::collections::BTreeMap;
 
 const HELP: &str = "see the TetGen manual, chapter 5, File Formats, for the format";
 
 /// Whether the first line says that the vertices have three coordinates.
-pub(super) fn in_space(bytes: &[u8]) -> bool {
+pub(in crate::import) fn in_space(bytes: &[u8]) -> bool {
     let Some(row) = Rows::new(bytes, HELP).next() else { return false };
     let mut head = tokens(row.text).map(number);
     let count = head.next().flatten();
@@ -21,17 +21,17 @@ pub(super) fn in_space(bytes: &[u8]) -> bool {
 }
 
 /// Reads a `.poly` file.
-pub(super) fn read_poly(bytes: &[u8]) -> Result<Surfaces, SurfaceError> {
+pub(in crate::import) fn read_poly(bytes: &[u8]) -> Result<Surfaces, ImportError> {
     read(bytes, "TetGen poly", facet_of_poly)
 }
 
 /// Reads a `.smesh` file: a `.poly` whose facets are one polygon each, on a line of their own.
-pub(super) fn read_smesh(bytes: &[u8]) -> Result<Surfaces, SurfaceError> {
+pub(super) fn read_smesh(bytes: &[u8]) -> Result<Surfaces, ImportError> {
     read(bytes, "TetGen smesh", facet_of_smesh)
 }
 
 /// Reads one facet, the `i`-th, and its marker.
-type FacetReader<'a> = fn(&mut Reader<'a>, Row<'a>, usize) -> Result<(FoundFacet, i64), SurfaceError>;
+type FacetReader<'a> = fn(&mut Reader<'a>, Row<'a>, usize) -> Result<(FoundFacet, i64), ImportError>;
 
 struct Reader<'a> {
     rows: Rows<'a>,
@@ -42,7 +42,7 @@ struct Reader<'a> {
     marked: bool,
 }
 
-fn read<'a>(bytes: &'a [u8], format: &str, facet: FacetReader<'a>) -> Result<Surfaces, SurfaceError> {
+fn read<'a>(bytes: &'a [u8], format: &str, facet: FacetReader<'a>) -> Result<Surfaces, ImportError> {
     let mut surfaces = Surfaces { format: format.into(), ..Surfaces::default() };
     let mut reader =
         Reader { rows: Rows::new(bytes, HELP), places: BTreeMap::new(), first: 0, count: 0, marked: false };
@@ -59,7 +59,7 @@ fn read<'a>(bytes: &'a [u8], format: &str, facet: FacetReader<'a>) -> Result<Sur
 }
 
 impl<'a> Reader<'a> {
-    fn vertices(&mut self, surfaces: &mut Surfaces) -> Result<(), SurfaceError> {
+    fn vertices(&mut self, surfaces: &mut Surfaces) -> Result<(), ImportError> {
         let header = self.rows.header()?;
         let ([count, dimension], _) = header.take("the vertex header (count, dimension, attributes, markers)")?;
         let count = header.count(count, "vertices")?;
@@ -68,7 +68,7 @@ impl<'a> Reader<'a> {
         }
         if count == 0 {
             let help = "paste the .node file in place of this line";
-            return Err(SurfaceError::at(header.line, "the vertices are in a .node file of their own", help));
+            return Err(ImportError::at(header.line, "the vertices are in a .node file of their own", help));
         }
         // A row takes at least eight bytes, whatever the header says.
         let mut given = Vec::with_capacity(count.min(self.rows.left() / 8 + 1));
@@ -85,7 +85,7 @@ impl<'a> Reader<'a> {
     }
 
     /// Finds out how vertices are numbered.
-    fn number(&mut self, given: &[(i64, Row)]) -> Result<(), SurfaceError> {
+    fn number(&mut self, given: &[(i64, Row)]) -> Result<(), ImportError> {
         self.count = given.len();
         self.first = given.first().map_or(0, |&(n, _)| n);
         if (self.first..).zip(given).all(|(n, (given, _))| n == *given) {
@@ -99,7 +99,7 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    fn vertex(&self, row: Row, token: &[u8], entity: &str) -> Result<u32, SurfaceError> {
+    fn vertex(&self, row: Row, token: &[u8], entity: &str) -> Result<u32, ImportError> {
         let n = number(token).and_then(whole);
         let place = n.and_then(|n| match self.places.is_empty() {
             true => u32::try_from(n.checked_sub(self.first)?).ok().filter(|&i| (i as usize) < self.count),
@@ -111,7 +111,7 @@ impl<'a> Reader<'a> {
         })
     }
 
-    fn facets(&mut self, surfaces: &mut Surfaces, facet: FacetReader<'a>) -> Result<(), SurfaceError> {
+    fn facets(&mut self, surfaces: &mut Surfaces, facet: FacetReader<'a>) -> Result<(), ImportError> {
         let Some(header) = self.rows.next() else {
             surfaces.notes.push("The file ends before the facets; there are none.".into());
             return Ok(());
@@ -120,11 +120,7 @@ impl<'a> Reader<'a> {
         let marked = rest.next().and_then(number).unwrap_or(0.0);
         if marked != 0.0 && marked != 1.0 {
             let what = "expected the facet header (count, then 0 or 1 for markers), found something else";
-            return Err(SurfaceError::at(
-                header.line,
-                what,
-                "does the count of vertices fit the lines that follow it?",
-            ));
+            return Err(ImportError::at(header.line, what, "does the count of vertices fit the lines that follow it?"));
         }
         self.marked = marked == 1.0;
         let count = header.count(count, "facets")?;
@@ -143,7 +139,7 @@ impl<'a> Reader<'a> {
         &mut self,
         row: Row<'a>,
         entity: &str,
-    ) -> Result<(Vec<u32>, impl Iterator<Item = &'a [u8]> + use<'a>), SurfaceError> {
+    ) -> Result<(Vec<u32>, impl Iterator<Item = &'a [u8]> + use<'a>), ImportError> {
         let ([corners], _) = row.take(&format!("{entity}: the count of corners"))?;
         let corners = row.count(corners, "corners")?;
         if corners == 0 {
@@ -163,14 +159,14 @@ impl<'a> Reader<'a> {
             let missing = |line| {
                 let what =
                     format!("{entity}: {corners} corners are promised, but the file ends after {}", polygon.len());
-                SurfaceError::at(line, what, HELP)
+                ImportError::at(line, what, HELP)
             };
             row = self.rows.next().ok_or_else(|| missing(row.line))?;
             skip = 0;
         }
     }
 
-    fn holes(&mut self, surfaces: &mut Surfaces) -> Result<Vec<[f64; 3]>, SurfaceError> {
+    fn holes(&mut self, surfaces: &mut Surfaces) -> Result<Vec<[f64; 3]>, ImportError> {
         let Some(header) = self.rows.next() else {
             surfaces.notes.push("The file ends before the hole points; there are none.".into());
             return Ok(Vec::new());
@@ -180,7 +176,7 @@ impl<'a> Reader<'a> {
         self.places_of(header, "holes", count)
     }
 
-    fn places_of(&mut self, header: Row, what: &str, count: usize) -> Result<Vec<[f64; 3]>, SurfaceError> {
+    fn places_of(&mut self, header: Row, what: &str, count: usize) -> Result<Vec<[f64; 3]>, ImportError> {
         let mut places = Vec::new();
         for i in 0..count {
             let ([_, x, y, z], _) = self.rows.expect(header, what, i, count)?.take("a hole point (number, x, y, z)")?;
@@ -189,7 +185,7 @@ impl<'a> Reader<'a> {
         Ok(places)
     }
 
-    fn regions(&mut self, surfaces: &mut Surfaces) -> Result<Vec<RegionSeed>, SurfaceError> {
+    fn regions(&mut self, surfaces: &mut Surfaces) -> Result<Vec<RegionSeed>, ImportError> {
         let Some(header) = self.rows.next() else { return Ok(Vec::new()) };
         let ([count], _) = header.take("the count of regions")?;
         let count = header.count(count, "regions")?;
@@ -209,7 +205,7 @@ fn marker_of(token: Option<&[u8]>) -> i64 {
     token.and_then(number).and_then(whole).unwrap_or(0)
 }
 
-fn facet_of_poly<'a>(reader: &mut Reader<'a>, row: Row<'a>, i: usize) -> Result<(FoundFacet, i64), SurfaceError> {
+fn facet_of_poly<'a>(reader: &mut Reader<'a>, row: Row<'a>, i: usize) -> Result<(FoundFacet, i64), ImportError> {
     let entity = format!("facet {} (line {})", i + 1, row.line);
     let ([polygons], mut rest) = row.take(&format!("{entity}: the count of polygons"))?;
     let count = row.count(polygons, "polygons")?;
@@ -224,7 +220,7 @@ fn facet_of_poly<'a>(reader: &mut Reader<'a>, row: Row<'a>, i: usize) -> Result<
     Ok((facet, marker))
 }
 
-fn facet_of_smesh<'a>(reader: &mut Reader<'a>, row: Row<'a>, i: usize) -> Result<(FoundFacet, i64), SurfaceError> {
+fn facet_of_smesh<'a>(reader: &mut Reader<'a>, row: Row<'a>, i: usize) -> Result<(FoundFacet, i64), ImportError> {
     let entity = format!("facet {} (line {})", i + 1, row.line);
     let (polygon, mut rest) = reader.polygon(row, &entity)?;
     let marker = if reader.marked { marker_of(rest.next()) } else { 0 };

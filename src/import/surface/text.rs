@@ -1,7 +1,7 @@
 //! Text: lines with their numbers, and how many digits the numbers of a file have.
 
-use super::SurfaceError;
 use crate::geometry::written::{number, tokens};
+use crate::import::ImportError;
 use crate::solid::Digits;
 
 /// Lines that hold something, with their numbers; comments (`#` to the end of the line) are cut off.
@@ -34,15 +34,15 @@ impl<'a> Rows<'a> {
     }
 
     /// The first row.
-    pub(super) fn header(&mut self) -> Result<Row<'a>, SurfaceError> {
-        self.next().ok_or_else(|| SurfaceError::at(self.line.max(1), "the file is empty", self.help))
+    pub(super) fn header(&mut self) -> Result<Row<'a>, ImportError> {
+        self.next().ok_or_else(|| ImportError::at(self.line.max(1), "the file is empty", self.help))
     }
 
     /// Row `i` of `count` that `header` promises.
-    pub(super) fn expect(&mut self, header: Row, what: &str, i: usize, count: usize) -> Result<Row<'a>, SurfaceError> {
+    pub(super) fn expect(&mut self, header: Row, what: &str, i: usize, count: usize) -> Result<Row<'a>, ImportError> {
         self.next().ok_or_else(|| {
             let promised = format!("line {} promises {count} {what}, but the file ends after {i}", header.line);
-            SurfaceError::at(self.line, promised, "the file may be cut off; mend the count or add the missing lines")
+            ImportError::at(self.line, promised, "the file may be cut off; mend the count or add the missing lines")
         })
     }
 }
@@ -71,7 +71,7 @@ impl<'a> Row<'a> {
     pub(super) fn take<const N: usize>(
         self,
         what: &str,
-    ) -> Result<([f64; N], impl Iterator<Item = &'a [u8]> + use<'a, N>), SurfaceError> {
+    ) -> Result<([f64; N], impl Iterator<Item = &'a [u8]> + use<'a, N>), ImportError> {
         let mut values = [0.0; N];
         let mut rest = tokens(self.text);
         for (i, value) in values.iter_mut().enumerate() {
@@ -82,12 +82,12 @@ impl<'a> Row<'a> {
     }
 
     /// The token as a finite number; it is item `i` of `what`.
-    pub(super) fn number(self, token: &[u8], i: usize, what: &str) -> Result<f64, SurfaceError> {
+    pub(super) fn number(self, token: &[u8], i: usize, what: &str) -> Result<f64, ImportError> {
         number(token).ok_or_else(|| self.error(format!("{what}: item {} is not a finite number", i + 1)))
     }
 
     /// The value as a count.
-    pub(super) fn count(self, value: f64, what: &str) -> Result<usize, SurfaceError> {
+    pub(super) fn count(self, value: f64, what: &str) -> Result<usize, ImportError> {
         // No file that fits in memory holds 2^32 rows, and ids have 32 bits.
         if value >= 0.0 && value < f64::from(u32::MAX) && value == value.trunc() {
             Ok(value as usize)
@@ -97,8 +97,8 @@ impl<'a> Row<'a> {
     }
 
     /// What is wrong with this line.
-    pub(super) fn error(self, what: impl Into<String>) -> SurfaceError {
-        SurfaceError::at(self.line, what, self.help)
+    pub(super) fn error(self, what: impl Into<String>) -> ImportError {
+        ImportError::at(self.line, what, self.help)
     }
 }
 

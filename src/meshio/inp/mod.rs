@@ -4,6 +4,7 @@ mod read;
 pub(super) mod write;
 
 use super::losses::Losses;
+use super::solid;
 use super::{Facts, Reading, begins, one_file};
 
 /// The facts of the input deck.
@@ -14,6 +15,7 @@ pub(super) const FACTS: Facts = Facts {
     choices: &[],
     straight_only: None,
     write: |mesh, _, _| one_file(|out| write::write(mesh, out)),
+    write_solid: Some(|mesh, _| one_file(|out| solid::inp::write(mesh, out))),
     losses,
     reading: Some(Reading {
         suffix: "inp",

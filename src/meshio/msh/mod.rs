@@ -4,6 +4,7 @@ mod read;
 pub(super) mod write;
 
 use super::losses::Losses;
+use super::solid;
 use super::{Facts, Reading, begins, one_file};
 
 /// The facts of MSH 4.1.
@@ -14,6 +15,7 @@ pub(super) const FACTS: Facts = Facts {
     choices: &[],
     straight_only: None,
     write: |mesh, _, _| one_file(|out| write::write_41(mesh, out)),
+    write_solid: Some(|mesh, _| one_file(|out| solid::msh::write_41(mesh, out))),
     losses,
     reading: Some(Reading {
         suffix: "msh",
@@ -24,8 +26,12 @@ pub(super) const FACTS: Facts = Facts {
 };
 
 /// The facts of MSH 2.2.
-pub(super) const FACTS_OF_22: Facts =
-    Facts { name: "msh22", write: |mesh, _, _| one_file(|out| write::write_22(mesh, out)), ..FACTS };
+pub(super) const FACTS_OF_22: Facts = Facts {
+    name: "msh22",
+    write: |mesh, _, _| one_file(|out| write::write_22(mesh, out)),
+    write_solid: Some(|mesh, _| one_file(|out| solid::msh::write_22(mesh, out))),
+    ..FACTS
+};
 
 fn losses(losses: &mut Losses) {
     losses.interior_lines();

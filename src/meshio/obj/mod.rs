@@ -21,6 +21,7 @@ pub(super) const FACTS: Facts = Facts {
         }
         Ok(files)
     },
+    write_solid: None,
     losses,
     reading: Some(Reading {
         suffix: "obj",

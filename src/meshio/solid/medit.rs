@@ -8,7 +8,21 @@ use super::groups::Groups;
 use crate::ids::VertexId;
 use crate::mesh::solid::SolidMesh;
 use crate::meshio::groups::Kind;
+use crate::meshio::{Facts, one_file, tetrahedra_only};
 use std::io::{self, Write};
+
+/// The facts of Medit's text.
+pub(in crate::meshio) const FACTS: Facts = Facts {
+    name: "medit",
+    suffixes: &["mesh"],
+    first_as_named: true,
+    choices: &[],
+    straight_only: None,
+    write: |_, _, _| Err(tetrahedra_only("medit")),
+    write_solid: Some(|mesh, _| one_file(|out| write(mesh, out))),
+    losses: |_| {},
+    reading: None,
+};
 
 /// Writes a mesh.
 ///

@@ -8,7 +8,28 @@ use super::groups::Groups;
 use crate::ids::{Id, IdVec, NameId, VertexId};
 use crate::mesh::solid::SolidMesh;
 use crate::meshio::groups::Kind;
+use crate::meshio::{Facts, file, tetrahedra_only};
 use std::io::{self, Write};
+
+/// The facts of TetGen's files.
+pub(in crate::meshio) const FACTS: Facts = Facts {
+    name: "tetgen",
+    suffixes: &["node", "ele", "face", "edge"],
+    first_as_named: false,
+    choices: &[],
+    straight_only: None,
+    write: |_, _, _| Err(tetrahedra_only("tetgen")),
+    write_solid: Some(|mesh, _| {
+        Ok(vec![
+            file(|out| write_nodes(mesh, out))?,
+            file(|out| write_elements(mesh, out))?,
+            file(|out| write_faces(mesh, out))?,
+            file(|out| write_edges(mesh, out))?,
+        ])
+    }),
+    losses: |_| {},
+    reading: None,
+};
 
 /// Writes the nodes.
 ///

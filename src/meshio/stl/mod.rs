@@ -14,6 +14,7 @@ pub(super) const FACTS: Facts = Facts {
     choices: &[],
     straight_only: None,
     write: |mesh, _, _| one_file(|out| write::write(mesh, out)),
+    write_solid: None,
     losses,
     reading: Some(Reading {
         suffix: "stl",

@@ -20,6 +20,7 @@ pub(super) const FACTS: Facts = Facts {
             file(|out| write::write_segments(mesh, out))?,
         ])
     },
+    write_solid: None,
     losses,
     reading: Some(Reading {
         suffix: "ele",

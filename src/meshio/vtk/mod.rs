@@ -14,6 +14,7 @@ pub(super) const FACTS: Facts = Facts {
     choices: &[],
     straight_only: None,
     write: |mesh, _, _| one_file(|out| write::write(mesh, out)),
+    write_solid: None,
     losses: |losses| {
         losses.interior_lines();
         losses_of_both(losses);
@@ -31,6 +32,7 @@ pub(super) const FACTS_OF_TEXT: Facts = Facts {
     name: "vtk-text",
     choices: &[Choice::Lines],
     write: |mesh, _, options| one_file(|out| write::write_text(mesh, has_lines(options), out)),
+    write_solid: None,
     losses: |losses| {
         losses.interior_lines();
         let lineless = !losses.mesh.edges.is_empty() && !has_lines(losses.options);

@@ -7,6 +7,7 @@ mod write;
 mod xml;
 
 use super::losses::Losses;
+use super::solid;
 use super::{Choice, Facts, Reading, WriteOptions, one_file};
 
 /// The facts of VTU.
@@ -22,6 +23,7 @@ pub(super) const FACTS: Facts = Facts {
             false => write::write(mesh, stamps, out),
         })
     },
+    write_solid: Some(|mesh, stamps| one_file(|out| solid::vtu::write(mesh, stamps, out))),
     losses,
     reading: Some(Reading {
         suffix: "vtu",

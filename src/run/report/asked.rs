@@ -21,11 +21,27 @@ const FIRST: [&str; 4] = ["length_unit", "engine", "angle_min_deg", "tau_rad"];
 pub struct RequestReport(Map<String, Value>);
 
 impl RequestReport {
-    /// The options as asked.
+    /// The options as asked, but for those of solids.
     pub fn new(request: &Request) -> Self {
+        Self::of(request, |group| group != Group::Facets)
+    }
+
+    /// The options of a solid as asked, in its unit; those of drawings are `null`.
+    pub fn of_solid(request: &Request, unit: Option<&str>) -> Self {
+        let mut told = Self::of(request, |_| true);
+        let of_drawings = |group| !matches!(group, Group::Facets | Group::Budget);
+        for option in Request::options().iter().filter(|option| of_drawings(option.group)) {
+            told.0.insert(option.report.clone(), Value::Null);
+        }
+        told.0.extend(FIRST.map(|name| (name.to_owned(), Value::Null)));
+        told.0.insert("length_unit".into(), json!(unit));
+        told
+    }
+
+    fn of(request: &Request, uses: impl Fn(Group) -> bool) -> Self {
         let asked = serde_json::to_value(request).expect("options are words, numbers and lists of them");
         let mut told: Map<String, Value> = FIRST.map(|name| (name.to_owned(), Value::Null)).into_iter().collect();
-        for option in Request::options_in_groups() {
+        for option in Request::options_in_groups().into_iter().filter(|option| uses(option.group)) {
             told.insert(option.report.clone(), tell(option, request, &asked[&option.key]));
         }
         Self(told)
@@ -109,7 +125,9 @@ impl JsonSchema for RequestReport {
         let mut properties: Map<String, Value> = FIRST.into_iter().map(first).collect();
         properties
             .extend(Request::options_in_groups().into_iter().map(|option| (option.report.clone(), schema(option))));
-        let required: Vec<&String> = properties.keys().collect();
+        let of_solids = Request::options().iter().filter(|option| option.group == Group::Facets);
+        let of_solids: Vec<&String> = of_solids.map(|option| &option.report).collect();
+        let required: Vec<&String> = properties.keys().filter(|name| !of_solids.contains(name)).collect();
         json_schema!({
             "description": "Every option as used. Lengths in `length_unit`, areas in its square",
             "type": "object",

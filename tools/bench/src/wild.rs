@@ -145,7 +145,7 @@ fn ending_of(known: &Known, outcome: &Outcome) -> (Ending, String) {
         };
         return (ending, failure.what.clone());
     }
-    let quality = outcome.report.quality.as_ref().expect("a mesh is measured");
+    let quality = outcome.report.quality.as_ref().and_then(|quality| quality.in_plane()).expect("a mesh is measured");
     let measure = quality.exact_measure.unwrap_or(f64::NAN);
     let error = (measure - known.area).abs();
     let domain = outcome.domain.as_ref().expect("a mesh has a domain");

@@ -1,5 +1,7 @@
 //! The tetrahedral mesh: plain data, whoever made it.
 
+pub mod quality;
+
 use crate::ids::{FacetId, IdVec, NameId, Names, PointId, RegionId, SegmentId, TetId, VertexId};
 
 /// A tetrahedral mesh, with names and links back to the solid where they are known.
