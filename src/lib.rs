@@ -1,8 +1,8 @@
 //! squinch: provably good triangle meshes of domains with curved boundaries.
 //!
 //! Curves stay curves: lines, arcs, Béziers, splines and clothoids are split to a bounded turning and meshed by
-//! corner-lopping Delaunay refinement (Pav & Walkington 2005), which ends for any angle between them. An independent
-//! verifier then checks the mesh against the curves.
+//! corner-lopping Delaunay refinement (Pav & Walkington 2005), which terminates for any angle between them. An
+//! independent verifier then checks the mesh against the curves.
 //!
 //! ```
 //! use squinch::plane::lopping::{Options, refine};

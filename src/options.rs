@@ -1,4 +1,4 @@
-//! Options: each is written once, as a field of the options struct of its room.
+//! Options: each is written once, as a field of the options struct of its module.
 //!
 //! The field's name in kebab-case is its key on the command line, in a `--config` file and in a case file. Its doc
 //! comment is its help, the default of its struct is its default, and `#[schemars(extend(…))]` adds what the type does
@@ -264,7 +264,7 @@ pub fn number(text: &str) -> Result<f64, String> {
 mod tests {
     use super::*;
 
-    /// Two rooms' options, gathered.
+    /// The options of two modules, gathered.
     #[derive(Serialize, Deserialize, JsonSchema)]
     #[serde(rename_all = "kebab-case", default)]
     struct All {

@@ -1,7 +1,8 @@
-//! Files that say too much or contradict themselves: a clear error with its line, or a drawing; in bounded time and memory.
+//! Files that say too much or contradict themselves: a clear error with its line, or a drawing; in bounded time and
+//! memory.
 //!
-//! What all readers do with any broken file is tested in `readers.rs`; what a format says of its own broken files beside
-//! the rest of it (`svg`, `dxf`, `import`, `formats.rs`, `vtu.rs`).
+//! What all readers do with any broken file is tested in `readers.rs`; what a format says of its own broken files
+//! beside the rest of it (`svg`, `dxf`, `import`, `formats.rs`, `vtu.rs`).
 
 use squinch::domain::{Drawing, Loose};
 use squinch::import::{self, DxfOptions, Format, ImportError, LineTypes, Options, Strokes};

@@ -1,6 +1,6 @@
-//! Every reader, of drawings and of meshes, from the lists of formats themselves: whole files are read and known by their
-//! content; files that are empty, cut, changed, repeated or of another format are errors with their place and a way out,
-//! or read; and no bytes do harm.
+//! Every reader, of drawings and of meshes, from the lists of formats themselves: whole files are read and known by
+//! their content; files that are empty, cut, changed, repeated or of another format are errors with their place and a
+//! way out, or read; and no bytes do harm.
 
 mod strip;
 
@@ -177,8 +177,8 @@ fn other_files_are_refused_by_every_reader() {
 
 // ---- meshes ----
 
-/// A mesh that is given as a drawing is refused with what can be done with it: a mesh that is read here by other verbs, one that is not by
-/// another program.
+/// A mesh that is given as a drawing is refused with what can be done with it: a mesh that is read here by other verbs,
+/// one that is not by another program.
 #[test]
 fn a_mesh_is_no_drawing() {
     let refused = |name: &str, bytes: &[u8]| import::tell_format(name.as_ref(), bytes).expect_err("no drawing").help;

@@ -1,4 +1,4 @@
-//! The options of a run, on the command line and in a `--config` file alike; the command line wins.
+//! The options of a run, on the command line and in a `--config` file alike; the command line overrides the file.
 //!
 //! Both are made from the options of a [`Request`] ([`squinch::options`]): a new field there is an option here.
 

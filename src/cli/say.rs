@@ -1,4 +1,4 @@
-//! The text that people read on stderr: errors that point into the input, the summary, the progress.
+//! Messages on stderr: errors with their place in the input, the summary, the progress.
 
 use super::files::Input;
 use super::output::Output;

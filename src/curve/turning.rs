@@ -260,7 +260,7 @@ fn half_plane_pieces(hodograph: Vec<Vec2>, noise: f64) -> Vec<HodographPart> {
     if zeros.is_empty() {
         return pieces;
     }
-    // Small parts near a zero have inaccurate directions. So the hodograph is cut anew, at the zeros first.
+    // Small parts near a zero have inaccurate directions. So the hodograph is cut again, at the zeros first.
     let mut bounds = vec![0.0];
     bounds.extend(zeros.into_iter().map(|s| zero_near(&hodograph, s)).filter(|s| *s > 0.0 && *s < 1.0));
     bounds.push(1.0);

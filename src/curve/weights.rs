@@ -1,4 +1,4 @@
-//! Weights that lie far apart: the same curve in spans over which its parameter is nearly proportional to length.
+//! Very unequal weights: the same curve in spans over which its parameter is nearly proportional to length.
 //!
 //! Weights w·cⁱ give the same curve with another parameter, t ↦ ct/(1 − t + ct) (Farin, *Curves and Surfaces for CAGD*,
 //! 13.5). So a weight of 1e12 maps half of a curve to a range of the parameter of length 1e-12, in which `f64` has 1e4

@@ -9,7 +9,7 @@ use crate::geometry::{Rect, Vec2, magnitude};
 use crate::ids::{CurveId, Id, IdVec, PointId, RegionId};
 use std::f64::consts::TAU;
 
-/// The number of level lines tried through a component until one keeps clear of ends and tangents.
+/// The number of horizontal lines tried through a component until one keeps clear of ends and tangents.
 const LINES: usize = 64;
 
 impl Domain {

@@ -1,5 +1,5 @@
 //! Files that are not drawings. They are recognised by their first bytes, else by their suffix, and refused by name
-//! with a way out. The bytes of a format are listed only if no drawing begins with them.
+//! with a remedy. The bytes of a format are listed only if no drawing begins with them.
 
 use super::{ImportError, number};
 use std::path::Path;

@@ -89,14 +89,14 @@ struct Facts {
     name: &'static str,
     /// Suffixes of its files, the usual one first.
     suffixes: &'static [&'static str],
-    /// Whether first bytes are those of this format, and how surely they tell.
+    /// Whether first bytes are those of this format, and how reliably they identify it.
     sign: fn(&[u8]) -> bool,
     certainty: Certainty,
     /// Reads a file. The text is the file name without suffix, the title where the file gives none.
     read: fn(&[u8], &str, &Options) -> Result<Found, ImportError>,
 }
 
-/// How surely first bytes tell a format.
+/// How reliably first bytes identify a format.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Certainty {
     /// No file of another kind begins so: JSON begins with a brace, DXF with its sentinel or a section, XML and gzip in

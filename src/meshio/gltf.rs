@@ -2,10 +2,10 @@
 //!
 //! Each region has a node with a mesh of one primitive (triangles), then each boundary has one (lines), under its name.
 //! All share one list of positions. `extras` of a primitive hold `{"region": NAME}` or `{"boundary": NAME}`. The
-//! material of a region has its name, and its colour in the drawing if there is one. All nodes hang on the root node.
-//! The root converts to metres (an unknown unit is kept; `extras` name it) and to +Y up: a mesh in the plane keeps its
-//! y, a mesh in space is rotated from CAD's +Z up. The root is also shifted to the middle of the mesh, because
-//! positions are float32 and would lose small features far from the origin.
+//! material of a region has its name, and its colour in the drawing if there is one. All nodes are children of the
+//! root. The root converts to metres (an unknown unit is kept; `extras` name it) and to +Y up: a mesh in the plane
+//! keeps its y, a mesh in space is rotated from CAD's +Z up. The root is also shifted to the middle of the mesh,
+//! because positions are float32 and would lose small features far from the origin.
 //!
 //! MeshLab makes triangles of the lines, so they can be left out (`lines` false).
 //!

@@ -4,7 +4,7 @@
 //! The list of formats below is the only one: the enum, names and suffixes, writers, readers and losses are made from
 //! it.
 //!
-//! A writer writes all that its format can hold; [`Format::losses`] tells the rest. Readers read triangles and lines in
+//! A writer writes all that its format can hold; [`Format::losses`] lists the rest. Readers read triangles and lines in
 //! a plane, straight ones or of second order (all of one kind). Point cells are left out and counted; any other cell is
 //! an error. Input is untrusted: readers check every count against the bytes at hand.
 

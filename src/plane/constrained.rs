@@ -1,10 +1,10 @@
-//! The constrained Delaunay triangulation: an edge with a subcurve is constrained. It stays whatever lies around it,
-//! and blocks the view.
+//! The constrained Delaunay triangulation: an edge with a subcurve is constrained. Insertions, flips and removals
+//! keep it, and it blocks visibility.
 //!
 //! A triangulation is constrained Delaunay if no vertex inside the circle of a triangle is visible from its inside
 //! (Chew 1989; Lee & Lin 1986). That holds exactly when every edge without a subcurve is locally Delaunay. Storage and
-//! exact signs are those of [`Kernel`]. Cavities end at constrained edges, and flips leave them alone. Every operation
-//! notes the triangles that it makes, so that the engine can assess them.
+//! exact signs are those of [`Kernel`]. Cavities end at constrained edges, and flips do not change them. Every
+//! operation notes the triangles that it makes, so that the engine can assess them.
 
 use super::insert::{Cavity, Degenerate, Kernel, Location, hull_side};
 use super::triangulation::{GHOST, HalfEdge, Triangulation};
@@ -321,7 +321,7 @@ impl Constrained {
     /// Deletes a vertex of any degree, inside the hull and not the end of a subcurve.
     ///
     /// # Panics
-    /// Where the vertex is dead, on the hull, or the end of a subcurve.
+    /// Where the vertex was removed before, lies on the hull, or the end of a subcurve.
     pub fn remove(&mut self, v: VertexId) {
         let star: Vec<HalfEdge> = self.topology().sides_from(v).collect();
         let bound = star.iter().any(|&s| self.topology().target(s) == GHOST || self.is_subcurve(s));

@@ -229,8 +229,8 @@ impl<'a> Walk<'a> {
         })
     }
 
-    /// The finite triangle `near`, or its finite neighbour where it is a ghost, or where it is dead the first triangle
-    /// that is not.
+    /// The finite triangle `near`, or its finite neighbour where it is a ghost, or where it was removed the first
+    /// triangle that still exists.
     fn finite_near(&self, near: TriangleId) -> TriangleId {
         let t = if self.net.is_alive(near) {
             near
@@ -316,7 +316,7 @@ pub(super) fn hull_side([a, b, c]: [VertexId; 3]) -> [VertexId; 2] {
 
 /// The Delaunay triangulation of a set of points that can be added and removed.
 pub struct Kernel {
-    /// Coordinates, of dead vertices too.
+    /// Coordinates, of removed vertices too.
     pub(super) points: IdVec<VertexId, Point>,
     /// The triangles, with their labels.
     pub(super) topology: Triangulation,
@@ -358,7 +358,7 @@ impl Kernel {
         Ok(Self { points: points.into(), topology, ledger })
     }
 
-    /// Coordinates of all vertices, dead ones included.
+    /// Coordinates of all vertices, removed ones included.
     pub fn points(&self) -> &IdVec<VertexId, Point> {
         &self.points
     }

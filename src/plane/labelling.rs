@@ -31,8 +31,8 @@ pub struct RegionLabeller {
 }
 
 impl RegionLabeller {
-    /// Gives regions to the triangles in `fresh`, those made since the last call. Leaves those in `fresh` that are
-    /// alive, each once.
+    /// Gives regions to the triangles in `fresh`, those made since the last call. Leaves those in `fresh` that
+    /// still exist, each once.
     pub fn label(
         &mut self,
         delaunay: &mut Kernel,
@@ -65,7 +65,7 @@ impl RegionLabeller {
         fresh.iter().for_each(|t| self.places[t.index()] = 0);
     }
 
-    /// Leaves each triangle of `fresh` that is alive once, in the order of ids, and notes its place.
+    /// Leaves each triangle of `fresh` that still exists once, in the order of ids, and notes its place.
     fn note(&mut self, delaunay: &Kernel, fresh: &mut Vec<TriangleId>) {
         fresh.sort_unstable();
         fresh.dedup();

@@ -11,11 +11,11 @@ use crate::ids::{TriangleId, VertexId};
 
 impl Kernel {
     /// Deletes a vertex of any degree, inside or on the hull. The triangulation is then that of the other points, and
-    /// the id is dead.
+    /// the id is unused.
     ///
     /// Subcurves on the edges of the vertex are lost. A new triangle has the region of a removed one next to it: where
-    /// a lost subcurve separated two regions, the caller must label anew. Returns `false`, and changes nothing, where
-    /// the vertex is dead already or the other points lie on one line.
+    /// a lost subcurve separated two regions, the caller must label again. Returns `false`, and changes nothing, where
+    /// the vertex was removed before or the other points lie on one line.
     pub fn remove(&mut self, v: VertexId) -> bool {
         if v == GHOST || self.carries_the_plane(v) {
             return false;

@@ -127,13 +127,13 @@ impl Net {
         Self { records, ..Self::default() }
     }
 
-    /// Corners and twins of a triangle, dead or alive.
+    /// Corners and twins of a triangle, removed or not.
     #[inline]
     pub fn record(&self, t: TriangleId) -> &Record {
         &self.records[t.index()]
     }
 
-    /// Number of triangles, ghosts and dead ones included: every id is below it.
+    /// Number of triangles, ghosts and removed ones included: every id is below it.
     pub fn len(&self) -> usize {
         self.records.len()
     }
@@ -218,7 +218,7 @@ pub struct Triangulation {
     subcurves: Vec<[u32; 3]>,
     /// The region of each triangle; NONE for no region.
     regions: Vec<u32>,
-    /// One half-edge that starts at each vertex, that of [`GHOST`] first: see [`place_of`]. NONE for a dead vertex.
+    /// One half-edge that starts at each vertex, that of [`GHOST`] first: see [`place_of`]. NONE for a removed one.
     anchors: Vec<HalfEdge>,
     /// Subcurve and region at each border half-edge while a cavity is filled.
     labels: Vec<(u32, u32)>,
@@ -305,8 +305,8 @@ impl Triangulation {
         self.net.len()
     }
 
-    /// The half-edges that start at a vertex, counter-clockwise, those of ghost triangles included; none for a dead
-    /// vertex. Those of [`GHOST`] end at the vertices of the hull, in clockwise order around it.
+    /// The half-edges that start at a vertex, counter-clockwise, those of ghost triangles included; none for a
+    /// removed vertex. Those of [`GHOST`] end at the vertices of the hull, in clockwise order around it.
     pub fn sides_from(&self, v: VertexId) -> impl Iterator<Item = HalfEdge> {
         let first = self.anchors.get(place_of(v)).copied().filter(|&s| s != HalfEdge(NONE));
         std::iter::successors(first, move |s| Some(self.twin(s.prev())).filter(|&s| Some(s) != first))

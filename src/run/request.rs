@@ -1,4 +1,4 @@
-//! The request of one run: the options of the rooms, and those of the whole run.
+//! The request of one run: the options of the modules, and those of the whole run.
 //!
 //! Keys are the long options of the command line, the same in a `--config` file and in a case file
 //! ([`crate::options`]). Angles are in degrees, τ is in radians, and lengths are in the units of the mesh: those of the

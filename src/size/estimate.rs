@@ -2,8 +2,8 @@
 //!
 //! *Slivers.* Where the face beside an edge of the border is w wide, the edge is no longer than w·(cot κ + tan κ): the
 //! apex of its triangle is no farther away than w, both angles at the edge are κ or more, and the apex is not in the
-//! edge's diametral circle. Where it may be there ([`Circles::Any`]), the edge is no longer than 2w·cot κ. So a sliver
-//! of length L takes L/(w·(cot κ + tan κ)) vertices on either side.
+//! edge's diametral circle. If the apex may be in it ([`Circles::Any`]), the edge is no longer than 2w·cot κ. So a
+//! sliver of length L takes L/(w·(cot κ + tan κ)) vertices on either side.
 //!
 //! ```text
 //!   ─────────────── apex ●───────────      The angle at the apex is at most 90°. So if one angle at the edge e is
@@ -27,7 +27,7 @@
 //! √(κ/8E) a unit of length for the curvature κ and the chord error E. There are at most two triangles a vertex. The
 //! result is halved, because curvatures are known only at samples. Sizes that vary with the place are left out.
 //!
-//! Where no stretch is certain, runs take some ten times as many.
+//! Where no stretch is certain, runs take about ten times as many vertices as estimated.
 
 use super::{SizeField, Sizing};
 use crate::curve::{Curve, End};

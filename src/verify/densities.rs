@@ -9,8 +9,8 @@ use crate::mesh::{Insertion, InsertionKind, Mesh};
 use crate::promise::DensityPromise;
 use std::collections::BTreeMap;
 
-/// *density_a*, *density_b*, *density_c*: D(p) = lfs(p)/R(p) is at most the bound for its type. lfs is measured anew on
-/// the domain. R(p) is the recorded one, or the length of the shortest edge from the vertex to an older one in the
+/// *density_a*, *density_b*, *density_c*: D(p) = lfs(p)/R(p) is at most the bound for its type. lfs is measured again
+/// on the domain. R(p) is the recorded one, or the length of the shortest edge from the vertex to an older one in the
 /// mesh, if that is less. Worst: the largest density. `n/a` where there is no finite bound.
 pub fn densities(
     domain: &Domain,

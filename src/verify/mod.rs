@@ -1,5 +1,5 @@
-//! The verifier: (Domain, Mesh, Promise) → Verdict. It shares with the kernels only what lies below them, and checks
-//! everything anew.
+//! The verifier: (Domain, Mesh, Promise) → Verdict. It shares with the kernels only what lies below them, and
+//! derives everything again.
 //!
 //! It evaluates the links between nodes and curves again, measures balls against the domain, and counts edges from the
 //! triangles. Together the checks prove that the triangles tile the domain:
@@ -16,12 +16,12 @@
 //! winding number of the chords around it. No two chords cross (*conforming*) and none has a node on it
 //! (*empty_diametral*), so that number is 0 or 1: the triangles tile the region, without overlap. With locally Delaunay
 //! edges (*delaunay*) and empty diametral circles at the rim, the tiling is Delaunay as a whole. For a constrained
-//! tiling *conforming* checks that no chords cross and no node lies on one; it is Delaunay but at chords
-//! (*constrained_delaunay*).
+//! tiling *conforming* checks that no chords cross and no node lies on one; it is Delaunay except
+//! across chords (*constrained_delaunay*).
 //!
 //! **Proven or reached.** A check of the output is `proven` where it holds, since it was made on this very output. The
-//! angle bounds are `proven` only where theory covers κ ([`crate::promise::guaranteed_angle`]), so that no input of
-//! that turning can miss it; else `reached`.
+//! angle bounds are `proven` only where theory covers κ ([`crate::promise::guaranteed_angle`]), so that every
+//! input of that turning meets them; else `reached`.
 //!
 //! Signs come from [`crate::geometry::exact`] on coordinates scaled to unit magnitude. Measures are plain `f64`, each
 //! with a tolerance derived where it is used.
@@ -116,7 +116,7 @@ pub struct Exemption {
 /// The verdict: `promise` in the report.
 #[derive(Clone, Debug)]
 pub struct Verdict {
-    /// The checks, each once, in the contract's order.
+    /// The checks, each once, in a fixed order.
     pub checks: Vec<Check>,
     /// The triangles that are exempt from the smallest angle, by corner; empty where there are none.
     pub exempt: Vec<Exemption>,
@@ -141,7 +141,7 @@ fn is_zero(n: &usize) -> bool {
 /// Verifies a mesh against the domain (already τ-split) and the guarantees of `promise`. `None` for a mesh whose curves
 /// are unknown: checks that need them are n/a.
 ///
-/// The checks come in the contract's order, each once, `n/a` included; *constrained_delaunay* and *radius_edge* only
+/// The checks come in a fixed order, each once, `n/a` included; *constrained_delaunay* and *radius_edge* only
 /// where they are guaranteed. A mesh with ids that do not exist or coordinates that are not finite has `manifold`
 /// broken, with the flaws, and everything else `n/a`.
 pub fn verify(domain: Option<&Domain>, mesh: &Mesh, promise: &Promise) -> Verdict {
@@ -204,7 +204,7 @@ pub fn verify(domain: Option<&Domain>, mesh: &Mesh, promise: &Promise) -> Verdic
     Verdict { checks, exempt }
 }
 
-/// Names of the checks, in the contract's order.
+/// Names of the checks, in the order of the report.
 const NAMES: [&str; 17] = [
     "orientation",
     "manifold",

@@ -7,8 +7,8 @@ use squinch::mesh::{CurveEdge, Mesh};
 use squinch::meshio::{Format, MeshFile, WriteOptions, encode, read};
 use std::collections::BTreeMap;
 
-/// Three regions (two of one name) in a strip of n × 2 squares, its rim and the line between the rows named; far from the origin, with
-/// endless digits.
+/// Three regions (two of one name) in a strip of n × 2 squares, its rim and the line between the rows named; far from
+/// the origin, with endless digits.
 pub fn strip(n: u32, names: [&str; 5]) -> Mesh {
     let mut mesh = Mesh { unit: Some("mm".into()), ..Mesh::default() };
     for i in 0..=n {

@@ -2,7 +2,7 @@
 //!
 //! The record is a file of JSON lines: the request of all inputs, then a line when an input begins and a line when it
 //! is done. Each line is written at once. An input is recorded as done after its files have their final names. So if
-//! the program is ended, `--resume` does the rest.
+//! the program is interrupted, `--resume` meshes the remaining inputs.
 
 use crate::cli::files;
 use crate::cli::output::Output;

@@ -16,8 +16,8 @@ const PAIRS_MAX: usize = 1 << 26;
 /// The largest number of cuts of one round, two a crossing: some gigabytes with the edges that they make.
 pub(super) const CUTS_MAX: usize = 1 << 24;
 
-/// Curves part slowly where they stay within the tolerance of each other over a length of this many tolerances. Curves
-/// that part at an angle with a sine of one over this do not.
+/// Curves separate slowly where they stay within the tolerance of each other over a length of this many tolerances.
+/// Curves that part at an angle with a sine of one over this do not.
 pub(super) const SLOW: f64 = 16.0;
 
 /// Circles that cross at an angle with a smaller sine are compared in full: they stay within the tolerance of each

@@ -1,4 +1,5 @@
-//! Cuts of each drawn curve alone: at breaks, around hooks, where it meets itself, and once where it is closed.
+//! Cuts of each drawn curve alone: at breaks, around hooks (bends far narrower than the tolerance), where it meets
+//! itself, and once where it is closed.
 //!
 //! ```text
 //!          cusp                 hook               self-meeting           closed

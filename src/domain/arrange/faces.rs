@@ -1,9 +1,9 @@
 //! Faces, and in which face each component lies.
 //!
 //! ```text
-//!      ╭──────────────────────╮       A level line through B crosses C next to its left, at a side of C that bounds a
-//!      │ C   ╭─────╮   ╭───╮  │       face: B lies in that face. A level line through A crosses B next, at B's outer
-//!   ───┼─────┼─ B ─┼───┼ A ┼──┼──     cycle: A lies in the same face as B.
+//!      ╭──────────────────────╮       A horizontal line through B crosses C next to its left, at a side of C that
+//!      │ C   ╭─────╮   ╭───╮  │       bounds a face: B lies in it. A horizontal line through A crosses B next, at its
+//!   ───┼─────┼─ B ─┼───┼ A ┼──┼──     outer cycle: A lies in the same face as B.
 //!      │     ╰─────╯   ╰───╯  │
 //!      ╰──────────────────────╯
 //! ```
@@ -81,8 +81,8 @@ fn parents(cycles: &Cycles, domain: &Domain, margin: f64, watch: &mut Watch) -> 
     }
     view.part_rings(watch)?;
     let seen = view.seen;
-    // A component that sees an outer cycle lies in the same face as that cycle's component. Results are stored, so each
-    // component is followed once.
+    // If an outer cycle is visible from a component, both lie in the same face. Results are stored, so each component
+    // is followed once.
     let mut behind: Vec<Option<Face>> = vec![None; seen.len()];
     for component in 0..seen.len() {
         let mut way = Vec::new();
@@ -131,9 +131,9 @@ impl<'a> View<'a> {
         Self { cycles, locator: Locator::new(domain), margin, bounds, seen, met, lines: 0 }
     }
 
-    /// The lines to try through a component. If the component is only a few margins high, no level line keeps clear of
-    /// its ends, and vertical lines come first. Vertical lines may also be clear where no level line is, as at the tip
-    /// of two curves that part slowly.
+    /// The lines to try through a component. If the component is only a few margins high, no horizontal line keeps
+    /// clear of its ends, and vertical lines come first. Vertical lines may also be clear where no horizontal line is,
+    /// as at the tip of two curves that separate slowly.
     fn lines_through(&self, component: usize) -> impl Iterator<Item = (Axis, f64)> + use<> {
         let bounds = self.bounds[component];
         let axes = [Axis::Horizontal, Axis::Vertical];
@@ -169,14 +169,14 @@ impl<'a> View<'a> {
         Err(self.untold(component))
     }
 
-    /// Two components may each see the other, along lines at different levels. All components of such a ring lie in one
-    /// face. The cycle next to the left of the leftmost of them on any line bounds the same face, so it replaces what
-    /// each of them sees. The replacement may close a further ring, with further components.
+    /// Two components may each be visible from the other, along lines at different levels. All components of such a
+    /// ring lie in one face. The cycle next to the left of the leftmost of them on any line bounds the same face, so it
+    /// becomes the visible cycle of each of them. This may close a further ring, with further components.
     ///
     /// ```text
     ///         ┌───┐     ┌───┐
-    ///   ──────┼───┼─────┼───┼── 1      On line 1 B sees A, on line 2 A sees B: a ring. Of both, line 1 crosses A
-    ///    ┌─┐  │ A │     │   │          first. What it meets before A, here nothing, both A and B see from now on.
+    ///   ──────┼───┼─────┼───┼── 1      A is visible from B on line 1, B from A on line 2: a ring. Line 1 crosses A
+    ///    ┌─┐  │ A │     │   │          first. Both now get what line 1 crosses before A: here nothing.
     ///   ─┼─┼──┼───┼─────┼───┼── 2
     ///    │ │  └───┘     │ B │
     ///    │ └────────────┘   │
@@ -199,7 +199,7 @@ impl<'a> View<'a> {
         }
     }
 
-    /// Rings of components, each of which sees the outer cycle of the next.
+    /// Rings of components: from each, the outer cycle of the next is visible.
     fn rings(&self) -> Vec<Vec<usize>> {
         let next = |component: usize| {
             let cycle = self.seen[component].flatten().filter(|&cycle| self.cycles.is_outer(cycle))?;
@@ -221,8 +221,8 @@ impl<'a> View<'a> {
         rings
     }
 
-    /// Sets what all components of a group see: the cycle before the first crossing of the group with a line through
-    /// `component`. The line runs to the end of the frame.
+    /// Sets the visible cycle of all components of a group: that before the first crossing of the group with a line
+    /// through `component`. The line runs to the end of the frame.
     fn look_out_of(&mut self, component: usize, group: &[usize]) -> Result<(), ArrangeError> {
         for (axis, level) in self.lines_through(component) {
             let [low, high] = along(axis, self.bounds[component]);
@@ -255,7 +255,7 @@ impl<'a> View<'a> {
         self.cycles.of(DirectedEdge { curve: hit.curve, side: hit.before }).component
     }
 
-    /// Notes what the components on a line see there, if they begin on the searched part of it.
+    /// Notes the cycle that is visible from each component on a line, if it begins on the searched part of the line.
     fn note(&mut self, axis: Axis, from: f64, hits: &[Hit]) {
         self.lines += 1;
         for (k, hit) in hits.iter().enumerate() {

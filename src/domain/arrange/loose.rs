@@ -1,10 +1,10 @@
-//! Free ends: which of them are joined, which outlines miss closing, and which lines are open.
+//! Free ends: which of them are joined, which outlines do not quite close, and which lines are open.
 //!
 //! A *free end* is a node at which a single edge ends; its *chain* leads from there to the next free end or branch.
 //!
 //! ```text
 //!   a ────────────── b     b and c are each other's nearest free ends. They are joined at the corner of their lines
-//!   │                c     where the last decimal of the file explains the gap, or within `close`. Otherwise, where
+//!   │                c     where rounding of the last decimal explains the gap, or within `close`. Otherwise, if
 //!   │                │     such gaps close chains into a ring and each gap is short compared with its chains, the
 //!   └────────────────┘     drawing is refused (`rings`). All other free ends are those of open lines.
 //! ```
@@ -102,8 +102,8 @@ impl Arrangement<'_> {
         }
     }
 
-    /// Refuses outlines that miss closing. Keeps, drops or refuses open lines as `loose` says. Returns notes for the
-    /// user.
+    /// Refuses outlines that do not quite close. Keeps, drops or refuses open lines as `loose` says. Returns notes for
+    /// the user.
     ///
     /// # Errors
     /// With the ends, the gaps, and the option that closes them.

@@ -8,8 +8,8 @@
 //!    edges are moved by a similarity to end at their nodes, bit for bit. This is repeated until edges meet only at
 //!    common ends. A node lies at a drawn end where there is one, else at a computed crossing. Edges that coincide
 //!    become one.
-//! 3. `ends`, `rings`, `loose`: free ends, the outlines that miss closing because of them, and how lines that stay open
-//!    are treated.
+//! 3. `ends`, `rings`, `loose`: free ends, the outlines that do not quite close because of them, and how lines that
+//!    stay open are treated.
 //! 4. `star`: the curves around every point, in order.
 //! 5. `trace`, `faces`: cycles of directed edges, and which face each component lies in.
 //! 6. `paint`, `fill`, `regions`: painted shapes, winding numbers, which faces are inside; hole and region seeds,
@@ -26,12 +26,12 @@
 //! two edges meet only at common ends (as far as [`meetings`](crate::curve::meetings) finds them; by its own invariant
 //! it misses none). Such edges with their stars are a plane graph: the cycles of directed edges bound its faces, V −
 //! E + F = 1 + C, and winding numbers follow from one face to the next. [`Domain::flaws`] checks all of that by other
-//! means: it meets each pair anew, and uses Euler's formula and winding numbers by rays.
+//! means: it recomputes the meetings of each pair, and uses Euler's formula and winding numbers by rays.
 //!
 //! **Termination.** Each round welds two nodes or cuts an edge more than a tolerance from its ends. Only moved edges
-//! can meet anew. Edges that cross beside a common end would converge by a constant factor only, so they are cut
-//! farther away. This is no proof: rounds have a budget, and when it is spent the result is an error with the place.
-//! Most drawings take four rounds, those welded within 1e-4 of the diagonal up to a dozen.
+//! can have new meetings. Edges that cross beside a common end would converge by a constant factor only, so they are
+//! cut farther away. This is no proof: rounds have a budget, and when it is spent the result is an error with the
+//! place. Most drawings take four rounds, those welded within 1e-4 of the diagonal up to a dozen.
 //!
 //! **What is kept.** Of welded nodes, a drawn end or break is kept, the first drawn of several; computed crossings move
 //! to it. Of coincident curves the first drawn is kept, with a list of the others. A gap is closed at the end that was
@@ -46,8 +46,8 @@
 //! each, at n²: edges whose boxes meet although they do not (nested rings, fans of curves, long parallel slanted
 //! lines), and curves between the same two points.
 //!
-//! Where the user gave a tolerance, curves that part slowly (from a tangent contact, or from a common end) are one as
-//! long as they are within it. Otherwise the sliver between them, which begins at width 0, would remain at any
+//! Where the user gave a tolerance, curves that separate slowly (from a tangent contact, or from a common end) are one
+//! as long as they are within it. Otherwise the sliver between them, which begins at width 0, would remain at any
 //! tolerance. Bends far narrower than the tolerance become corners.
 //!
 //! All steps run in a frame scaled by a power of two, so the same drawing at another such scale gives the same bits.

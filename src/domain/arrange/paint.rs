@@ -1,4 +1,4 @@
-//! Which shapes of a picture paint each face, and the names that come of it.
+//! Which shapes of a picture paint each face, and the names that result.
 
 use super::arrangement::{Arrangement, Seen};
 use super::faces::{Face, Faces};

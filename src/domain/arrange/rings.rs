@@ -1,5 +1,5 @@
-//! Outlines that miss closing: rings of chains whose free ends are nearest to each other, with gaps that are short
-//! compared with the chains.
+//! Outlines that do not quite close: rings of chains whose free ends are nearest to each other, with gaps that are
+//! short compared with the chains.
 //!
 //! ```text
 //!    ┌──────────┐       Each free end is linked with its nearest one where the gap is below a twentieth of both
@@ -18,7 +18,7 @@ use crate::geometry::{Point, extent};
 use crate::ids::{CurveId, Forest, Id, PointId};
 use std::collections::{BTreeSet, VecDeque};
 
-/// An outline misses closing where each gap is below this part of the shorter chain at it.
+/// An outline does not quite close where each gap is below this part of the shorter chain at it.
 const MISSED: f64 = 1.0 / 20.0;
 
 /// A ring is more than this many times as wide as its widest gap.
@@ -222,7 +222,7 @@ impl<'n, 'a> Ways<'n, 'a> {
     }
 }
 
-/// The error of a drawing whose outlines miss closing; `None` where none do.
+/// The error of a drawing with outlines that do not quite close; `None` if it has none.
 ///
 /// ```text
 ///   ╭──── · 1 ─────╮      Links are added one after the other, the narrowest gaps first. Link 1 joins two parts. Link

@@ -30,7 +30,7 @@ impl Arrangement<'_> {
     ///
     /// **Termination.** A round does one of two things to the nodes. It makes one node of two, so there are fewer. Or
     /// it cuts an edge more than a tolerance from its ends; as long as edges do not move, the length of the drawing
-    /// bounds the number of such cuts. Edges that move, by up to a tolerance, may meet others anew, so this is no
+    /// bounds the number of such cuts. Edges that move, by up to a tolerance, may have new meetings, so this is no
     /// proof: the rounds have a budget, and when it is spent the result is an error with the place.
     ///
     /// # Errors

@@ -5,11 +5,11 @@
 //! header that are not a point; `999. 999.` between elements; blank or text lines between surfaces; commas, tabs,
 //! decimal commas, typographic minus signs; columns that run together; Fortran exponents; a column that counts the
 //! points; tables of one abscissa and two ordinates; further columns; Latin-1; percent of chord; and text after the
-//! data. Notes tell what was met. A point that is not a number is refused. Coordinates are not changed, except that
+//! data. Notes list what was found. A point that is not a number is refused. Coordinates are not changed, except that
 //! percent of chord is divided by 100.
 //!
 //! `rows.rs` classifies lines, `gather.rs` finds the coordinates, `columns.rs` finds their columns, and `table.rs`
-//! makes elements of them. The room `section` makes a drawing of the elements.
+//! makes elements of them. The module `section` makes a drawing of the elements.
 
 mod columns;
 mod gather;

@@ -24,7 +24,7 @@
 //! - *Curves.* A segment is the chord of a subcurve. Its split point is taken on the curve, above the place chosen on
 //!   the chord. At the start `chords` splits curves until their chords are a valid PSLG, and stay one whatever is split
 //!   later. To split a subcurve, its chord is removed from the triangulation, the point is inserted and the two new
-//!   chords are joined; regions are labelled anew there.
+//!   chords are joined; regions are labelled again there.
 //! - *Corners sharper than 60°.* Segments that end there are split on concentric shells (Ruppert 1995), at distances
 //!   from the corner that are round binary numbers. A triangle is exempt if its shortest edge lies across the corner,
 //!   from one curve to the other, with ends equally far from the corner: its small angle is that of the input. Curves

@@ -1,4 +1,4 @@
-//! δ₂, δ₁ and μ, the sizes of the selection regions, and what is known of the mesh for them.
+//! δ₂, δ₁ and μ, the sizes of the selection regions, and the bounds that are proven for them.
 
 use crate::promise::{Densities, DensityPromise};
 use std::f64::consts::FRAC_PI_2;

@@ -8,8 +8,8 @@
 //!    where it leaves the ball.
 //! 2. *splitcurve*: a vertex lies in the open diametral circle of a subcurve's chord, or the subcurve is larger than
 //!    permitted. The subcurve is split.
-//! 3. *corner arcs*: the arcs of a ball are due. They are inserted once they are neither too near to a vertex nor
-//!    encroach a subcurve.
+//! 3. *corner arcs*: the arcs of a ball are due, that is, not inserted since the ball was made or last shrank. They
+//!    are inserted once they are neither too near to a vertex nor encroach a subcurve.
 //! 4. *splittri*: a triangle has an angle below κ, or is larger than permitted. Its circumcenter is inserted, unless it
 //!    encroaches a subcurve, which is split instead.
 //!
@@ -182,7 +182,7 @@ pub struct Lopping {
     balls: Balls,
     /// Balls in which a vertex lies.
     intruded: VecDeque<BallId>,
-    /// Balls whose arcs are due.
+    /// Balls whose arcs are due: not inserted since the ball was made or last shrank.
     arcs_due: VecDeque<BallId>,
     /// Triangles made since the last labelling.
     fresh: Vec<TriangleId>,

@@ -1,18 +1,19 @@
-//! The largest smallest angle: what a run does if the requested angle may be more than a drawing allows.
+//! The largest attainable minimum angle: what a run does if the requested angle may be more than a drawing allows.
 //!
 //! Above 30° no engine is proven to end, and the largest angle at which it ends depends on the drawing: 36° for some,
 //! less than 33° for others. Above that angle the engine makes as many bad triangles as it removes, and the mesh is
 //! worse than one for a smaller angle. So:
 //!
-//! - Up to [`USUAL_DEG`], where most runs end, the engine runs at the requested angle. It stops when angles get no
-//!   larger ([`Headway`](crate::refine::Headway)). Then the next smaller whole degree is tried, and so on.
+//! - Up to [`USUAL_DEG`], where most runs terminate, the engine runs at the requested angle. It stops when the smallest
+//!   angle no longer increases ([`Headway`](crate::refine::Headway)). Then the next smaller whole degree is tried, and
+//!   so on.
 //! - Above it, the engine first runs at [`USUAL_DEG`] and takes N vertices. The requested angle then gets a budget of
 //!   [`MORE`]·N. So the whole costs less than 3·N for any angle. A run that ends within the budget gives the same mesh
 //!   as without it.
 //!
-//! *The best mesh* is that of the largest angle that ended. The alternative, the state of the failed run with the
-//! largest smallest angle, is not better: its angle was half a degree larger, but it did not meet sizes, which are
-//! refined after angles. And no command would give that state directly.
+//! *The best mesh* is that of the largest angle at which the engine terminated. The alternative, the state of the
+//! failed run with the largest smallest angle, is not better: its angle was half a degree larger, but it did not meet
+//! sizes, which are refined after angles. And no command would give that state directly.
 
 use super::Plan;
 use crate::domain::Domain;

@@ -1,4 +1,4 @@
-//! The least cost of a request, known before an engine starts, and a way out where it is too high.
+//! A lower bound on the vertices that a request takes, before an engine starts, and a remedy where they are too many.
 
 use super::{Plan, no_mesh};
 use crate::domain::Domain;
@@ -15,7 +15,7 @@ impl Plan {
     /// Refuses a request that takes more vertices than the budget.
     ///
     /// # Errors
-    /// With the most expensive places and a way out. Also where the watch says stop.
+    /// With the most expensive places and a remedy. Also where the watch says stop.
     pub fn afford(&self, domain: &Domain, healing: &Healing, watch: &mut Watch) -> Result<(), FailureReport> {
         let demand = self.demand(domain, watch)?;
         let (vertices, budget) = (demand.vertices(), self.options.max_vertices as f64);
