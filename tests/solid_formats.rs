@@ -2,7 +2,7 @@
 
 use squinch::ids::{FacetId, NameId, PointId, RegionId, SegmentId, VertexId};
 use squinch::mesh::solid::{FacetTriangle, SegmentEdge, SolidMesh};
-use squinch::meshio::solid::{inp, medit, msh, su2, tetgen, vtu};
+use squinch::meshio::{Format, encode_solid};
 use std::io;
 use std::path::Path;
 
@@ -44,26 +44,30 @@ fn pair() -> SolidMesh {
     mesh
 }
 
-/// What a writer writes, kept as a file.
-fn written(name: &str, write: impl Fn(&SolidMesh, &mut Vec<u8>) -> io::Result<()>) -> String {
-    let (mesh, mut bytes) = (pair(), Vec::new());
-    write(&mesh, &mut bytes).expect("the mesh is sound");
-    let mut again = Vec::new();
-    write(&mesh, &mut again).expect("the mesh is sound");
-    assert_eq!(bytes, again);
+/// The files that a format has of the pair, kept as files, as text.
+fn written(name: &str, format: Format) -> Vec<String> {
+    written_with(name, format, &[])
+}
+
+fn written_with(name: &str, format: Format, stamps: &[(String, String)]) -> Vec<String> {
+    let mesh = pair();
+    let files = encode_solid(&mesh, stamps, format).expect("the mesh is sound");
+    assert_eq!(files, encode_solid(&mesh, stamps, format).expect("the mesh is sound"));
     let mut broken = mesh;
     broken.tetrahedra.push([VertexId(9); 4]);
-    let error = write(&broken, &mut Vec::new()).expect_err("an id leads nowhere");
+    let error = encode_solid(&broken, stamps, format).expect_err("an id leads nowhere");
     assert_eq!(error.kind(), io::ErrorKind::InvalidInput);
-    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
-    std::fs::write(path, &bytes).expect("the directory of tests can be written");
-    String::from_utf8_lossy(&bytes).into_owned()
+    for (suffix, bytes) in format.suffixes().iter().zip(&files) {
+        let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{name}.{suffix}"));
+        std::fs::write(path, bytes).expect("the folder is there");
+    }
+    files.iter().map(|bytes| String::from_utf8_lossy(bytes).into_owned()).collect()
 }
 
 #[test]
 fn vtu_names_what_it_holds() {
     let stamps = [("engine".to_owned(), "none".to_owned())];
-    let text = written("pair.vtu", |mesh, out| vtu::write(mesh, &stamps, out));
+    let text = written_with("pair", Format::Vtu, &stamps).remove(0);
     assert!(text.contains("NumberOfPoints=\"5\" NumberOfCells=\"11\""));
     for name in ["region:upper &quot;half&quot;", "boundary:ridge", "weight", "facet", "segment", "squinch:engine"] {
         assert!(text.contains(&format!("Name=\"{name}\"")), "{name} in {text}");
@@ -72,36 +76,37 @@ fn vtu_names_what_it_holds() {
 
 #[test]
 fn msh_groups_every_cell() {
-    let text = written("pair22.msh", |mesh, out| msh::write_22(mesh, out));
+    let text = written("pair22", Format::Msh22).remove(0);
     assert!(text.contains("$PhysicalNames\n6\n1 6 \"ridge\"\n2 3 \"between: both\"\n"), "{text}");
     // The edge without a name is in no group, and so not there.
     assert!(text.contains("$Elements\n10\n1 1 2 6 6 1 2\n2 2 2 3 3 1 2 3\n"), "{text}");
     assert!(text.contains("\n10 4 2 2 2 1 3 2 5\n$EndElements\n"), "{text}");
-    assert!(written("pair.msh", |mesh, out| msh::write_41(mesh, out)).starts_with("$MeshFormat\n4.1 1 8\n"));
+    assert!(written("pair", Format::Msh)[0].starts_with("$MeshFormat\n4.1 1 8\n"));
 }
 
 #[test]
 fn tetgen_has_four_files() {
-    let node = written("pair.node", |mesh, out| tetgen::write_nodes(mesh, out));
+    let files = written("pair", Format::Tetgen);
+    let node = &files[0];
     assert!(node.starts_with("5 3 0 1\n1 0.0 0.0 0.0 1\n") && node.ends_with("# name boundary 4 = ridge\n"), "{node}");
-    let ele = written("pair.ele", |mesh, out| tetgen::write_elements(mesh, out));
+    let ele = &files[1];
     assert!(ele.starts_with("2 4 1\n1 1 2 3 4 1\n2 1 3 2 5 2\n"), "{ele}");
-    let face = written("pair.face", |mesh, out| tetgen::write_faces(mesh, out));
+    let face = &files[2];
     assert!(face.starts_with("7 1\n1 1 2 3 1\n2 2 3 4 2\n"), "{face}");
-    let edge = written("pair.edge", |mesh, out| tetgen::write_edges(mesh, out));
+    let edge = &files[3];
     assert!(edge.starts_with("2 1\n1 1 2 4\n2 2 3 0\n"), "{edge}");
 }
 
 #[test]
 fn medit_refers_to_groups() {
-    let text = written("pair.mesh", |mesh, out| medit::write(mesh, out));
+    let text = written("pair", Format::Medit).remove(0);
     assert!(text.contains("\nTetrahedra\n2\n1 2 3 4 1\n1 3 2 5 2\n\nTriangles\n7\n1 2 3 1\n"), "{text}");
     assert!(text.ends_with("\nEdges\n2\n1 2 4\n2 3 0\n\nEnd\n"), "{text}");
 }
 
 #[test]
 fn inp_has_surfaces() {
-    let text = written("pair.inp", |mesh, out| inp::write(mesh, out));
+    let text = written("pair", Format::Inp).remove(0);
     assert!(text.contains("*ELEMENT, TYPE=C3D4, ELSET=lower_half\n2, 1, 3, 2, 5\n"), "{text}");
     // Behind the facet between both is what lies below: its face of corners 1, 2 and 3.
     assert!(text.contains("*SURFACE, NAME=between__both, TYPE=ELEMENT\n2, S1\n*NSET"), "{text}");
@@ -111,8 +116,17 @@ fn inp_has_surfaces() {
 
 #[test]
 fn su2_marks_the_rim() {
-    let text = written("pair.su2", |mesh, out| su2::write(mesh, out));
+    let text = written("pair", Format::Su2).remove(0);
     assert!(text.starts_with("NDIME= 3\nNELEM= 2\n10 0 1 2 3 0\n10 0 2 1 4 1\nNPOIN= 5\n"), "{text}");
     // As seen from outside; what lies between two regions is in no marker.
     assert!(text.contains("NMARK= 2\nMARKER_TAG= above\nMARKER_ELEMS= 3\n5 1 2 3\n5 0 3 2\n5 0 1 3\n"), "{text}");
+}
+
+#[test]
+fn other_formats_refuse_tetrahedra_and_name_those_that_hold_them() {
+    for format in Format::ALL.into_iter().filter(|format| !format.holds_solids()) {
+        let error = encode_solid(&pair(), &[], format).expect_err("it holds none");
+        assert_eq!(error.kind(), io::ErrorKind::Unsupported);
+        assert!(error.to_string().contains("vtu"), "{error}");
+    }
 }

@@ -34,7 +34,7 @@ use std::io::{self, Write};
 pub(super) const FACTS_OF_GLB: Facts = Facts {
     name: "glb",
     suffixes: &["glb"],
-    write: |mesh, _, options| one_file(|out| write_glb(mesh, has_lines(options), out)),
+    write: Some(|mesh, _, options| one_file(|out| write_glb(mesh, has_lines(options), out))),
     ..FACTS
 };
 
@@ -45,7 +45,7 @@ pub(super) const FACTS: Facts = Facts {
     first_as_named: true,
     choices: &[Choice::Lines],
     straight_only: None,
-    write: |mesh, _, options| one_file(|out| write_gltf(mesh, has_lines(options), out)),
+    write: Some(|mesh, _, options| one_file(|out| write_gltf(mesh, has_lines(options), out))),
     write_solid: None,
     losses,
     reading: None,

@@ -14,12 +14,14 @@ mod gltf;
 mod groups;
 mod inp;
 mod losses;
+mod medit;
 mod msh;
 mod names;
 mod obj;
-mod solid;
+mod solid_groups;
 mod stl;
 mod su2;
+mod tetgen;
 mod triangle;
 mod vtk;
 mod vtu;
@@ -55,9 +57,9 @@ formats! {
         /// Triangle's `.node`, `.ele` and `.poly`.
         Triangle = triangle::FACTS,
         /// TetGen's `.node`, `.ele`, `.face` and `.edge`: tetrahedra only.
-        Tetgen = solid::tetgen::FACTS,
+        Tetgen = tetgen::FACTS,
         /// Medit's `.mesh`, text: tetrahedra only.
-        Medit = solid::medit::FACTS,
+        Medit = medit::FACTS,
         /// glTF 2.0, binary.
         Glb = gltf::FACTS_OF_GLB,
         /// glTF 2.0, text.
@@ -73,7 +75,9 @@ formats! {
 type Files = Vec<Vec<u8>>;
 /// Keys and values about how a mesh was made.
 type Stamps = [(String, String)];
-/// A writer of tetrahedral meshes: the bytes of each file.
+/// A writer of meshes in a plane: the bytes of each file.
+type Writer = fn(&Mesh, &Stamps, &WriteOptions) -> io::Result<Files>;
+/// A writer of tetrahedral meshes.
 type SolidWriter = fn(&SolidMesh, &Stamps) -> io::Result<Files>;
 /// The files beside the one that is read, if there are any.
 type Beside = [Option<Vec<u8>>];
@@ -91,8 +95,9 @@ struct Facts {
     choices: &'static [Choice],
     /// For a format with straight cells only: the way out for order 2.
     straight_only: Option<&'static str>,
-    write: fn(&Mesh, &Stamps, &WriteOptions) -> io::Result<Files>,
-    /// Writes a mesh of tetrahedra; `None`: the format holds meshes in a plane only.
+    /// Writes a mesh in a plane; `None`: the format holds tetrahedra only.
+    write: Option<Writer>,
+    /// Writes a mesh of tetrahedra; `None`: the format holds none.
     write_solid: Option<SolidWriter>,
     /// Reports what the format does not hold of a mesh, in the order for people.
     losses: fn(&mut Losses),
@@ -140,6 +145,11 @@ impl Format {
     /// the output has a name ([`WriteOptions::stem`]). Otherwise each file has its own suffix.
     pub const fn first_as_named(self) -> bool {
         self.facts().first_as_named
+    }
+
+    /// Whether the format holds triangles in a plane ([`encode`]).
+    pub fn holds_planes(self) -> bool {
+        self.facts().write.is_some()
     }
 
     /// Whether the format holds tetrahedra ([`encode_solid`]).
@@ -250,7 +260,10 @@ pub fn encode(
     options: &WriteOptions,
 ) -> io::Result<Vec<Vec<u8>>> {
     format.holds_order(mesh.order())?;
-    let write = format.facts().write;
+    let write = format.facts().write.ok_or_else(|| {
+        let what = format!("{} holds tetrahedra only: give a solid", format.name());
+        io::Error::new(io::ErrorKind::Unsupported, what)
+    })?;
     if options.interior_lines {
         return write(mesh, stamps, options);
     }
@@ -270,11 +283,6 @@ pub fn encode_solid(mesh: &SolidMesh, stamps: &[(String, String)], format: Forma
         io::Error::new(io::ErrorKind::Unsupported, what)
     })?;
     write(mesh, stamps)
-}
-
-/// The refusal of a mesh in a plane by a format of tetrahedra.
-fn tetrahedra_only(format: &str) -> io::Error {
-    io::Error::new(io::ErrorKind::Unsupported, format!("{format} holds meshes of tetrahedra only: give a solid"))
 }
 
 /// An output of one file.

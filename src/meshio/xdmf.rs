@@ -24,7 +24,7 @@ pub(super) const FACTS: Facts = Facts {
     first_as_named: true,
     choices: &[Choice::Grids],
     straight_only: None,
-    write: |mesh, _, options| one_file(|out| write(mesh, options.xdmf, out)),
+    write: Some(|mesh, _, options| one_file(|out| write(mesh, options.xdmf, out))),
     write_solid: None,
     losses,
     reading: None,

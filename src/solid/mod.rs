@@ -8,6 +8,7 @@ mod crossing;
 mod error;
 mod exact;
 mod flatten;
+mod options;
 mod orient;
 mod plane;
 mod polygons;
@@ -15,8 +16,8 @@ mod rims;
 mod split;
 mod triangulate;
 
-pub use assemble::{Assembly, Flatten, NonPlanar};
 pub use error::SolidError;
+pub use options::{Assembly, Flatten, NonPlanar};
 
 use crate::ids::{FacetId, IdVec, NameId, Names, PointId, SegmentId};
 

@@ -1,9 +1,9 @@
 //! Facets as found → triangles.
 
-use super::assemble::NonPlanar;
 use super::complex::{Complex, Triangle, counted, edge, shown};
 use super::error::SolidError;
 use super::exact::{Place, Side, along, collinear, in_triangle, side};
+use super::options::NonPlanar;
 use super::plane::{three_far, through};
 use super::triangulate::{Flat, NONE, Unflat, triangulate};
 use crate::geometry::space::{cross, dot, minus, plus};

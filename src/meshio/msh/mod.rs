@@ -1,10 +1,10 @@
 //! Gmsh's MSH: written as 4.1 or 2.2, read from both.
 
 mod read;
-pub(super) mod write;
+mod solid;
+mod write;
 
 use super::losses::Losses;
-use super::solid;
 use super::{Facts, Reading, begins, one_file};
 
 /// The facts of MSH 4.1.
@@ -14,8 +14,8 @@ pub(super) const FACTS: Facts = Facts {
     first_as_named: true,
     choices: &[],
     straight_only: None,
-    write: |mesh, _, _| one_file(|out| write::write_41(mesh, out)),
-    write_solid: Some(|mesh, _| one_file(|out| solid::msh::write_41(mesh, out))),
+    write: Some(|mesh, _, _| one_file(|out| write::write_41(mesh, out))),
+    write_solid: Some(|mesh, _| one_file(|out| solid::write_41(mesh, out))),
     losses,
     reading: Some(Reading {
         suffix: "msh",
@@ -28,8 +28,8 @@ pub(super) const FACTS: Facts = Facts {
 /// The facts of MSH 2.2.
 pub(super) const FACTS_OF_22: Facts = Facts {
     name: "msh22",
-    write: |mesh, _, _| one_file(|out| write::write_22(mesh, out)),
-    write_solid: Some(|mesh, _| one_file(|out| solid::msh::write_22(mesh, out))),
+    write: Some(|mesh, _, _| one_file(|out| write::write_22(mesh, out))),
+    write_solid: Some(|mesh, _| one_file(|out| solid::write_22(mesh, out))),
     ..FACTS
 };
 

@@ -13,14 +13,14 @@ pub(super) const FACTS: Facts = Facts {
     first_as_named: true,
     choices: &[Choice::Lines],
     straight_only: None,
-    write: |mesh, _, options| {
+    write: Some(|mesh, _, options| {
         let (lines, stem) = (has_lines(options), options.stem.as_deref());
         let mut files = vec![file(|out| write::write(mesh, lines, stem, out))?];
         if stem.is_some() {
             files.push(file(|out| write::write_materials(mesh, lines, out))?);
         }
         Ok(files)
-    },
+    }),
     write_solid: None,
     losses,
     reading: Some(Reading {

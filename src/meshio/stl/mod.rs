@@ -13,7 +13,7 @@ pub(super) const FACTS: Facts = Facts {
     first_as_named: true,
     choices: &[],
     straight_only: None,
-    write: |mesh, _, _| one_file(|out| write::write(mesh, out)),
+    write: Some(|mesh, _, _| one_file(|out| write::write(mesh, out))),
     write_solid: None,
     losses,
     reading: Some(Reading {

@@ -1,10 +1,10 @@
 //! SU2's native mesh, in two dimensions.
 
 mod read;
-pub(super) mod write;
+mod solid;
+mod write;
 
 use super::losses::Losses;
-use super::solid;
 use super::{Facts, Reading, begins, one_file};
 
 /// The facts of SU2.
@@ -14,8 +14,8 @@ pub(super) const FACTS: Facts = Facts {
     first_as_named: true,
     choices: &[],
     straight_only: Some("SU2 has straight cells only: mesh with --order 1"),
-    write: |mesh, _, _| one_file(|out| write::write(mesh, out)),
-    write_solid: Some(|mesh, _| one_file(|out| solid::su2::write(mesh, out))),
+    write: Some(|mesh, _, _| one_file(|out| write::write(mesh, out))),
+    write_solid: Some(|mesh, _| one_file(|out| solid::write(mesh, out))),
     losses,
     reading: Some(Reading {
         suffix: "su2",

@@ -13,13 +13,13 @@ pub(super) const FACTS: Facts = Facts {
     first_as_named: false,
     choices: &[],
     straight_only: None,
-    write: |mesh, _, _| {
+    write: Some(|mesh, _, _| {
         Ok(vec![
             file(|out| write::write_nodes(mesh, out))?,
             file(|out| write::write_elements(mesh, out))?,
             file(|out| write::write_segments(mesh, out))?,
         ])
-    },
+    }),
     write_solid: None,
     losses,
     reading: Some(Reading {

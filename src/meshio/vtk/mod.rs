@@ -13,7 +13,7 @@ pub(super) const FACTS: Facts = Facts {
     first_as_named: true,
     choices: &[],
     straight_only: None,
-    write: |mesh, _, _| one_file(|out| write::write(mesh, out)),
+    write: Some(|mesh, _, _| one_file(|out| write::write(mesh, out))),
     write_solid: None,
     losses: |losses| {
         losses.interior_lines();
@@ -31,7 +31,7 @@ pub(super) const FACTS: Facts = Facts {
 pub(super) const FACTS_OF_TEXT: Facts = Facts {
     name: "vtk-text",
     choices: &[Choice::Lines],
-    write: |mesh, _, options| one_file(|out| write::write_text(mesh, has_lines(options), out)),
+    write: Some(|mesh, _, options| one_file(|out| write::write_text(mesh, has_lines(options), out))),
     write_solid: None,
     losses: |losses| {
         losses.interior_lines();

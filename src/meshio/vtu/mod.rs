@@ -2,12 +2,12 @@
 
 pub(super) mod array;
 mod read;
+mod solid;
 mod unpack;
 mod write;
 mod xml;
 
 use super::losses::Losses;
-use super::solid;
 use super::{Choice, Facts, Reading, WriteOptions, one_file};
 
 /// The facts of VTU.
@@ -17,13 +17,13 @@ pub(super) const FACTS: Facts = Facts {
     first_as_named: true,
     choices: &[Choice::Plain, Choice::PlainLines],
     straight_only: None,
-    write: |mesh, stamps, options| {
+    write: Some(|mesh, stamps, options| {
         one_file(|out| match options.plain {
             true => write::write_plain(mesh, has_lines(options), out),
             false => write::write(mesh, stamps, out),
         })
-    },
-    write_solid: Some(|mesh, stamps| one_file(|out| solid::vtu::write(mesh, stamps, out))),
+    }),
+    write_solid: Some(|mesh, stamps| one_file(|out| solid::write(mesh, stamps, out))),
     losses,
     reading: Some(Reading {
         suffix: "vtu",

@@ -7,11 +7,11 @@
 //!
 //! Not held: the unit, the weights, links to the solid. In names `"` becomes `'`.
 
-use super::groups::{Groups, by_group};
+use super::write::{Bytes, LONGEST_NAME, quotable, section};
 use crate::ids::{Id, IdVec, VertexId};
 use crate::mesh::solid::SolidMesh;
-use crate::meshio::msh::write::{Bytes, LONGEST_NAME, quotable, section};
 use crate::meshio::names::legal_names;
+use crate::meshio::solid_groups::{Groups, by_group};
 use std::io::{self, Write};
 
 /// Gmsh's types of lines, triangles and tetrahedra.

@@ -4,21 +4,21 @@
 //! marker of its triangles, edges and nodes (the first of a node counts), 0 without a name. A comment keeps the name of
 //! every number. Not held: the unit, the weights, links to the solid.
 
-use super::groups::Groups;
 use crate::ids::{Id, IdVec, NameId, VertexId};
 use crate::mesh::solid::SolidMesh;
 use crate::meshio::groups::Kind;
-use crate::meshio::{Facts, file, tetrahedra_only};
+use crate::meshio::solid_groups::Groups;
+use crate::meshio::{Facts, file};
 use std::io::{self, Write};
 
 /// The facts of TetGen's files.
-pub(in crate::meshio) const FACTS: Facts = Facts {
+pub(super) const FACTS: Facts = Facts {
     name: "tetgen",
     suffixes: &["node", "ele", "face", "edge"],
     first_as_named: false,
     choices: &[],
     straight_only: None,
-    write: |_, _, _| Err(tetrahedra_only("tetgen")),
+    write: None,
     write_solid: Some(|mesh, _| {
         Ok(vec![
             file(|out| write_nodes(mesh, out))?,

@@ -4,21 +4,21 @@
 //! its triangles and edges, 0 without a name. A comment keeps the name of every number. Not held: the unit, the weights,
 //! links to the solid.
 
-use super::groups::Groups;
 use crate::ids::VertexId;
 use crate::mesh::solid::SolidMesh;
 use crate::meshio::groups::Kind;
-use crate::meshio::{Facts, one_file, tetrahedra_only};
+use crate::meshio::solid_groups::Groups;
+use crate::meshio::{Facts, one_file};
 use std::io::{self, Write};
 
 /// The facts of Medit's text.
-pub(in crate::meshio) const FACTS: Facts = Facts {
+pub(super) const FACTS: Facts = Facts {
     name: "medit",
     suffixes: &["mesh"],
     first_as_named: true,
     choices: &[],
     straight_only: None,
-    write: |_, _, _| Err(tetrahedra_only("medit")),
+    write: None,
     write_solid: Some(|mesh, _| one_file(|out| write(mesh, out))),
     losses: |_| {},
     reading: None,

@@ -5,11 +5,11 @@
 //! plane, and a comment keeps what a name was. Not held: regions (SU2 has one zone), the names of interfaces and
 //! segments, the unit, the weights, links to the solid.
 
-use super::groups::{FACES, Groups, by_group, tetrahedra_at};
+use super::write::tag;
 use crate::mesh::solid::SolidMesh;
 use crate::meshio::groups::Kind;
 use crate::meshio::names::{legal_names, name_comment};
-use crate::meshio::su2::write::tag;
+use crate::meshio::solid_groups::{FACES, Groups, by_group, tetrahedra_at};
 use std::io::{self, Write};
 
 /// Writes a mesh.

@@ -4,12 +4,12 @@
 //! those behind the facet; each name of segments is an `NSET`. Names and numbers are made legal as in the plane, and a
 //! comment keeps what a name was. Not held: the unit (a comment says it), the weights, links to the solid.
 
-use super::groups::{Groups, by_group, tetrahedra_at};
+use super::write::{LONGEST_NAME, number};
 use crate::ids::{Id, TetId, VertexId};
 use crate::mesh::solid::SolidMesh;
 use crate::meshio::groups::Kind;
-use crate::meshio::inp::write::{LONGEST_NAME, number};
 use crate::meshio::names::{identifier, legal_names, name_comment};
+use crate::meshio::solid_groups::{FACES, Groups, by_group, tetrahedra_at};
 use std::collections::BTreeSet;
 use std::io::{self, Write};
 
@@ -79,7 +79,7 @@ fn write_boundaries(mesh: &SolidMesh, groups: &Groups, names: &[String], out: &m
 /// The tetrahedron behind a facet triangle, from which its front faces away; else the one in front.
 fn behind(mesh: &SolidMesh, nodes: [VertexId; 3], tetrahedra: &[(TetId, usize)]) -> Option<(TetId, usize)> {
     let faces_away = |&&(t, corner): &&(TetId, usize)| {
-        let outward = super::groups::FACES[corner].map(|i| mesh.tetrahedra[t][i]);
+        let outward = FACES[corner].map(|i| mesh.tetrahedra[t][i]);
         (0..3).any(|k| outward == [nodes[k], nodes[(k + 1) % 3], nodes[(k + 2) % 3]])
     };
     tetrahedra.iter().find(faces_away).or(tetrahedra.first()).copied()

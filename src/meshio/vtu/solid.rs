@@ -11,10 +11,10 @@
 //! | field | `unit` UInt8 | the physical unit of a coordinate, as UTF-8 |
 //! | field | `squinch:KEY` | a stamp: Float64 where the text is a number's, else its UTF-8 bytes as UInt8 |
 
-use super::groups;
+use super::array::{Array, begin, boundary_numbers, write_names, write_stamps};
 use crate::ids::NameId;
 use crate::mesh::solid::SolidMesh;
-use crate::meshio::vtu::array::{Array, begin, boundary_numbers, write_names, write_stamps};
+use crate::meshio::solid_groups as groups;
 use std::collections::BTreeMap;
 use std::io::{self, Write};
 use std::iter::repeat_n;
