@@ -316,9 +316,7 @@ const FOREIGN: &[(&str, &str, &[u8])] = &[
     ("7z", "7z", b"7z\xbc\xaf\x27\x1c\0\x04"),
     ("gzip", "dat", b"\x1f\x8b\x08\0\0\0\0\0"),
     ("DWG", "dwg", b"AC1032\0\0\0\0\x06\x01"),
-    ("OFF", "off", b"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"),
     ("PLY", "ply", b"ply\nformat ascii 1.0\nelement vertex 3\nend_header\n0 0 0\n1 0 0\n0 1 0\n"),
-    ("STL", "stl", b"solid part\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\n"),
     ("OBJ", "obj", b"# cube\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"),
     (
         "MEDIT",

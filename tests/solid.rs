@@ -58,7 +58,7 @@ fn schoenhardt() -> String {
     for k in 0..3 {
         let (a, b, c, d) = (k, (k + 1) % 3, k + 3, (k + 1) % 3 + 3);
         // The diagonal that runs inward.
-        writeln!(text, "3 {a} {b} {c}\n3 {b} {d} {c}").expect("strings grow");
+        writeln!(text, "3 {a} {b} {d}\n3 {a} {d} {c}").expect("strings grow");
     }
     text
 }

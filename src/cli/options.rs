@@ -307,8 +307,13 @@ mod tests {
         let report = squinch::run::report::RequestReport::new(&Request::default());
         let told = serde_json::to_value(&report).unwrap();
         for option in Request::options() {
-            assert!(told.get(&option.report).is_some(), "{} as {}", option.key, option.report);
+            // A drawing's report has none of the options of tetrahedra.
+            let has = option.group != Group::Facets;
+            assert_eq!(told.get(&option.report).is_some(), has, "{} as {}", option.key, option.report);
         }
+        let of_solid = serde_json::to_value(squinch::run::report::RequestReport::of_solid(&Request::default(), None));
+        let of_solid = of_solid.unwrap();
+        assert!(Request::options().iter().all(|option| of_solid.get(&option.report).is_some()));
     }
 
     #[test]

@@ -21,7 +21,7 @@ const FORMAT_HELP: &str = "see https://www.cs.cmu.edu/~quake/triangle.poly.html 
 pub(super) const FACTS: Facts = Facts {
     name: "poly",
     suffixes: &["poly"],
-    sign: |bytes| sniff(bytes) == Some(Holds::More),
+    sign: |bytes| sniff(bytes) == Some(Holds::More) || surface::begins_as_tetgen(bytes),
     certainty: Certainty::Shape,
     read: |bytes, stem, options| match surface::is_tetgen(bytes) {
         true => surface::read_poly(bytes).map(Into::into),

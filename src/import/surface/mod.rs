@@ -6,7 +6,7 @@ mod tetgen;
 mod text;
 
 use super::{Certainty, Facts};
-pub(super) use tetgen::{in_space as is_tetgen, read_poly};
+pub(super) use tetgen::{begins_as_tetgen, in_space as is_tetgen, read_poly};
 
 /// The facts of TetGen's `.smesh`.
 pub(super) const FACTS_OF_SMESH: Facts = Facts {

@@ -20,6 +20,14 @@ pub(in crate::import) fn in_space(bytes: &[u8]) -> bool {
     count.and_then(whole).is_some_and(|n| n >= 0) && head.next().flatten() == Some(3.0)
 }
 
+/// Whether the first rows are a header of four whole numbers and the first vertex.
+pub(in crate::import) fn begins_as_tetgen(bytes: &[u8]) -> bool {
+    let mut rows = Rows::new(bytes, HELP).map(|row| tokens(row.text).map(number).collect::<Option<Vec<_>>>());
+    let [Some(Some(header)), Some(Some(vertex))] = [rows.next(), rows.next()] else { return false };
+    let is_header = header.len() == 4 && header.iter().all(|&x| whole(x).is_some()) && header[1] == 3.0;
+    is_header && vertex.len() >= 4 && (vertex[0] == 0.0 || vertex[0] == 1.0)
+}
+
 /// Reads a `.poly` file.
 pub(in crate::import) fn read_poly(bytes: &[u8]) -> Result<Surfaces, ImportError> {
     read(bytes, "TetGen poly", facet_of_poly)

@@ -42,8 +42,11 @@ pub fn facets(ev: &Evidence, solid: &Solid, walls: &[Wall]) -> (Check, Planes) {
         tally.count();
         let plane = Plane::of(solid, facet, ev.reach);
         reach.push(plane.reach);
-        one_facet(ev, f, facet, &plane, &mut tally);
+        if !ev.triangles_of.of_group(f.index()).is_empty() {
+            one_facet(ev, f, facet, &plane, &mut tally);
+        }
     }
+    absent(ev, solid, &mut tally);
     within_facets(ev, &facets_of_nodes(ev), &mut tally);
     (tally.finish(Status::Proven), Planes { reach })
 }
@@ -71,11 +74,23 @@ impl Plane {
     }
 }
 
+/// A facet without a triangle lies in a hole: no tetrahedron covers the middle of any of its parts.
+fn absent(ev: &Evidence, solid: &Solid, tally: &mut Tally) {
+    let middle = |t: &[PointId; 3]| {
+        let [a, b, c] = t.map(|p| solid.points()[p]);
+        [0, 1, 2].map(|k| (a[k] + b[k] + c[k]) / 3.0)
+    };
+    let without = solid.facets().enumerate().filter(|(f, _)| ev.triangles_of.of_group(f.index()).is_empty());
+    let parts = without.flat_map(|(f, facet)| facet.triangles.iter().map(move |t| (f, middle(t))));
+    let mut missing: Vec<FacetId> = covered(ev, parts.collect()).into_iter().map(|(f, _)| f).collect();
+    missing.dedup();
+    for f in missing {
+        tally.flaw(|| format!("{} has no triangle, and lies in a region", ev.tell_facet(f)));
+    }
+}
+
 fn one_facet(ev: &Evidence, f: FacetId, facet: &Facet, plane: &Plane, tally: &mut Tally) {
     let triangles = ev.triangles_of.of_group(f.index());
-    if triangles.is_empty() {
-        return tally.flaw(|| format!("{} has no triangle", ev.tell_facet(f)));
-    }
     for &i in triangles {
         on_plane(ev, f, i, plane, tally);
     }
@@ -220,13 +235,22 @@ pub fn segments(ev: &Evidence, solid: &Solid) -> Check {
             tally.flaw(|| format!("{} is no edge of a tetrahedron", ev.tell_edge(edge.nodes)));
         }
     }
+    let mut absent = Vec::new();
     for (s, segment) in solid.segments().enumerate() {
         tally.count();
+        if chain(ev, s).next().is_none() {
+            let [a, b] = segment.ends.map(|p| solid.points()[p]);
+            absent.push((s, [0, 1, 2].map(|k| 0.5 * (a[k] + b[k]))));
+            continue;
+        }
         if let Some(what) = broken_chain(ev, s, segment.ends) {
             tally.flaw(|| format!("segment {} from {} {what}", s.0, place(solid.points()[segment.ends[0]])));
             continue;
         }
         on_line(ev, s, segment.ends.map(|p| solid.points()[p]), &mut tally);
+    }
+    for (s, at) in covered(ev, absent) {
+        tally.flaw(|| format!("segment {} has no edge, and lies in a region at {}", s.0, place(at)));
     }
     tally.finish(Status::Proven)
 }
@@ -287,17 +311,12 @@ fn edges_of_tetrahedra(ev: &Evidence) -> Vec<bool> {
     found
 }
 
-/// Every point of a segment or facet is a node, at its very place; one that nothing holds, if a tetrahedron covers it.
+/// Every point is a node, at its very place, unless it lies in a hole: then no tetrahedron covers it.
 fn points(ev: &Evidence, solid: &Solid, tally: &mut Tally) {
-    let mut held: IdVec<PointId, bool> = vec![false; solid.points().len()].into();
-    let of_segments = solid.segments().iter().flat_map(|s| &s.ends);
-    let of_facets = solid.facets().iter().flat_map(|f| f.rims.iter().flatten().chain(&f.inner_points));
-    of_segments.chain(of_facets).for_each(|&p| held[p] = true);
     let mut lone = Vec::new();
     for (p, &at) in solid.points().enumerate() {
         tally.count();
         match ev.node_of[p] {
-            None if held[p] => tally.flaw(|| format!("point {} at {} is no node", p.0, place(at))),
             None => lone.push((p, at)),
             Some(v) if ev.node(v) != at => {
                 let there = place(ev.node(v));
