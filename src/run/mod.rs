@@ -79,7 +79,7 @@ pub fn run(source: &Source, request: &Request, extent: Extent, clock: &Clock) ->
 pub fn run_drawing(drawing: &Drawing, request: &Request, extent: Extent, clock: &Clock) -> Outcome {
     let mut outcome = Outcome::begun(&drawing.title, request);
     let timer = Timer { clock, begun: clock(), request };
-    outcome.go_on(&Input::Drawing(Cow::Borrowed(drawing)), request, extent, timer);
+    outcome.go_on(&Input::Drawing(Box::new(Cow::Borrowed(drawing))), request, extent, timer);
     outcome
 }
 

@@ -31,7 +31,7 @@ pub struct Source<'a> {
 /// What is meshed.
 pub(super) enum Input<'a> {
     /// Curves in the plane.
-    Drawing(Cow<'a, Drawing>),
+    Drawing(Box<Cow<'a, Drawing>>),
     /// Polygons in space, and a title.
     Surfaces(Box<Surfaces>, String),
 }
@@ -48,7 +48,7 @@ pub(super) fn read_any(source: &Source, request: &Request) -> Result<Input<'stat
             Ok(Input::Surfaces(surfaces, stem))
         }
         Found::Drawing(_) | Found::Section(_) => {
-            Ok(Input::Drawing(Cow::Owned(drawing_of(found, format, source, request)?)))
+            Ok(Input::Drawing(Box::new(Cow::Owned(drawing_of(found, format, source, request)?))))
         }
     }
 }

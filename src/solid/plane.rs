@@ -33,12 +33,12 @@ impl Plane {
     /// How far a place lies in front of the plane, computed with twice the digits of `f64`.
     pub(super) fn height(&self, p: Place) -> f64 {
         let (mut high, mut low) = (0.0, 0.0);
-        for k in 0..3 {
-            let (difference, error) = two_sum(p[k], -self.origin[k]);
-            let (product, rest) = two_product(difference, self.normal[k]);
+        for ((x, origin), normal) in p.into_iter().zip(self.origin).zip(self.normal) {
+            let (difference, error) = two_sum(x, -origin);
+            let (product, rest) = two_product(difference, normal);
             let (sum, lost) = two_sum(high, product);
             high = sum;
-            low += lost + rest + error * self.normal[k];
+            low += lost + rest + error * normal;
         }
         high + low
     }

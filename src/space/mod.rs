@@ -25,10 +25,17 @@ use crate::mesh::solid::SolidMesh;
 use crate::solid::Solid;
 use facets::FacetTriangles;
 use insert::{Kernel, Refusal};
+use segments::Segments;
+use tetrahedra::Tetrahedra;
 
-/// A vertex' weight is at most this part of the squared distance to the nearest vertex, when it is inserted. Vertices that
-/// are inserted later may be seven times nearer before the bound of 1e-6 on the finished mesh is reached.
+/// A vertex' weight is at most this part of the squared distance to the nearest vertex in the finished mesh.
+const WEIGHT_BOUND: f64 = 1e-6;
+
+/// The same when weights are chosen: vertices that are inserted later may be three times nearer.
 const WEIGHT: f64 = 1e-7;
+
+/// How often weights are chosen at most, each time a quarter as large.
+const ROUNDS: i32 = 8;
 
 /// The vertices of the far tetrahedron.
 const FAR: usize = 4;
@@ -112,59 +119,73 @@ impl<'a> Complex<'a> {
         max_vertices: usize,
         go_on: &mut dyn FnMut() -> bool,
     ) -> Result<SolidMesh, Fault> {
-        let mut ask = || if go_on() { Ok(()) } else { Err(Fault::Cancelled) };
-        let (mut kernel, vertex_of) = delaunay(solid, factor, &mut ask)?;
-        let segments = segments::Segments::new(solid, &vertex_of);
-        let chains = segments.recover(&mut kernel, |vertices| match vertices >= max_vertices.saturating_add(FAR) {
+        let mut ask = |vertices: usize| match vertices > max_vertices.saturating_add(FAR) {
             true => Err(Fault::VertexBudget { max_vertices }),
-            false => ask(),
-        })?;
-        let triangles = facets::recover(&mut kernel.net, solid, &vertex_of, &chains, &mut ask)?;
+            false if go_on() => Ok(()),
+            false => Err(Fault::Cancelled),
+        };
+        let (mut kernel, segments) = weighted(solid, factor, &mut ask)?;
+        let (vertex_of, chains) = segments.chains();
+        let triangles = facets::recover(&mut kernel.net, solid, &vertex_of, &chains, || ask(0))?;
+        if cfg!(feature = "slow-checks") {
+            assert_eq!(kernel.net.flaws(), [""; 0]);
+        }
         Self { solid, factor, kernel, vertex_of, chains, triangles }.mesh()
     }
 }
 
-/// The weighted Delaunay tetrahedralization of the points of a solid, within a far tetrahedron, and the vertex of each
-/// point.
-fn delaunay(
-    solid: &Solid,
+/// The regular tetrahedralization of a solid's points and of those that make its segments chains of edges, with weights
+/// within their bound.
+///
+/// Without weights first: that tells how near the vertices come. Then again with weights, which may lack some edges and
+/// get some more vertices, until the weights are small enough for all.
+fn weighted<'a>(
+    solid: &'a Solid,
     factor: f64,
-    ask: &mut dyn FnMut() -> Result<(), Fault>,
-) -> Result<(Kernel, IdVec<PointId, VertexId>), Fault> {
+    ask: &mut dyn FnMut(usize) -> Result<(), Fault>,
+) -> Result<(Kernel, Segments<'a>), Fault> {
     let points: Vec<[f64; 3]> = solid.points().iter().map(|p| p.map(|x| x * factor)).collect();
-    let along = order_space::hilbert(&points);
-    let order: Vec<u32> = order::rounds(points.len()).into_iter().map(|i| along[i as usize]).collect();
-    let mut weights = vec![0.0; points.len()];
-    // First without weights, for the distances to the nearest vertices.
-    let plain = insert_all(&points, &order, &weights, ask)?;
-    for (v, d2) in nearest_squared(&plain).into_iter().enumerate().skip(FAR) {
-        weights[order[v - FAR] as usize] = WEIGHT * d2 * share(v);
+    let (mut kernel, vertex_of) = insert_all(&points, &vec![0.0; points.len()], ask)?;
+    let mut segments = Segments::new(solid, vertex_of);
+    segments.recover(&mut kernel, 0.0, ask)?;
+    for round in 0..ROUNDS {
+        let nearest = nearest_squared(&kernel.net);
+        let is_small = |v: VertexId| kernel.net.weights[v] <= WEIGHT_BOUND * nearest[v.index()];
+        if round > 0 && kernel.net.points.ids().skip(FAR).all(is_small) {
+            break;
+        }
+        let scale = WEIGHT * libm::ldexp(1.0, -2 * round);
+        let weights: Vec<f64> = nearest.iter().enumerate().skip(FAR).map(|(v, d2)| scale * d2 * share(v)).collect();
+        let (again, vertex_of) = insert_all(&kernel.net.points.as_slice()[FAR..], &weights, ask)?;
+        segments.renumber(|v| vertex_of[PointId::from_index(v.index() - FAR)]);
+        kernel = again;
+        segments.recover(&mut kernel, scale, ask)?;
     }
-    let kernel = if solid.facets().is_empty() { plain } else { insert_all(&points, &order, &weights, ask)? };
-    let mut vertex_of: IdVec<PointId, VertexId> = vec![VertexId(0); points.len()].into();
-    order.iter().enumerate().for_each(|(i, &p)| vertex_of[PointId(p)] = VertexId::from_index(i + FAR));
-    Ok((kernel, vertex_of))
+    Ok((kernel, segments))
 }
 
+/// The regular tetrahedralization of points within a far tetrahedron, and the vertex of each point.
 fn insert_all(
     points: &[[f64; 3]],
-    order: &[u32],
     weights: &[f64],
-    ask: &mut dyn FnMut() -> Result<(), Fault>,
-) -> Result<Kernel, Fault> {
+    ask: &mut dyn FnMut(usize) -> Result<(), Fault>,
+) -> Result<(Kernel, IdVec<PointId, VertexId>), Fault> {
+    let along = order_space::hilbert(points);
+    let order: Vec<u32> = order::rounds(points.len()).into_iter().map(|i| along[i as usize]).collect();
     let mut kernel = Kernel::new(far_tetrahedron(points));
+    let mut vertex_of: IdVec<PointId, VertexId> = vec![VertexId(0); points.len()].into();
     for (k, &i) in order.iter().enumerate() {
         if k % 1024 == 0 {
-            ask()?;
+            ask(k)?;
         }
         match kernel.insert(points[i as usize], weights[i as usize]) {
-            Ok(_) => (),
+            Ok(v) => vertex_of[PointId(i)] = v,
             Err(Refusal::Taken(_) | Refusal::Hidden | Refusal::Outside) => {
                 return Err(Fault::Twice { point: PointId(i) });
             }
         }
     }
-    Ok(kernel)
+    Ok((kernel, vertex_of))
 }
 
 /// A positive tetrahedron around all points, its sphere of contact ten times as wide as theirs.
@@ -185,13 +206,13 @@ fn far_tetrahedron(points: &[[f64; 3]]) -> [[f64; 3]; 4] {
 }
 
 /// By vertex: the squared distance to the nearest other. In a Delaunay tetrahedralization they share an edge.
-fn nearest_squared(kernel: &Kernel) -> Vec<f64> {
-    let mut nearest = vec![f64::INFINITY; kernel.net.points.len()];
-    for t in kernel.net.tets() {
-        let corners = kernel.net.corners(t);
+fn nearest_squared(net: &Tetrahedra) -> Vec<f64> {
+    let mut nearest = vec![f64::INFINITY; net.points.len()];
+    for t in net.tets() {
+        let corners = net.corners(t);
         for [i, j] in [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]] {
             let (u, v) = (corners[i], corners[j]);
-            let between = minus(kernel.net.points[u], kernel.net.points[v]);
+            let between = minus(net.points[u], net.points[v]);
             let d2 = dot(between, between);
             nearest[u.index()] = nearest[u.index()].min(d2);
             nearest[v.index()] = nearest[v.index()].min(d2);
@@ -203,4 +224,41 @@ fn nearest_squared(kernel: &Kernel) -> Vec<f64> {
 /// A number in 0..1 that depends on a vertex' id alone.
 fn share(vertex: usize) -> f64 {
     Rng::new(vertex as u64).between(0.0, 1.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::solid::{Assembly, FoundFacet, Surfaces};
+
+    /// Schönhardt's polyhedron: a prism over a triangle, its top turned so far that the sides' inner diagonals nearly meet.
+    fn schoenhardt(turn_deg: f64) -> Solid {
+        let corner = |i: u32, turn: f64, z: f64| {
+            let angle = (120.0 * f64::from(i) + turn).to_radians();
+            [libm::cos(angle), libm::sin(angle), z]
+        };
+        let bottom = (0..3).map(|i| corner(i, 0.0, 0.0));
+        let points = bottom.chain((0..3).map(|i| corner(i, turn_deg, 1.0))).collect();
+        let sides = (0..3).flat_map(|i| {
+            let j = (i + 1) % 3;
+            [vec![i, j, 3 + i], vec![j, 3 + j, 3 + i]]
+        });
+        let facets = sides.chain([vec![0, 2, 1], vec![3, 4, 5]]);
+        let facets = facets.map(|polygon| FoundFacet { polygons: vec![polygon], ..FoundFacet::default() }).collect();
+        Surfaces { points, facets, ..Surfaces::default() }.assemble(&Assembly::default()).expect("a valid solid")
+    }
+
+    #[test]
+    fn weights_are_small_beside_the_distances_in_the_finished_mesh() {
+        for turn_deg in [10.0, 30.0, -30.0, -50.0, -59.0, -59.9] {
+            let mesh = constrained(&schoenhardt(turn_deg), 1000, &mut || true).expect("a mesh");
+            assert_eq!(mesh.nodes.len() > 6, turn_deg < 0.0, "{turn_deg}: {} nodes", mesh.nodes.len());
+            for (v, &weight) in mesh.weights.enumerate() {
+                let to_v = |u: VertexId| minus(mesh.nodes[u], mesh.nodes[v]);
+                let distances = mesh.nodes.ids().filter(|&u| u != v).map(|u| dot(to_v(u), to_v(u)));
+                let nearest = distances.fold(f64::INFINITY, f64::min);
+                assert!((0.0..=WEIGHT_BOUND * nearest).contains(&weight), "{turn_deg}: {weight} of {nearest}");
+            }
+        }
+    }
 }

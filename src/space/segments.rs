@@ -12,11 +12,12 @@
 //! An edge of the tetrahedralization has an orthogonal sphere that no other vertex reaches: all signs are strict. That is
 //! what the CDT theorem asks of a segment, and less than an empty diametral ball.
 
+use super::Fault;
 use super::insert::{Kernel, Refusal};
-use super::{Fault, WEIGHT};
 use crate::geometry::space::{dot, length, minus, plus, times};
 use crate::ids::{IdVec, PointId, SegmentId, TetId, VertexId};
 use crate::solid::Solid;
+use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
 /// A part of a segment between two vertices next to each other on it.
@@ -28,10 +29,18 @@ struct Subsegment {
     t: [f64; 2],
 }
 
+impl Subsegment {
+    /// By segment, and along it.
+    fn along(&self, other: &Self) -> Ordering {
+        self.segment.cmp(&other.segment).then(self.t[0].total_cmp(&other.t[0]))
+    }
+}
+
 /// The segments of a solid on their way into a tetrahedralization.
 pub(super) struct Segments<'a> {
     solid: &'a Solid,
-    vertex_of: &'a IdVec<PointId, VertexId>,
+    /// The vertex of each point.
+    vertex_of: IdVec<PointId, VertexId>,
     /// Points at which two segments meet at an acute angle.
     is_apex: IdVec<PointId, bool>,
     /// Subsegments that are edges, by their ends, the smaller id first.
@@ -41,7 +50,7 @@ pub(super) struct Segments<'a> {
 
 impl<'a> Segments<'a> {
     /// All segments, none of them looked for yet.
-    pub fn new(solid: &'a Solid, vertex_of: &'a IdVec<PointId, VertexId>) -> Self {
+    pub fn new(solid: &'a Solid, vertex_of: IdVec<PointId, VertexId>) -> Self {
         let missing = solid.segments().enumerate().map(|(segment, s)| {
             let ends = s.ends.map(|p| vertex_of[p]);
             Subsegment { segment, ends, t: [0.0, 1.0] }
@@ -50,32 +59,42 @@ impl<'a> Segments<'a> {
         Self { solid, vertex_of, is_apex: apexes(solid), edges: BTreeMap::new(), missing }
     }
 
-    /// Splits segments until each is a chain of edges; the chains, from end to end. `go_on` is asked before each split.
+    /// Splits segments until each is a chain of edges. New vertices get at most this part of the squared distance to the
+    /// nearest as their weights. `ask` is told the number of vertices before each split.
     pub fn recover(
-        mut self,
+        &mut self,
         kernel: &mut Kernel,
-        mut go_on: impl FnMut(usize) -> Result<(), Fault>,
-    ) -> Result<IdVec<SegmentId, Vec<VertexId>>, Fault> {
+        scale: f64,
+        ask: &mut dyn FnMut(usize) -> Result<(), Fault>,
+    ) -> Result<(), Fault> {
         while let Some(sub) = self.missing.pop() {
             let [u, v] = sub.ends;
             if kernel.net.tet_at_edge(u, v).is_some() {
                 self.edges.insert(sorted(sub.ends), sub);
             } else {
-                go_on(kernel.net.points.len())?;
-                self.split(kernel, sub)?;
+                ask(kernel.net.points.len() + 1)?;
+                self.split(kernel, sub, scale)?;
             }
         }
-        Ok(self.chains())
+        Ok(())
     }
 
-    fn split(&mut self, kernel: &mut Kernel, sub: Subsegment) -> Result<(), Fault> {
+    /// Lets all vertices have other ids, of a tetrahedralization in which no subsegment was looked for yet.
+    pub fn renumber(&mut self, new_of: impl Fn(VertexId) -> VertexId) {
+        self.vertex_of.iter_mut().for_each(|v| *v = new_of(*v));
+        let parts = std::mem::take(&mut self.edges).into_values();
+        self.missing.extend(parts.map(|sub| Subsegment { ends: sub.ends.map(&new_of), ..sub }));
+        self.missing.sort_unstable_by(|a, b| b.along(a));
+    }
+
+    fn split(&mut self, kernel: &mut Kernel, sub: Subsegment, scale: f64) -> Result<(), Fault> {
         let t = self.split_parameter(kernel, &sub);
         let [from, to] = self.solid.segments()[sub.segment].ends.map(|p| kernel.net.points[self.vertex_of[p]]);
         let p = plus(from, times(minus(to, from), t));
         let too_near = |_: Refusal| Fault::TooNear { segment: sub.segment, at: p };
         kernel.start_at(sub.ends[0]);
         let d2 = nearest(kernel, p).map_err(too_near)?;
-        let weight = WEIGHT * d2 * super::share(kernel.net.points.len());
+        let weight = scale * d2 * super::share(kernel.net.points.len());
         let cavity = kernel.cavity(p, weight).map_err(too_near)?.to_vec();
         let touched = self.edges_of(kernel, &cavity);
         let v = kernel.fill(p, weight);
@@ -120,9 +139,10 @@ impl<'a> Segments<'a> {
         }
     }
 
-    fn chains(self) -> IdVec<SegmentId, Vec<VertexId>> {
+    /// The vertex of each point, and the chain of each segment from end to end.
+    pub fn chains(self) -> (IdVec<PointId, VertexId>, IdVec<SegmentId, Vec<VertexId>>) {
         let mut parts: Vec<Subsegment> = self.edges.into_values().collect();
-        parts.sort_unstable_by(|a, b| a.segment.cmp(&b.segment).then(a.t[0].total_cmp(&b.t[0])));
+        parts.sort_unstable_by(Subsegment::along);
         let mut chains: IdVec<SegmentId, Vec<VertexId>> = vec![Vec::new(); self.solid.segments().len()].into();
         for part in parts {
             let chain = &mut chains[part.segment];
@@ -131,7 +151,7 @@ impl<'a> Segments<'a> {
             }
             chain.push(part.ends[1]);
         }
-        chains
+        (self.vertex_of, chains)
     }
 }
 

@@ -322,7 +322,10 @@ impl Tetrahedra {
 }
 
 /// Tetrahedra as they were: what flips among them can be taken back to.
-pub(super) struct Snapshot(Vec<(TetId, [VertexId; 4], [u32; 4], [u32; 4])>);
+pub(super) struct Snapshot(Vec<Kept>);
+
+/// A tetrahedron: its id, corners, twins and facets.
+type Kept = (TetId, [VertexId; 4], [u32; 4], [u32; 4]);
 
 impl Tetrahedra {
     /// Keeps some tetrahedra as they are now.

@@ -97,7 +97,7 @@ fn read_text(bytes: &[u8]) -> Result<Surfaces, ImportError> {
     let mut corners: Vec<[f64; 3]> = Vec::new();
     let mut solid: Option<(Option<NameId>, String, usize)> = None;
     let mut rows = Rows::new(bytes, HELP);
-    while let Some(row) = rows.next() {
+    for row in rows.by_ref() {
         let word = tokens(row.text).next().unwrap_or_default().to_ascii_lowercase();
         match word.as_slice() {
             b"solid" => {

@@ -145,7 +145,7 @@ impl Written {
         let exponent = parts.next().and_then(number).and_then(whole).unwrap_or(0).clamp(-400, 400) as i32;
         self.digits = self.digits.max(digits.saturating_sub(trailing));
         // A number written whole, or as a zero, says nothing of decimals.
-        if digits > 0 && value != value.trunc() || decimals > exponent && digits > 0 {
+        if digits > 0 && (value != value.trunc() || decimals > exponent) {
             self.finest = self.finest.min(exponent - decimals);
         }
     }

@@ -300,7 +300,8 @@ fn names_are_kept() {
 #[test]
 fn garbage_is_told_first() {
     let far = VertexId(99);
-    let garbage: [Box<dyn Fn(&mut SolidMesh)>; 12] = [
+    type Spoil = Box<dyn Fn(&mut SolidMesh)>;
+    let garbage: [Spoil; 12] = [
         Box::new(move |mesh| mesh.tetrahedra[TetId(0)][2] = far),
         Box::new(|mesh| mesh.tetrahedron_regions[TetId(0)] = RegionId(5)),
         Box::new(|mesh| mesh.tetrahedron_regions = IdVec::new()),
