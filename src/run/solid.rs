@@ -82,7 +82,8 @@ fn failure_of(fault: Fault, solid: &Solid) -> FailureReport {
         }
         Fault::Stuck { facet, at } => {
             let entity = &solid.facets()[facet].entity;
-            geometry(format!("{NEARER}: {entity} does not become a union of triangles"), closer).at(at)
+            let what = format!("{entity} does not become a union of triangles: a limit of this version, or {NEARER}");
+            geometry(what, closer).at(at)
         }
         Fault::Outside { at } => {
             let what = "a hole point or region point lies in no bounded cell".to_owned();
